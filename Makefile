@@ -1,0 +1,43 @@
+# The front door: what a fresh Debian 12 machine needs is installed on the way.
+.DEFAULT_GOAL := help
+.PHONY: help install build run test test-slow check-style docs bench clean
+
+SCENE ?= configs/mandel.yaml
+BUILD := build/release
+PERIFRAC := $(BUILD)/bin/perifrac
+
+help:
+	@echo 'make run        install, build, run $(SCENE), say where the picture is'
+	@echo 'make test       install, build, run all tests but the slow ones'
+	@echo 'make test-slow  the slow verification runs'
+	@echo 'make bench      kernels, timed'
+	@echo 'make docs       write docs/configuration.md anew'
+
+install:
+	@tools/install
+
+build: install
+	@cmake --preset release > build.log 2>&1 || { cat build.log; exit 1; }
+	@cmake --build --preset release
+	@mv build.log $(BUILD)/configure.log
+
+run: build
+	@$(PERIFRAC) run $(SCENE)
+
+test: build check-style
+	ctest --preset release --label-exclude slow
+
+test-slow: build
+	ctest --preset release --label-regex slow
+
+check-style:
+	@tools/check_style
+
+bench: build
+	$(BUILD)/bin/perifrac_bench
+
+docs: build
+	$(PERIFRAC) list --page > docs/configuration.md
+
+clean:
+	rm -rf build
