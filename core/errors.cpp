@@ -1,0 +1,17 @@
+#include "core/errors.hpp"
+
+#include <fmt/format.h>
+
+namespace perifrac {
+
+NumericalError::NumericalError(std::string field, std::string place, double time,
+                               std::string problem)
+    : std::runtime_error(fmt::format("{} in {} at {}, t = {:.6g} s", problem, field, place, time)),
+      field_(std::move(field)),
+      place_(std::move(place)),
+      time_(time) {}
+
+OutputError::OutputError(const std::string& file, const std::string& reason)
+    : std::runtime_error(fmt::format("{}: cannot be written: {}", file, reason)) {}
+
+}  // namespace perifrac

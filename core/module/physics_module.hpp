@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+
+#include "core/module/port.hpp"
+#include "core/module/time_window.hpp"
+#include "core/state/state_visitor.hpp"
+
+namespace perifrac {
+
+/// One physics. It knows no other physics: it meets the rest of the world only at its ports.
+/// Use: initialize once; then per window write inputs, advance, read outputs. To repeat a window,
+/// visit_state with what was saved before it, and on_restored.
+class PhysicsModule {
+ public:
+  virtual ~PhysicsModule() = default;
+
+  /// The ports, in an order that never changes.
+  virtual std::span<const Port> ports() const = 0;
+
+  /// Values of one port as they stand now. Only the coupling manager writes inputs. Spans stay
+  /// valid until the next advance, visit_state or on_restored.
+  virtual PortView port(PortId id) = 0;
+
+  /// Makes the state ready at time t [s], before anything is exchanged.
+  virtual void initialize(double t) = 0;
+
+  /// The longest stable window [s]; infinity where sub-cycling or implicitness leaves no limit.
+  virtual double stable_time_step() const = 0;
+
+  /// Advances over the window with steps of its own; returns the time reached [s]. Less than
+  /// window.end means an event: the manager takes every module back and ends the window there.
+  /// Throws NumericalError.
+  virtual double advance(const TimeWindow& window) = 0;
+
+  /// Shows every evolving field once; a visitor that restores may resize.
+  virtual void visit_state(StateVisitor& visitor) = 0;
+
+  /// The state was replaced: drop what was derived from the old one (integrator history, caches).
+  /// Restoring the state it already has and calling this must not depend on what came before.
+  virtual void on_restored(double t) = 0;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/module/point_set.hpp"
+
+namespace perifrac {
+
+enum class PortDirection { in, out };
+
+/// An intensive quantity is a value at a point (pressure); an extensive one a total over the window
+/// (impulse, mass), so that sub-cycling loses nothing. It decides how a link maps between points.
+enum class PortKind { intensive, extensive };
+
+/// What a port is for, beyond being linked to a port of the same name: frames and history write
+/// fields, the ledger adds up masses and energies, the summary lists work.
+enum class PortRole {
+  field,              ///< a quantity on points
+  mass_stored,        ///< fluid mass held now [kg], one value
+  mass_gained,        ///< fluid mass taken in through boundaries and sources since the start [kg]
+  energy_stored,      ///< [J]
+  energy_gained,      ///< work done on the system from outside since the start [J]
+  energy_dissipated,  ///< turned into heat since the start [J]
+  work,               ///< how often a solver did something in this process, for the summary
+};
+
+/// A module's ports are numbered by their place in `PhysicsModule::ports()`.
+using PortId = int;
+
+/// The fixed part of a port. In 2D, totals are per metre of thickness.
+struct Port {
+  std::string name;
+  std::string unit;
+  PortDirection direction;
+  PortKind kind = PortKind::intensive;
+  PortRole role = PortRole::field;
+  int components = 1;
+};
+
+/// The changing part of a port, refetched at every exchange. Arrays hold components * count values,
+/// component by component (all x, then all y).
+///
+/// An input is, within the window, value + rate (t - window end) + slope x, with x the quantity
+/// that the module itself sends back over the coupled port. An output gives `value` at the time
+/// reached and, where a coupling scheme needs it, `slope` = d(output)/d(its coupled input);
+/// `rate` is unused there. Spans that a port does not carry are empty.
+struct PortView {
+  const PointSet* points = nullptr;
+  std::span<double> value{};
+  std::span<double> rate{};
+  std::span<double> slope{};
+};
+
+}  // namespace perifrac
