@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/geometry/faces.hpp"
+#include "core/geometry/points.hpp"
+#include "core/operators/influence_function.hpp"
+
+namespace perifrac {
+
+/// The family of every point of a body: its bonds to the points within the horizon.
+///
+/// A mirrored face adds ghosts: images of the points near it. Ghosts are numbered after the real
+/// points; a ghost's value follows from its source and the face's condition (mirror_condition.hpp).
+/// Only real points have bonds; the image of a bond is not stored.
+template <int D>
+struct Family {
+  Index point_count = 0;                        ///< real points
+  std::array<std::vector<double>, D> position;  ///< [m], real points, then ghosts
+  std::vector<double> volume;                   ///< real points, then ghosts
+  std::vector<Index> ghost_source;              ///< real point that a ghost is the image of
+  std::vector<FaceSet> ghost_faces;             ///< the faces that it was mirrored at
+  std::vector<Index> offset;                    ///< bonds of i: offset[i] .. offset[i + 1]
+  std::vector<Index> other;                     ///< the bond's other end
+  std::vector<double> weight;                   ///< omega(|xi|) V_other
+  FaceSet mirrored = 0;
+
+  Index ghost_count() const { return static_cast<Index>(ghost_source.size()); }
+  Index node_count() const { return point_count + ghost_count(); }
+  Index bond_count(Index i) const { return offset[i + 1] - offset[i]; }
+  std::size_t bytes() const;
+};
+
+/// Finds all families. Bonds of a point are sorted by their other end, so that they depend on
+/// nothing but the points. Throws InputError where the body is thinner than the horizon between
+/// mirrored faces.
+template <int D>
+Family<D> build_family(const Points<D>& points, std::span<const Face> faces, FaceSet mirrored,
+                       double horizon, InfluenceFunction influence);
+
+}  // namespace perifrac

@@ -1,0 +1,31 @@
+#include "core/geometry/read_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace perifrac {
+
+template <int D>
+Index read_point(const Section& section, const std::string& path, const Body<D>& body) {
+  Vector<D> x;
+  std::ranges::copy(section.numbers(path), x.begin());
+  const Index point = body.nearest_point(x);
+  const Vector<D> nearest = body.points().at(point);
+  double r2 = 0.0;
+  for (int a = 0; a < D; ++a) r2 += std::pow(nearest[a] - x[a], 2);
+  // A corner of the body is half a spacing along every axis from its point.
+  const double half_cell = 0.5 * std::sqrt(double{D}) * body.spacing();
+  if (std::sqrt(r2) > half_cell * (1.0 + 1e-9)) {
+    section.fail(path,
+                 fmt::format("lies {:.3g} m from the nearest point of the body", std::sqrt(r2)),
+                 "a place inside the body");
+  }
+  return point;
+}
+
+template Index read_point<2>(const Section&, const std::string&, const Body<2>&);
+template Index read_point<3>(const Section&, const std::string&, const Body<3>&);
+
+}  // namespace perifrac

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "core/config/section.hpp"
+#include "core/geometry/body.hpp"
+
+namespace perifrac {
+
+/// The point of the body nearest to the place that a scene gives at `path` [m]. Throws InputError
+/// where that place lies outside the body.
+template <int D>
+Index read_point(const Section& section, const std::string& path, const Body<D>& body);
+
+}  // namespace perifrac

@@ -1,0 +1,46 @@
+#include "core/operators/face_load.hpp"
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+
+namespace perifrac {
+
+template <int D, int R>
+Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
+                          FaceSet mirrored, int face, int component) {
+  const Face& loaded = body.faces()[face];
+  const Face& opposite = body.faces()[face ^ 1];
+  const Index points = body.points().size();
+  // Families within a horizon of the face are cut; their members lie within two.
+  const double reach = 2.0 * body.horizon();
+  const double thickness = std::abs(loaded.coordinate - opposite.coordinate);
+  if (!contains(mirrored, face ^ 1) && thickness < 2.0 * reach) {
+    throw InputError(fmt::format(
+        "body.size: {:g} m between faces '{}' and '{}' is too thin for a load on one of them; "
+        "expected at least 4 horizons, {:g} m, or a mirrored opposite face",
+        thickness, loaded.name, opposite.name, 2.0 * reach));
+  }
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
+  for (Index i = 0; i < points; ++i) {
+    stress[(component * D + loaded.axis) * points + i] = loaded.direction * body.points().volume[i];
+  }
+  const Eigen::VectorXd forces = gradient.transpose() * stress;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(points);
+  for (Index i = 0; i < points; ++i) {
+    const double depth = std::abs(loaded.coordinate - body.points().position[loaded.axis][i]);
+    if (depth <= reach) load[i] = forces[component * points + i];
+  }
+  return load;
+}
+
+template Eigen::VectorXd face_load<2, 1>(const Body<2>&, const Eigen::SparseMatrix<double>&,
+                                         FaceSet, int, int);
+template Eigen::VectorXd face_load<2, 2>(const Body<2>&, const Eigen::SparseMatrix<double>&,
+                                         FaceSet, int, int);
+template Eigen::VectorXd face_load<3, 1>(const Body<3>&, const Eigen::SparseMatrix<double>&,
+                                         FaceSet, int, int);
+template Eigen::VectorXd face_load<3, 3>(const Body<3>&, const Eigen::SparseMatrix<double>&,
+                                         FaceSet, int, int);
+
+}  // namespace perifrac

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include "core/geometry/body.hpp"
+#include "core/operators/mirror_condition.hpp"
+
+namespace perifrac {
+
+/// The point load that a uniform unit traction in direction `component` (or a unit inflow, for a
+/// scalar field) on a face does: the transpose of the nonlocal normal gradient, restricted to the
+/// points near the face. In a body with that stress it balances the inner forces exactly, surfaces
+/// and corners included, and its sum is the face's area.
+///
+/// `gradient` is the operator's gradient_matrix(); the result has one value a point [m^(D-1)].
+/// Throws InputError where the body is too thin to tell the face from the opposite one.
+template <int D, int R>
+Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
+                          FaceSet mirrored, int face, int component);
+
+}  // namespace perifrac

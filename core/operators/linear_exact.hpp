@@ -1,0 +1,259 @@
+#pragma once
+
+#include <cassert>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "core/operators/bond_traversal.hpp"
+#include "core/operators/mirror_condition.hpp"
+#include "core/operators/nonlocal_gradient.hpp"
+#include "core/operators/shape_tensor.hpp"
+#include "core/operators/small_tensor.hpp"
+
+namespace perifrac {
+
+/// The operator of the energy (or half the dissipation)
+///   E(u) = sum_i V_i [ 1/2 F_i : C : F_i + 1/2 s_i sum_j w_ij |u_j - u_i - F_i xi|^2 ],
+///   F_i = sum_j w_ij (u_j - u_i) (x) K_i^-1 xi,   s_i = stabilisation / m_i,
+/// which is exact for linear fields on any cloud, surfaces included, and whose second term leaves
+/// no mode but the rigid ones without energy. Its derivative A u = dE/du is a sum of bond forces
+/// that are equal and opposite, so that momentum or mass is kept to rounding. Elasticity (R = D)
+/// and Darcy flow (R = 1) are two laws of it.
+///
+/// Law: `static constexpr int components` (R), `Tensor<R, D> stress(const Tensor<R, D>& gradient)`
+/// (linear, symmetric), `double stabilisation()`.
+///
+/// An unknown vector holds R blocks of point values and then the face values of the
+/// MirrorCondition; rows of face values are the reactions of the faces.
+template <int D, class Law>
+class LinearExactOperator {
+ public:
+  static constexpr int R = Law::components;
+
+  LinearExactOperator(std::shared_ptr<const Family<D>> family, MirrorCondition<D, R> mirror,
+                      Law law)
+      : family_(std::move(family)),
+        moments_(family_moments(*family_)),
+        mirror_(std::move(mirror)),
+        law_(std::move(law)),
+        field_(static_cast<std::size_t>(R) * family_->node_count()),
+        state_(static_cast<std::size_t>(R) * D * family_->node_count()),
+        bond_stiffness_(family_->node_count()) {
+    const Index points = family_->point_count;
+    for (Index i = 0; i < points; ++i) {
+      bond_stiffness_[i] = law_.stabilisation() / moments_.weighted_volume[i];
+    }
+    for (Index g = 0; g < family_->ghost_count(); ++g) {
+      bond_stiffness_[points + g] = bond_stiffness_[family_->ghost_source[g]];
+    }
+    for (Index i = 0; i < points; ++i) {
+      if (touches_odd_face(i)) face_points_.push_back(i);
+    }
+  }
+
+  const Family<D>& family() const { return *family_; }
+  const MirrorCondition<D, R>& mirror() const { return mirror_; }
+  double weighted_volume(Index i) const { return moments_.weighted_volume[i]; }
+  Index point_unknowns() const { return R * family_->point_count; }
+  Index size() const { return point_unknowns() + mirror_.face_value_count(); }
+
+  /// result = A u = dE/du without forming A; both of size().
+  void apply(std::span<const double> u, std::span<double> result) {
+    assert(static_cast<Index>(u.size()) == size() && u.size() == result.size());
+    fill_field(u);
+    for_each_point(family_->point_count, [&](Index i) { store_state(i); });
+    mirror_.fill_conjugate(state_);
+    const Index points = family_->point_count;
+    for_each_point(points, [&](Index i) {
+      const std::array<double, R> force = bond_forces(i);
+      for (int r = 0; r < R; ++r) result[static_cast<std::size_t>(r) * points + i] = -force[r];
+    });
+    add_face_reactions(result.subspan(point_unknowns()));
+  }
+
+  /// Gradient of the field at every point: R * D blocks of point_count, block r * D + b.
+  void gradient(std::span<const double> u, std::span<double> result) {
+    fill_field(u);
+    const Index points = family_->point_count;
+    for_each_point(points, [&](Index i) {
+      const Tensor<R, D> f = gradient_at(i);
+      for (int k = 0; k < R * D; ++k) result[static_cast<std::size_t>(k) * points + i] = f[k];
+    });
+  }
+
+  /// A as a sparse matrix, both halves: G^T V (C - s K) G plus the bonds' own stiffness.
+  Eigen::SparseMatrix<double> assemble() const {
+    const Eigen::SparseMatrix<double> g = gradient_matrix();
+    Eigen::SparseMatrix<double> a = g.transpose() * (constitutive_matrix() * g);
+    a += bond_matrix(*family_, mirror_, std::span<const double>(bond_stiffness_));
+    return a;
+  }
+
+  /// The matrix that takes an unknown vector to its gradient, rows as in gradient().
+  Eigen::SparseMatrix<double> gradient_matrix() const {
+    return perifrac::gradient_matrix(*family_, moments_, mirror_);
+  }
+
+  std::size_t bytes() const {
+    return sizeof(double) * (field_.size() + state_.size() + bond_stiffness_.size() +
+                             (D * D + 1) * static_cast<std::size_t>(family_->point_count));
+  }
+
+ private:
+  void fill_field(std::span<const double> u) {
+    const Index points = family_->point_count;
+    const Index nodes = family_->node_count();
+    for (int r = 0; r < R; ++r) {
+      const double* const from = u.data() + static_cast<std::size_t>(r) * points;
+      std::copy(from, from + points, field_.data() + static_cast<std::size_t>(r) * nodes);
+    }
+    mirror_.fill(field_, u.data() + point_unknowns());
+  }
+
+  const double* field(int r) const {
+    return field_.data() + static_cast<std::size_t>(r) * family_->node_count();
+  }
+  double* state(int k) {
+    return state_.data() + static_cast<std::size_t>(k) * family_->node_count();
+  }
+
+  Tensor<R, D> gradient_at(Index i) const {
+    std::array<const double*, R> u;
+    std::array<double, R> own;
+    for (int r = 0; r < R; ++r) {
+      u[r] = field(r);
+      own[r] = u[r][i];
+    }
+    const Tensor<R, D> moment =
+        sum_over_bonds<R * D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+          Tensor<R, D> t;
+          for (int r = 0; r < R; ++r) {
+            const double difference = w * (u[r][j] - own[r]);
+            for (int b = 0; b < D; ++b) t[r * D + b] = difference * xi[b];
+          }
+          return t;
+        });
+    return times_inverse_shape(moment, i);
+  }
+
+  Tensor<R, D> times_inverse_shape(const Tensor<R, D>& t, Index i) const {
+    Tensor<R, D> result{};
+    for (int r = 0; r < R; ++r) {
+      for (int b = 0; b < D; ++b) {
+        for (int c = 0; c < D; ++c) {
+          result[r * D + b] += t[r * D + c] * moments_.inverse_shape[c * D + b][i];
+        }
+      }
+    }
+    return result;
+  }
+
+  /// What a point contributes to the force of its bonds: (C : F K^-1 - s F) xi + s (u_j - u_i).
+  void store_state(Index i) {
+    const Tensor<R, D> f = gradient_at(i);
+    const Tensor<R, D> stress = times_inverse_shape(law_.stress(f), i);
+    for (int k = 0; k < R * D; ++k) state(k)[i] = stress[k] - bond_stiffness_[i] * f[k];
+  }
+
+  std::array<double, R> bond_forces(Index i) const {
+    const Index nodes = family_->node_count();
+    const double* const a = state_.data();
+    const double* const u = field_.data();
+    const double* const s = bond_stiffness_.data();
+    const double own_stiffness = s[i];
+    Tensor<R, D> own_state;
+    std::array<double, R> own;
+    for (int k = 0; k < R * D; ++k) own_state[k] = a[static_cast<std::size_t>(k) * nodes + i];
+    for (int r = 0; r < R; ++r) own[r] = u[static_cast<std::size_t>(r) * nodes + i];
+    std::array<double, R> force =
+        sum_over_bonds<R>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+          std::array<double, R> t;
+          const double stiffness = own_stiffness + s[j];
+          for (int r = 0; r < R; ++r) {
+            t[r] = stiffness * (u[static_cast<std::size_t>(r) * nodes + j] - own[r]);
+            for (int b = 0; b < D; ++b) {
+              const std::size_t k = r * D + b;
+              t[r] += (own_state[k] + a[k * nodes + j]) * xi[b];
+            }
+            t[r] *= w;
+          }
+          return t;
+        });
+    for (double& component : force) component *= family_->volume[i];
+    return force;
+  }
+
+  bool touches_odd_face(Index i) const {
+    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+      const Index ghost = family_->other[bond] - family_->point_count;
+      for (int r = 0; ghost >= 0 && r < R; ++r) {
+        if (mirror_.image(family_->ghost_faces[ghost], r).term_count > 0) return true;
+      }
+    }
+    return false;
+  }
+
+  /// dE/dU of the face values: their part in the ghosts at the end of real points' bonds. Serial,
+  /// so that the order of the sum is fixed; few points touch a face.
+  void add_face_reactions(std::span<double> reaction) {
+    std::ranges::fill(reaction, 0.0);
+    const Index points = family_->point_count;
+    for (const Index i : face_points_) {
+      for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+        const Index j = family_->other[bond];
+        if (j < points) continue;
+        for (int r = 0; r < R; ++r) {
+          const auto image = mirror_.image(family_->ghost_faces[j - points], r);
+          if (image.term_count == 0) continue;
+          double force = bond_stiffness_[i] * (field(r)[j] - field(r)[i]);
+          for (int b = 0; b < D; ++b) {
+            force += state(r * D + b)[i] * (family_->position[b][j] - family_->position[b][i]);
+          }
+          force *= family_->volume[i] * family_->weight[bond];
+          for (int k = 0; k < image.term_count; ++k) {
+            reaction[image.terms[k].face_value] += image.terms[k].coefficient * force;
+          }
+        }
+      }
+    }
+  }
+
+  /// Block-diagonal V (C - s K) on gradients; K_i enters because the second term of the energy is
+  /// s (sum_j w |u_j - u_i|^2 - F : F K).
+  Eigen::SparseMatrix<double> constitutive_matrix() const {
+    const Index points = family_->point_count;
+    Eigen::SparseMatrix<double> matrix(R * D * points, R * D * points);
+    matrix.reserve(Eigen::VectorXi::Constant(R * D * points, R * D));
+    for (Index i = 0; i < points; ++i) {
+      const auto shape = shape_tensor_at(*family_, i);
+      for (int column = 0; column < R * D; ++column) {
+        Tensor<R, D> unit{};
+        unit[column] = 1.0;
+        Tensor<R, D> stress = law_.stress(unit);
+        const int r = column / D;
+        for (int b = 0; b < D; ++b) {
+          stress[r * D + b] -= bond_stiffness_[i] * shape[(column % D) * D + b];
+        }
+        for (int row = 0; row < R * D; ++row) {
+          matrix.insert(row * points + i, column * points + i) = family_->volume[i] * stress[row];
+        }
+      }
+    }
+    matrix.makeCompressed();
+    return matrix;
+  }
+
+  std::shared_ptr<const Family<D>> family_;
+  FamilyMoments<D> moments_;
+  MirrorCondition<D, R> mirror_;
+  Law law_;
+  std::vector<double> field_;           ///< u on real points and ghosts
+  std::vector<double> state_;           ///< store_state() on real points and ghosts
+  std::vector<double> bond_stiffness_;  ///< s_i on real points and ghosts
+  std::vector<Index> face_points_;      ///< points with a bond to an odd ghost
+};
+
+}  // namespace perifrac

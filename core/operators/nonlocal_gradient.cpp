@@ -1,0 +1,120 @@
+#include "core/operators/nonlocal_gradient.hpp"
+
+#include "core/operators/bond_traversal.hpp"
+
+namespace perifrac {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// One component of a node as a combination of unknowns.
+struct Combination {
+  struct Term {
+    Index unknown;
+    double coefficient;
+  };
+  std::array<Term, 5> terms;  // source, a face an axis, and the own value
+  int count = 0;
+  void add(Index unknown, double coefficient) { terms[count++] = {unknown, coefficient}; }
+};
+
+template <int D, int R>
+Combination unknowns_of(const Family<D>& family, const MirrorCondition<D, R>& mirror, Index node,
+                        int component) {
+  const Index points = family.point_count;
+  Combination result;
+  if (node < points) {
+    result.add(component * points + node, 1.0);
+    return result;
+  }
+  const auto image = mirror.image(family.ghost_faces[node - points], component);
+  result.add(component * points + family.ghost_source[node - points], image.sign);
+  for (int k = 0; k < image.term_count; ++k) {
+    result.add(R * points + image.terms[k].face_value, image.terms[k].coefficient);
+  }
+  return result;
+}
+
+}  // namespace
+
+template <int D, int R>
+Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
+                                            const FamilyMoments<D>& moments,
+                                            const MirrorCondition<D, R>& mirror) {
+  const Index points = family.point_count;
+  Triplets triplets;
+  triplets.reserve(family.other.size() * R * D * 2);
+  for (Index i = 0; i < points; ++i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const Index j = family.other[bond];
+      for (int b = 0; b < D; ++b) {
+        double entry = 0.0;  // w (K^-1 xi)_b
+        for (int c = 0; c < D; ++c) {
+          entry +=
+              moments.inverse_shape[b * D + c][i] * (family.position[c][j] - family.position[c][i]);
+        }
+        entry *= family.weight[bond];
+        for (int r = 0; r < R; ++r) {
+          const Index row = (r * D + b) * points + i;
+          const Combination end = unknowns_of(family, mirror, j, r);
+          for (int k = 0; k < end.count; ++k) {
+            triplets.emplace_back(row, end.terms[k].unknown, entry * end.terms[k].coefficient);
+          }
+          triplets.emplace_back(row, r * points + i, -entry);
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(R * D * points, R * points + mirror.face_value_count());
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  return matrix;
+}
+
+template <int D, int R>
+Eigen::SparseMatrix<double> bond_matrix(const Family<D>& family,
+                                        const MirrorCondition<D, R>& mirror,
+                                        std::span<const double> bond_stiffness) {
+  const Index points = family.point_count;
+  Triplets triplets;
+  triplets.reserve(family.other.size() * R * 4);
+  for (Index i = 0; i < points; ++i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const double stiffness = family.volume[i] * bond_stiffness[i] * family.weight[bond];
+      for (int r = 0; r < R; ++r) {
+        Combination difference = unknowns_of(family, mirror, family.other[bond], r);
+        difference.add(r * points + i, -1.0);
+        for (int k = 0; k < difference.count; ++k) {
+          for (int l = 0; l < difference.count; ++l) {
+            triplets.emplace_back(
+                difference.terms[k].unknown, difference.terms[l].unknown,
+                stiffness * difference.terms[k].coefficient * difference.terms[l].coefficient);
+          }
+        }
+      }
+    }
+  }
+  const Index size = R * points + mirror.face_value_count();
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  return matrix;
+}
+
+template Eigen::SparseMatrix<double> gradient_matrix(const Family<2>&, const FamilyMoments<2>&,
+                                                     const MirrorCondition<2, 1>&);
+template Eigen::SparseMatrix<double> gradient_matrix(const Family<2>&, const FamilyMoments<2>&,
+                                                     const MirrorCondition<2, 2>&);
+template Eigen::SparseMatrix<double> gradient_matrix(const Family<3>&, const FamilyMoments<3>&,
+                                                     const MirrorCondition<3, 1>&);
+template Eigen::SparseMatrix<double> gradient_matrix(const Family<3>&, const FamilyMoments<3>&,
+                                                     const MirrorCondition<3, 3>&);
+template Eigen::SparseMatrix<double> bond_matrix(const Family<2>&, const MirrorCondition<2, 1>&,
+                                                 std::span<const double>);
+template Eigen::SparseMatrix<double> bond_matrix(const Family<2>&, const MirrorCondition<2, 2>&,
+                                                 std::span<const double>);
+template Eigen::SparseMatrix<double> bond_matrix(const Family<3>&, const MirrorCondition<3, 1>&,
+                                                 std::span<const double>);
+template Eigen::SparseMatrix<double> bond_matrix(const Family<3>&, const MirrorCondition<3, 3>&,
+                                                 std::span<const double>);
+
+}  // namespace perifrac

@@ -1,0 +1,68 @@
+#include "core/operators/shape_tensor.hpp"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/errors.hpp"
+#include "core/operators/bond_traversal.hpp"
+
+namespace perifrac {
+
+namespace {
+
+// Ratio of the smallest to the largest eigenvalue of a shape tensor below which its inverse
+// carries no accuracy: the bonds lie in a line or a plane.
+constexpr double flat_family = 1e-6;
+
+template <int D>
+[[noreturn]] void refuse_flat_family(const Family<D>& family, Index i) {
+  Vector<D> x;
+  for (int a = 0; a < D; ++a) x[a] = family.position[a][i];
+  throw InputError(
+      fmt::format("body: the {} bonds of the point at ({:.6g}) m do not span {}D space; expected a "
+                  "body at least two points thick and a horizon of about 2.5 spacings",
+                  family.bond_count(i), fmt::join(x, ", "), D));
+}
+
+}  // namespace
+
+template <int D>
+std::array<double, D * D> shape_tensor_at(const Family<D>& family, Index i) {
+  return sum_over_bonds<D * D>(family, i, [](Index, const Vector<D>& xi, double w) {
+    std::array<double, D * D> product;
+    for (int a = 0; a < D; ++a) {
+      for (int b = 0; b < D; ++b) product[a * D + b] = w * xi[a] * xi[b];
+    }
+    return product;
+  });
+}
+
+template <int D>
+FamilyMoments<D> family_moments(const Family<D>& family) {
+  using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
+  FamilyMoments<D> moments;
+  for (auto& entry : moments.inverse_shape) entry.resize(family.point_count);
+  moments.weighted_volume.resize(family.point_count);
+  for (Index i = 0; i < family.point_count; ++i) {
+    const auto sum = shape_tensor_at(family, i);
+    const Matrix shape = Eigen::Map<const Matrix>(sum.data());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spectrum(shape);
+    if (!(spectrum.eigenvalues()[0] > flat_family * spectrum.eigenvalues()[D - 1])) {
+      refuse_flat_family(family, i);
+    }
+    const Matrix inverse = shape.inverse();
+    for (int k = 0; k < D * D; ++k) moments.inverse_shape[k][i] = inverse(k / D, k % D);
+    moments.weighted_volume[i] = shape.trace();
+  }
+  return moments;
+}
+
+template struct FamilyMoments<2>;
+template struct FamilyMoments<3>;
+template std::array<double, 4> shape_tensor_at<2>(const Family<2>&, Index);
+template std::array<double, 9> shape_tensor_at<3>(const Family<3>&, Index);
+template FamilyMoments<2> family_moments<2>(const Family<2>&);
+template FamilyMoments<3> family_moments<3>(const Family<3>&);
+
+}  // namespace perifrac

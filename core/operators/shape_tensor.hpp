@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/family.hpp"
+
+namespace perifrac {
+
+/// Moments of every family, the same for all physics on it:
+/// K_i = sum_j w_ij xi xi^T (paper Eq 10) and m_i = sum_j w_ij |xi|^2 = tr K_i (Eq 4).
+template <int D>
+struct FamilyMoments {
+  /// Entry (a, b) of K_i^-1 is inverse_shape[a * D + b][i] [1/m^(2+D)].
+  std::array<std::vector<double>, D * D> inverse_shape;
+  std::vector<double> weighted_volume;  ///< m_i [m^(2+D)]
+};
+
+/// K_i, row by row.
+template <int D>
+std::array<double, D * D> shape_tensor_at(const Family<D>& family, Index i);
+
+/// Throws InputError where a family's bonds do not span space.
+template <int D>
+FamilyMoments<D> family_moments(const Family<D>& family);
+
+}  // namespace perifrac
