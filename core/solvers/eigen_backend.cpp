@@ -1,0 +1,41 @@
+// For builds without CHOLMOD.
+#include <algorithm>
+
+#include <Eigen/SparseCholesky>
+
+#include "core/solvers/cholesky_backend.hpp"
+
+namespace perifrac {
+namespace {
+
+class EigenBackend final : public CholeskyBackend {
+ public:
+  void analyze(const Eigen::SparseMatrix<double>& a) override { ldlt_.analyzePattern(a); }
+
+  std::optional<Eigen::Index> factor(const Eigen::SparseMatrix<double>& a) override {
+    ldlt_.factorize(a);
+    // It stops at a pivot of zero only, and leaves the later ones undefined.
+    const Eigen::VectorXd pivots = ldlt_.vectorD();
+    const auto bad =
+        std::find_if_not(pivots.begin(), pivots.end(), [](double pivot) { return pivot > 0.0; });
+    if (bad == pivots.end()) return std::nullopt;
+    return ldlt_.permutationPinv().indices()[bad - pivots.begin()];
+  }
+
+  void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) override {
+    x = ldlt_.solve(b);
+  }
+
+ private:
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt_;
+};
+
+}  // namespace
+
+std::unique_ptr<CholeskyBackend> CholeskyBackend::make() {
+  return std::make_unique<EigenBackend>();
+}
+
+const char* CholeskyBackend::name() { return "Eigen LDLT"; }
+
+}  // namespace perifrac

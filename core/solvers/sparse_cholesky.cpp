@@ -1,0 +1,53 @@
+#include "core/solvers/sparse_cholesky.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/solvers/cholesky_backend.hpp"
+
+namespace perifrac {
+
+NotPositiveDefinite::NotPositiveDefinite(Eigen::Index row)
+    : std::runtime_error(fmt::format("the matrix is not positive definite (row {})", row)),
+      row_(row) {}
+
+SparseCholesky::SparseCholesky() : backend_(CholeskyBackend::make()) {}
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+void SparseCholesky::factor(const Eigen::SparseMatrix<double>& a) {
+  assert(a.isCompressed() && a.rows() == a.cols());
+  // A factorisation carries what is not finite along without a word.
+  const double* end = a.valuePtr() + a.nonZeros();
+  const double* bad =
+      std::find_if_not(a.valuePtr(), end, [](double v) { return std::isfinite(v); });
+  if (bad != end) throw NotPositiveDefinite(a.innerIndexPtr()[bad - a.valuePtr()]);
+
+  if (!has_analysed_pattern_of(a)) {
+    backend_->analyze(a);
+    starts_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
+    rows_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
+  }
+  if (const auto row = backend_->factor(a)) throw NotPositiveDefinite(*row);
+}
+
+void SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b,
+                           Eigen::Ref<Eigen::MatrixXd> x) const {
+  assert(b.rows() == x.rows() && b.cols() == x.cols());
+  backend_->solve(b, x);
+}
+
+const char* SparseCholesky::backend() { return CholeskyBackend::name(); }
+
+bool SparseCholesky::has_analysed_pattern_of(const Eigen::SparseMatrix<double>& a) const {
+  return std::equal(starts_.begin(), starts_.end(), a.outerIndexPtr(),
+                    a.outerIndexPtr() + a.outerSize() + 1) &&
+         std::equal(rows_.begin(), rows_.end(), a.innerIndexPtr(),
+                    a.innerIndexPtr() + a.nonZeros());
+}
+
+}  // namespace perifrac

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace perifrac {
+
+class CholeskyBackend;
+
+/// The matrix has a pivot <= 0, or an entry that is not finite.
+class NotPositiveDefinite : public std::runtime_error {
+ public:
+  explicit NotPositiveDefinite(Eigen::Index row);
+
+  /// Where that is.
+  Eigen::Index row() const { return row_; }
+
+ private:
+  Eigen::Index row_;
+};
+
+/// Direct solution of A x = b, A sparse, symmetric and positive definite. Gives the same bits at
+/// any number of threads. One object serves one thread at a time.
+class SparseCholesky {
+ public:
+  SparseCholesky();
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  /// Factors A (compressed); only its entries on and below the diagonal are used. Where they lie
+  /// as in the matrix before, the ordering found for that one is used again.
+  /// Throws NotPositiveDefinite (no factor is left then), std::bad_alloc.
+  void factor(const Eigen::SparseMatrix<double>& a);
+
+  /// x = A^-1 b, one column a right-hand side; x has the shape of b and does not overlap it.
+  void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) const;
+
+  /// Which library factors: the licence of a binary depends on it.
+  static const char* backend();
+
+ private:
+  bool has_analysed_pattern_of(const Eigen::SparseMatrix<double>& a) const;
+
+  std::unique_ptr<CholeskyBackend> backend_;
+  std::vector<int> starts_, rows_;  // the pattern that was analysed
+};
+
+}  // namespace perifrac

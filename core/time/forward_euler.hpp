@@ -1,0 +1,35 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/time/integrator.hpp"
+#include "core/time/ode_system.hpp"
+
+namespace perifrac {
+
+/// y <- y + h f(t, y) in equal sub-steps, for systems whose J has real eigenvalues <= 0
+/// (diffusion). The stable limit is 2 / |largest eigenvalue|.
+class ForwardEuler final : public Integrator {
+ public:
+  /// The system must outlive the integrator. A sub-step is at most safety (0 to 1) times the
+  /// stable limit.
+  explicit ForwardEuler(OdeSystem& system, double safety = 0.9);
+
+  void reset(double t, std::span<const double> y) override;
+  void advance(double t_end, std::span<double> y) override;
+  double stable_step() const override { return stable_step_; }
+  IntegratorStatistics statistics() const override { return statistics_; }
+
+ private:
+  OdeSystem& system_;
+  double safety_;
+  double t_ = 0.0;
+  double stable_step_ = std::numeric_limits<double>::infinity();
+  std::optional<std::uint64_t> limit_version_;  // the J that stable_step_ belongs to
+  std::vector<double> rate_;
+  IntegratorStatistics statistics_;
+};
+
+}  // namespace perifrac
