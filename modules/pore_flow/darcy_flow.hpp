@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/geometry/body.hpp"
+#include "core/module/physics_module.hpp"
+#include "core/time/integrator.hpp"
+#include "modules/pore_flow/darcy_system.hpp"
+
+namespace perifrac {
+
+/// Makes the integrator of a Darcy system; it may keep a reference to it.
+template <int D>
+using DarcyIntegratorMaker = std::function<std::unique_ptr<Integrator>(DarcySystem<D>&)>;
+
+/// Pore flow after Darcy, by whichever integrator it is given.
+///
+/// Ports: in `dilatation`; out `pore_pressure` [Pa], `pore_stress` (alpha p) with its undrained
+/// slope d(pore_stress)/d(dilatation) [Pa], `fluid_content`, `darcy_velocity` [m/s], and for the
+/// ledger `pore_fluid_mass`, `pore_fluid_gained` [kg], `pore_fluid_energy`, `pore_fluid_work`,
+/// `darcy_dissipation` [J] (per metre in 2D).
+template <int D>
+class DarcyFlow final : public PhysicsModule {
+ public:
+  DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> system, double initial_pressure,
+            const DarcyIntegratorMaker<D>& make_integrator);
+
+  std::span<const Port> ports() const override;
+  PortView port(PortId id) override;
+  void initialize(double t) override;
+  double stable_time_step() const override;
+  double advance(const TimeWindow& window) override;
+  void visit_state(StateVisitor& visitor) override;
+  void on_restored(double t) override;
+
+ private:
+  enum Id : PortId {
+    dilatation,
+    pore_pressure,
+    pore_stress,
+    fluid_content,
+    darcy_velocity,
+    mass_stored,
+    mass_gained,
+    energy_stored,
+    energy_gained,
+    energy_dissipated,
+    integrator_steps,
+    rhs_evaluations,
+    newton_iterations,
+    matrix_set_ups,
+    linear_iterations,
+    port_count
+  };
+
+  void update_pressure();
+  double scalar(PortId id) const;
+  double work(PortId id) const;
+
+  std::shared_ptr<const Body<D>> body_;
+  std::unique_ptr<DarcySystem<D>> system_;
+  std::unique_ptr<Integrator> integrator_;
+  double initial_pressure_;
+
+  std::vector<double> unknowns_;  ///< of the system
+  double start_ = 0.0;            ///< [s]
+  double time_ = 0.0;             ///< [s]
+  bool restart_integrator_ = true;
+
+  std::vector<double> dilatation_;  ///< input and its companions; empty until somebody links it
+  std::vector<double> dilatation_rate_;
+  std::vector<double> dilatation_slope_;
+  std::vector<double> pressure_;
+  std::vector<double> pore_stress_;
+  std::vector<double> pore_stress_slope_;
+  std::vector<double> velocity_;  ///< empty until somebody asks
+  std::array<double, port_count - mass_stored> scalars_{};
+};
+
+}  // namespace perifrac

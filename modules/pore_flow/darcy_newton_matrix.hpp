@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "core/solvers/sparse_cholesky.hpp"
+#include "core/time/ode_system.hpp"
+#include "modules/pore_flow/darcy_system.hpp"
+
+namespace perifrac {
+
+/// I - gamma J of Darcy flow by way of the symmetric V S + gamma H in pressure.
+///
+/// Directly, H is assembled and factored. As a preconditioner, the bonds' own part of the flow
+/// stands in for H: it has a third of the entries and the same spectrum up to a factor.
+/// Either way the solution is put together from fluxes between points and faces, so that no volume
+/// is lost whatever the accuracy of the solve.
+template <int D>
+class DarcyNewtonMatrix final : public NewtonMatrix {
+ public:
+  enum class Method { direct, preconditioner };
+
+  /// The system must outlive the matrix.
+  DarcyNewtonMatrix(DarcySystem<D>& system, Method method);
+
+  bool exact() const override { return method_ == Method::direct; }
+  void set_up(double t, std::span<const double> y, double gamma) override;
+  void solve(std::span<const double> r, std::span<double> solution) override;
+
+ private:
+  DarcySystem<D>& system_;
+  Method method_;
+  Eigen::SparseMatrix<double> flow_;  ///< H or what stands in for it; rows of faces included
+  SparseCholesky factor_;
+  double gamma_ = 0.0;
+  Eigen::VectorXd right_side_;
+  Eigen::VectorXd pressure_;
+  Eigen::VectorXd outflow_;
+};
+
+}  // namespace perifrac

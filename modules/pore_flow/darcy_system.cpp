@@ -1,0 +1,106 @@
+#include "modules/pore_flow/darcy_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace perifrac {
+
+template <int D>
+DarcySystem<D>::DarcySystem(LinearExactOperator<D, DarcyLaw<D>> flow, PoreMaterial material,
+                            Eigen::VectorXd face_pressures, Eigen::VectorXd sources)
+    : flow_(std::move(flow)),
+      material_(material),
+      face_pressures_(std::move(face_pressures)),
+      sources_(std::move(sources)),
+      points_(flow_.point_unknowns()),
+      effective_storage_(points_, material.storage),
+      pressure_(flow_.size()),
+      outflow_(flow_.size()) {}
+
+template <int D>
+void DarcySystem<D>::set_dilatation(const DilatationInput& input) {
+  dilatation_ = input;
+  const double alpha = material_.biot_coefficient;
+  bool changed = false;
+  for (std::size_t i = 0; i < input.slope.size(); ++i) {
+    const double storage = material_.storage + alpha * alpha * input.slope[i];
+    changed = changed || storage != effective_storage_[i];
+    effective_storage_[i] = storage;
+  }
+  if (changed) ++version_;
+}
+
+template <int D>
+void DarcySystem<D>::pressure(double t, std::span<const double> y, std::span<double> p) const {
+  if (dilatation_.value.empty()) {
+    for (Index i = 0; i < points_; ++i) p[i] = y[i] / effective_storage_[i];
+    return;
+  }
+  const double alpha = material_.biot_coefficient;
+  const double since_end = t - dilatation_.end;
+  for (Index i = 0; i < points_; ++i) {
+    const double dilatation = dilatation_.value[i] + since_end * dilatation_.rate[i];
+    p[i] = (y[i] - alpha * dilatation) / effective_storage_[i];
+  }
+}
+
+template <int D>
+void DarcySystem<D>::rhs(double t, std::span<const double> y, std::span<double> dydt) {
+  pressure(t, y, pressure_);
+  const auto faces = face_pressures_.size();
+  std::copy_n(face_pressures_.data(), faces, pressure_.begin() + points_);
+  flow_.apply(pressure_, outflow_);
+  const std::vector<double>& v = volume();
+  for (Index i = 0; i < points_; ++i) dydt[i] = -outflow_[i] / v[i];
+
+  double dissipated = 0.0;
+  for (std::size_t k = 0; k < pressure_.size(); ++k) dissipated += pressure_[k] * outflow_[k];
+  const std::span<double> accumulated = dydt.subspan(points_);
+  std::copy_n(outflow_.begin() + points_, faces, accumulated.begin());
+  accumulated[faces] = dissipated;
+  if (sources_.size() == 0) return;
+  double brought = 0.0;
+  for (Index i = 0; i < points_; ++i) {
+    dydt[i] += sources_[i] / v[i];
+    brought += sources_[i] * pressure_[i];
+  }
+  accumulated[faces + 1] = brought;
+}
+
+template <int D>
+void DarcySystem<D>::jacobian_times(double, std::span<const double>, std::span<const double> v,
+                                    std::span<double> product) {
+  for (Index i = 0; i < points_; ++i) pressure_[i] = v[i] / effective_storage_[i];
+  std::fill(pressure_.begin() + points_, pressure_.end(), 0.0);
+  flow_.apply(pressure_, outflow_);
+  for (Index i = 0; i < points_; ++i) product[i] = -outflow_[i] / volume()[i];
+  // Energies follow the flow and nothing follows them: their rows may be left out.
+  std::ranges::fill(product.subspan(points_), 0.0);
+  std::copy_n(outflow_.begin() + points_, face_pressures_.size(), product.begin() + points_);
+}
+
+template <int D>
+void DarcySystem<D>::magnitudes(double t, std::span<const double> y, std::span<double> magnitude) {
+  constexpr double negligible = 1e-3;  // [Pa], where a run starts from no pressure at all
+  pressure(t, y, pressure_);
+  double largest = negligible;
+  for (Index i = 0; i < points_; ++i) largest = std::max(largest, std::abs(pressure_[i]));
+  for (const double p : face_pressures_) largest = std::max(largest, std::abs(p));
+  for (Index i = 0; i < points_; ++i) magnitude[i] = effective_storage_[i] * largest;
+  std::ranges::fill(magnitude.subspan(points_), std::numeric_limits<double>::infinity());
+}
+
+template <int D>
+void DarcySystem<D>::darcy_velocity(double t, std::span<const double> y,
+                                    std::span<double> velocity) {
+  pressure(t, y, pressure_);
+  std::copy_n(face_pressures_.data(), face_pressures_.size(), pressure_.begin() + points_);
+  flow_.gradient(pressure_, velocity);
+  for (double& component : velocity) component *= -material_.mobility;
+}
+
+template class DarcySystem<2>;
+template class DarcySystem<3>;
+
+}  // namespace perifrac

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "core/config/key.hpp"
+#include "core/config/section.hpp"
+#include "core/geometry/body.hpp"
+#include "core/operators/mirror_condition.hpp"
+
+namespace perifrac {
+
+/// Where fluid comes from and goes to: conditions of a body's faces and sources inside it.
+/// A face without a condition is sealed.
+template <int D>
+class PoreBoundary {
+ public:
+  explicit PoreBoundary(const Body<D>& body);
+
+  /// Prescribes the pressure of a face [Pa].
+  void pressure(int face, double pressure);
+  /// Prescribes the volume that enters through a face per area and time [m/s].
+  void flux(int face, double inflow);
+  /// Adds fluid at a point [m^3/s, per metre in 2D].
+  void source(Index point, double rate);
+
+  /// Every face is mirrored: even where sealed, odd where the pressure is prescribed.
+  FaceSet mirrored() const;
+  MirrorCondition<D, 1> mirror_condition(const Family<D>& family) const;
+  /// Prescribed pressures, by face value [Pa].
+  Eigen::VectorXd face_pressures(const MirrorCondition<D, 1>& mirror) const;
+  /// Volume per time that inflow and sources bring to every point [m^3/s, per metre in 2D];
+  /// empty where there are none.
+  Eigen::VectorXd sources(const Eigen::SparseMatrix<double>& gradient) const;
+  bool has_sources() const;
+
+ private:
+  enum class Condition { sealed, pressure, flux };
+  struct FaceState {
+    Condition condition = Condition::sealed;
+    double value = 0.0;
+  };
+
+  const Body<D>* body_;
+  std::vector<FaceState> faces_;
+  std::vector<std::pair<Index, double>> sources_;
+};
+
+/// The keys of `boundary` and `sources` in the section of pore flow.
+KeyTable pore_boundary_keys();
+
+/// Reads them; throws InputError.
+template <int D>
+PoreBoundary<D> read_pore_boundary(const Section& section, const Body<D>& body);
+
+}  // namespace perifrac

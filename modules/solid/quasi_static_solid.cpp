@@ -1,0 +1,166 @@
+#include "modules/solid/quasi_static_solid.hpp"
+
+#include <limits>
+
+#include <Eigen/Dense>
+
+#include "modules/solid/rigid_motion.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const PointSet whole_body{.name = "solid"};
+
+/// The matrix that picks the unknowns that are solved for: displacements and plates.
+Eigen::SparseMatrix<double> free_part(Index unknowns, Index displacements,
+                                      std::span<const Index> plates) {
+  std::vector<Eigen::Triplet<double>> picks;
+  Index row = 0;
+  for (Index u = 0; u < displacements; ++u) picks.emplace_back(row++, u, 1.0);
+  for (const Index plate : plates) picks.emplace_back(row++, plate, 1.0);
+  Eigen::SparseMatrix<double> matrix(row, unknowns);
+  matrix.setFromTriplets(picks.begin(), picks.end());
+  return matrix;
+}
+
+template <int D>
+Eigen::SparseMatrix<double> dilatation_matrix(const Eigen::SparseMatrix<double>& gradient,
+                                              Index points) {
+  Eigen::SparseMatrix<double> trace(points, gradient.rows());
+  trace.reserve(Eigen::VectorXi::Ones(gradient.rows()));
+  for (int a = 0; a < D; ++a) {
+    for (Index i = 0; i < points; ++i) trace.insert(i, (a * D + a) * points + i) = 1.0;
+  }
+  return trace * gradient;
+}
+
+Eigen::Map<const Eigen::VectorXd> view(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+}  // namespace
+
+template <int D>
+QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
+                                      IsotropicElasticity<D> elasticity,
+                                      const SolidBoundary<D>& boundary)
+    : body_(std::move(body)),
+      ports_{
+          {"pore_stress", "Pa", PortDirection::in},
+          {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, D},
+          {"dilatation", "1", PortDirection::out},
+          {"elastic_energy", "J", PortDirection::out, PortKind::extensive, PortRole::energy_stored},
+          {"external_work", "J", PortDirection::out, PortKind::extensive, PortRole::energy_gained},
+      } {
+  const auto family = body_->family(boundary.mirrored());
+  const auto mirror = boundary.mirror_condition(*family);
+  const LinearExactOperator<D, IsotropicElasticity<D>> elastic(family, mirror, elasticity);
+  const Eigen::SparseMatrix<double> gradient = elastic.gradient_matrix();
+  const Index points = body_->points().size();
+  stiffness_ = elastic.assemble();
+  dilatation_of_ = dilatation_matrix<D>(gradient, points);
+  for (const auto& [face, unknown] : boundary.plates(mirror)) {
+    ports_.push_back({face + "_plate_displacement", "m", PortDirection::out});
+    plate_unknowns_.push_back(unknown);
+  }
+  free_part_ = free_part(elastic.size(), D * points, plate_unknowns_);
+  prescribed_ = boundary.prescribed_values(mirror);
+  load_ = free_part_ * (boundary.load(mirror, gradient) - stiffness_ * prescribed_);
+  slope_.assign(points, 1.0 / elasticity.drained_bulk_modulus());
+}
+
+template <int D>
+std::string QuasiStaticSolid<D>::free_motion() const {
+  return rigid_motion_without_energy<D>(body_->points(),
+                                        free_part_ * stiffness_ * free_part_.transpose());
+}
+
+template <int D>
+std::span<const Port> QuasiStaticSolid<D>::ports() const {
+  return ports_;
+}
+
+template <int D>
+PortView QuasiStaticSolid<D>::port(PortId id) {
+  const PointSet* const points = &body_->point_set();
+  switch (id) {
+    case pore_stress:
+      pore_stress_.resize(body_->points().size());
+      return {points, pore_stress_};
+    case displacement:
+      return {points, std::span(unknowns_).first(D * body_->points().volume.size())};
+    case dilatation:
+      return {points, dilatation_, {}, slope_};
+    case elastic_energy:
+      return {&whole_body, {&elastic_energy_, 1}};
+    case external_work:
+      return {&whole_body, {&external_work_, 1}};
+    default:
+      return {&whole_body, {&unknowns_[plate_unknowns_[id - first_plate]], 1}};
+  }
+}
+
+template <int D>
+void QuasiStaticSolid<D>::initialize(double) {
+  factor_.factor(free_part_ * stiffness_ * free_part_.transpose());
+  unknowns_.assign(stiffness_.rows(), 0.0);
+  force_.assign(stiffness_.rows(), 0.0);
+  external_work_ = 0.0;
+  derive_from_unknowns();
+}
+
+template <int D>
+double QuasiStaticSolid<D>::stable_time_step() const {
+  return std::numeric_limits<double>::infinity();
+}
+
+template <int D>
+double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
+  const Eigen::VectorXd pore = pore_force();
+  Eigen::VectorXd solution(free_part_.rows());
+  factor_.solve(load_ + free_part_ * pore, solution);
+
+  const Eigen::VectorXd before = view(unknowns_);
+  const Eigen::VectorXd force_before = view(force_);
+  view(unknowns_) = prescribed_ + free_part_.transpose() * solution;
+  view(force_) = stiffness_ * view(unknowns_) - pore;
+  external_work_ += 0.5 * (force_before + view(force_)).dot(view(unknowns_) - before);
+  derive_from_unknowns();
+  return window.end;
+}
+
+/// What the pore stress does to all unknowns: the transpose of what makes dilatation of them.
+template <int D>
+Eigen::VectorXd QuasiStaticSolid<D>::pore_force() const {
+  if (pore_stress_.empty()) return Eigen::VectorXd::Zero(stiffness_.rows());
+  return dilatation_of_.transpose() * view(body_->points().volume).cwiseProduct(view(pore_stress_));
+}
+
+template <int D>
+void QuasiStaticSolid<D>::derive_from_unknowns() {
+  dilatation_.resize(body_->points().volume.size());
+  view(dilatation_) = dilatation_of_ * view(unknowns_);
+  elastic_energy_ = 0.5 * view(unknowns_).dot(stiffness_ * view(unknowns_));
+}
+
+template <int D>
+void QuasiStaticSolid<D>::visit_state(StateVisitor& visitor) {
+  visitor.visit("displacement", unknowns_);
+  visitor.visit("external_force", force_);
+  visitor.visit("external_work", external_work_);
+}
+
+template <int D>
+void QuasiStaticSolid<D>::on_restored(double) {
+  derive_from_unknowns();
+}
+
+template class QuasiStaticSolid<2>;
+template class QuasiStaticSolid<3>;
+
+}  // namespace perifrac

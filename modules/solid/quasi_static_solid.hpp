@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "core/geometry/body.hpp"
+#include "core/module/physics_module.hpp"
+#include "core/operators/linear_exact.hpp"
+#include "core/solvers/sparse_cholesky.hpp"
+#include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/solid/solid_boundary.hpp"
+
+namespace perifrac {
+
+/// A linear elastic solid in equilibrium at the end of every window: its stiffness is factored once
+/// and each window costs one back-substitution. Small strain.
+///
+/// Ports: in `pore_stress` [Pa]; out `displacement` [m], `dilatation` with its slope
+/// d(dilatation)/d(pore_stress), `elastic_energy`, `external_work` [J] (per metre in 2D), and for
+/// each rigid plate `<face>_plate_displacement` [m], along its axis.
+template <int D>
+class QuasiStaticSolid final : public PhysicsModule {
+ public:
+  QuasiStaticSolid(std::shared_ptr<const Body<D>> body, IsotropicElasticity<D> elasticity,
+                   const SolidBoundary<D>& boundary);
+
+  /// A motion of the whole body that nothing resists, in words; empty where there is none. Such a
+  /// body has no equilibrium: do not initialize it.
+  std::string free_motion() const;
+
+  std::span<const Port> ports() const override;
+  PortView port(PortId id) override;
+  void initialize(double t) override;
+  double stable_time_step() const override;
+  double advance(const TimeWindow& window) override;
+  void visit_state(StateVisitor& visitor) override;
+  void on_restored(double t) override;
+
+ private:
+  enum Id : PortId {
+    pore_stress,
+    displacement,
+    dilatation,
+    elastic_energy,
+    external_work,
+    first_plate
+  };
+
+  Eigen::VectorXd pore_force() const;
+  void derive_from_unknowns();
+
+  std::shared_ptr<const Body<D>> body_;
+  std::vector<Port> ports_;
+  std::vector<Index> plate_unknowns_;
+  Eigen::SparseMatrix<double> stiffness_;      ///< of all unknowns, face values included
+  Eigen::SparseMatrix<double> dilatation_of_;  ///< takes all unknowns to point dilatations
+  Eigen::SparseMatrix<double> free_part_;      ///< takes all unknowns to those solved for
+  SparseCholesky factor_;                      ///< of the stiffness of those
+  Eigen::VectorXd prescribed_;                 ///< face values that are prescribed, 0 elsewhere [m]
+  Eigen::VectorXd load_;  ///< of the unknowns solved for, prescribed ones' part taken off [N]
+
+  std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
+  std::vector<double> force_;     ///< external force on every unknown, reactions included [N]
+  double external_work_ = 0.0;
+
+  std::vector<double> pore_stress_;  ///< input; empty until somebody links it
+  std::vector<double> dilatation_;
+  std::vector<double> slope_;
+  double elastic_energy_ = 0.0;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/SparseCore>
+
+#include "core/geometry/points.hpp"
+
+namespace perifrac {
+
+/// Says in words which translation or rotation of the whole body costs no energy, or nothing where
+/// the boundary resists them all. `stiffness` is of D blocks of point displacements and then of
+/// plates, which follow no rotation but any translation.
+template <int D>
+std::string rigid_motion_without_energy(const Points<D>& points,
+                                        const Eigen::SparseMatrix<double>& stiffness);
+
+}  // namespace perifrac

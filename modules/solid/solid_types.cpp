@@ -1,0 +1,57 @@
+#include "modules/solid/solid_types.hpp"
+
+#include "modules/solid/quasi_static_solid.hpp"
+#include "modules/solid/rigid_solid.hpp"
+
+namespace perifrac {
+
+namespace {
+
+template <int D>
+std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
+                                                 std::shared_ptr<const Body<D>> body) {
+  auto solid = std::make_unique<QuasiStaticSolid<D>>(body, read_isotropic_elasticity<D>(section),
+                                                     read_solid_boundary<D>(section, *body));
+  if (const std::string motion = solid->free_motion(); !motion.empty()) {
+    section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
+                 "faces of type roller, fixed or rigid_plate that hold every motion");
+  }
+  return solid;
+}
+
+KeyTable quasi_static_keys() {
+  KeyTable keys = {{.path = "material.type",
+                    .type = KeyType::word,
+                    .fallback = "linear_exact",
+                    .words = {"linear_exact"},
+                    .meaning = "linear_exact: isotropic, exact for linear fields on any points."}};
+  for (const KeyTable& part : {elastic_constant_keys(), solid_boundary_keys()}) {
+    keys.insert(keys.end(), part.begin(), part.end());
+  }
+  return keys;
+}
+
+}  // namespace
+
+ModuleType quasi_static_solid_type() {
+  return {.section = "solid",
+          .name = "quasi_static",
+          .meaning = "Elastic solid in equilibrium at every window's end; one factorisation.",
+          .keys = quasi_static_keys(),
+          .make = [](const Section& section, const AnyBody& any) {
+            return std::visit([&](const auto& body) { return make_quasi_static(section, body); },
+                              any);
+          }};
+}
+
+ModuleType rigid_solid_type() {
+  return {.section = "solid",
+          .name = "rigid",
+          .meaning = "Solid that does not deform: no unknowns, no cost.",
+          .keys = {},
+          .make = [](const Section&, const AnyBody&) -> std::unique_ptr<PhysicsModule> {
+            return std::make_unique<RigidSolid>();
+          }};
+}
+
+}  // namespace perifrac
