@@ -1,0 +1,54 @@
+"""A run folder, read: what `perifrac run` left behind, finished or not."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from frames import FrameSeries, read_all_series
+from history import History, read_history
+from no_run import NoRun
+
+
+@dataclass(frozen=True)
+class Run:
+    folder: Path
+    summary: dict[str, Any]
+    history: History
+    series: list[FrameSeries]
+
+    @property
+    def title(self) -> str:
+        return self.summary.get("scene", {}).get("title") or self.folder.resolve().name
+
+    @property
+    def outcome(self) -> str:
+        """A run writes its summary last: without one it is under way or was killed."""
+        return self.summary.get("outcome", "unfinished")
+
+    @property
+    def reference(self) -> dict[str, Any]:
+        return self.summary.get("reference") or {}
+
+
+def read_summary(path: Path) -> dict[str, Any]:
+    if not path.exists():
+        return {}
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except json.JSONDecodeError as error:
+        raise NoRun(f"{path}:{error.lineno}:{error.colno}: not JSON ({error.msg}); run the scene again") from error
+
+
+def read_run(folder: Path) -> Run:
+    if not folder.is_dir():
+        raise NoRun(f"{folder}: no such folder; expected the folder that 'perifrac run' wrote")
+    summary = read_summary(folder / "summary.json")
+    history = read_history(folder / "history.csv")
+    series = read_all_series(folder / "frames")
+    if not summary and not history.columns and not series:
+        expected = "summary.json, history.csv or frames/*.hdf.series from 'perifrac run'"
+        raise NoRun(f"{folder}: holds no run; expected {expected}")
+    return Run(folder, summary, history, series)

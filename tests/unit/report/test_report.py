@@ -1,0 +1,290 @@
+"""report.py as its users meet it: run folders in, a picture and a page out."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+
+import h5py
+import matplotlib.image
+import numpy as np
+
+import mandel_run
+
+REPORT = Path(__file__).resolve().parents[3] / "app" / "report"
+sys.path.insert(0, str(REPORT))
+
+import frames  # noqa: E402
+import page  # noqa: E402
+import quantities  # noqa: E402
+
+
+def report(folder: Path) -> subprocess.CompletedProcess:
+    return subprocess.run([sys.executable, REPORT / "report.py", folder], capture_output=True, text=True)
+
+
+class Page(HTMLParser):
+    """Collects what the tests ask for: attributes that fetch, visible text, and the embedded data."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.fetched: list[str] = []
+        self.text = ""
+        self.code = ""
+        self.sections: list[str] = []
+        self.data: dict = {}
+        self.element = ""
+        self.raw_data = ""
+        self.feed(path.read_text(encoding="utf-8"))
+        self.data = json.loads(self.raw_data)
+
+    def handle_starttag(self, tag: str, attributes: list) -> None:
+        known = dict(attributes)
+        self.fetched += [f"{tag} {name}={known[name]}" for name in ("src", "href", "srcset", "data") if name in known]
+        self.element = "data" if known.get("id") == "run-data" else tag
+        if tag == "section" and "hidden" not in known:
+            self.sections.append(known["id"])
+
+    def handle_data(self, content: str) -> None:
+        if self.element == "data":
+            self.raw_data += content
+        elif self.element in ("script", "style"):
+            self.code += content
+        else:
+            self.text += content
+
+    def handle_endtag(self, tag: str) -> None:
+        self.element = ""
+
+    def chart(self, title: str) -> dict:
+        return next(c for c in self.data["charts"] if c["title"] == title)
+
+
+def floats(text: str) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(text), dtype="<f4")
+
+
+def check_picture(test: unittest.TestCase, path: Path) -> None:
+    content = path.read_bytes()
+    test.assertEqual(content[:8], b"\x89PNG\r\n\x1a\n")
+    test.assertEqual(struct.unpack(">II", content[16:24]), (2000, 1500))
+    pixels = matplotlib.image.imread(path)
+    for rows in (slice(0, 750), slice(750, 1500)):
+        for columns in (slice(0, 1000), slice(1000, 2000)):
+            test.assertGreater(np.std(pixels[rows, columns, :3]), 0.02, "an empty quarter")
+
+
+class ReportTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.scratch = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.scratch)
+        self.folder = self.scratch / "run"
+
+    def reported(self) -> Page:
+        done = report(self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return Page(self.folder / "report.html")
+
+    def refused(self, folder: Path) -> str:
+        done = report(folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        return done.stderr
+
+
+class WithReference(unittest.TestCase):
+    """One run, reported once, asked many things."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.scratch = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.scratch)
+        cls.folder = cls.scratch / "run"
+        cls.summary = mandel_run.write_run(cls.folder)
+        done = report(cls.folder)
+        assert (done.returncode, done.stderr) == (0, ""), done.stderr
+        cls.page = Page(cls.folder / "report.html")
+
+    def test_picture_has_its_size_and_four_panels(self) -> None:
+        check_picture(self, self.folder / "report.png")
+
+    def test_page_fetches_nothing(self) -> None:
+        page = self.page
+        self.assertEqual(page.fetched, [])
+        code = re.sub(r"/\*.*?\*/", "", page.code, flags=re.S)
+        for forbidden in (r"https?://", r"url\(", r"@import", r"\bfetch\(", r"XMLHttpRequest", r"import\("):
+            self.assertIsNone(re.search(forbidden, code), forbidden)
+
+    def test_page_holds_the_histories_and_profiles(self) -> None:
+        page, summary = self.page, self.summary
+        drawn = {s["label"]: s for s in page.chart("Pore pressure: computed and exact")["series"]}
+        for history in summary["reference"]["histories"]:
+            place = history["name"].split(" at ")[1]
+            for kind in ("computed", "exact"):
+                self.assertEqual(drawn[f"{place}, {kind}"]["y"], history[kind])
+                self.assertEqual(drawn[f"{place}, {kind}"]["x"], history["time"])
+        profile = summary["reference"]["profiles"][0]
+        drawn_rows = page.chart("Pore pressure along x")["series"]
+        self.assertEqual([s["y"] for s in drawn_rows if s["markers"]], profile["computed"])
+        self.assertEqual([s["y"] for s in drawn_rows if not s["markers"]], profile["exact"])
+        errors = page.chart("Error against the exact solution")["series"]
+        self.assertEqual(errors[0]["y"], [row["max_error"] for row in summary["reference"]["table"]])
+
+    def test_page_holds_every_frame(self) -> None:
+        page = self.page
+        series = page.data["series"][0]
+        self.assertEqual([f["time"] for f in series["frames"]], mandel_run.FRAME_TIMES)
+        for number, frame in enumerate(series["frames"]):
+            with h5py.File(self.folder / "frames" / f"rock_{number:06d}.hdf") as file:
+                group = file["VTKHDF"]
+                pressure = group["PointData/pore_pressure"][()].astype("f4")
+                moved = group["PointData/displacement"][()].astype("f4")
+                points = group["Points"][()].astype("f4")
+            np.testing.assert_array_equal(floats(frame["values"]["pore_pressure"]), pressure)
+            np.testing.assert_array_equal(floats(frame["values"]["displacement y"]), moved[:, 1])
+            self.assertEqual("points" in frame, number == 0, "points are written once while they rest")
+            if number == 0:
+                np.testing.assert_array_equal(floats(frame["points"]["x"]), points[:, 0])
+        self.assertAlmostEqual(series["spacing"], 1.0, places=9)
+        units = {field["name"]: (field["unit"], field["factor"]) for field in series["fields"]}
+        self.assertEqual(units["pore_pressure"], ("Pa", 1.0))
+        self.assertEqual(units["displacement x"][0], "µm")
+
+    def test_tables_tell_outcome_errors_ledger_and_cost(self) -> None:
+        page = self.page
+        for expected in ("Mandel's problem", "done", "solid: quasi static", "1.27 × 10⁻³", "time = 1.653 s, x = 39.5 m",
+                         "0.0712 kg/m", "−0.0519 kg/m", "387 ms", "59 %", "41.3 MB"):  # fmt: skip
+            self.assertIn(expected, page.text)
+        self.assertEqual(page.sections, ["errors", "comparison", "histories", "map", "ledger", "cost", "scene"])
+
+    def test_scene_text_cannot_break_out_of_the_page(self) -> None:
+        page, summary = self.page, self.summary
+        self.assertIn("</script>", summary["scene"]["text"])
+        self.assertIn(summary["scene"]["text"], page.text)
+
+
+class WithoutReference(ReportTest):
+    def test_run_without_reference_shows_probes_and_fields(self) -> None:
+        mandel_run.write_run(self.folder, with_reference=False)
+        page = self.reported()
+        check_picture(self, self.folder / "report.png")
+        self.assertEqual([c["title"] for c in page.data["charts"]], ["Pore pressure", "Fluid mass"])
+        self.assertEqual([s["label"] for s in page.data["charts"][0]["series"]], list(mandel_run.PROBES))
+        self.assertNotIn("errors", page.sections)
+
+
+class BrokenRuns(ReportTest):
+    def test_numbers_that_are_not_finite(self) -> None:
+        summary = mandel_run.write_run(self.folder)
+        reference = summary["reference"]
+        reference["histories"][0]["computed"][5] = None
+        reference["histories"][1]["computed"] = [None] * len(reference["histories"][1]["computed"])
+        reference["table"][0]["plate_error"] = None
+        reference["quantities"][0]["max_error"] = None
+        (self.folder / "summary.json").write_text(json.dumps(summary))
+        page = self.reported()
+        drawn = {s["label"]: s["y"] for s in page.chart("Pore pressure: computed and exact")["series"]}
+        self.assertIsNone(drawn["x = 0, computed"][5])
+        self.assertNotIn("x = a/4, computed", drawn)
+        self.assertEqual(len(page.chart("Error against the exact solution")["series"][1]["y"]), 6)
+        self.assertIn("not finite", page.text)
+
+    def test_killed_run_without_summary_and_with_broken_ends(self) -> None:
+        mandel_run.write_run(self.folder)
+        (self.folder / "summary.json").unlink()
+        with (self.folder / "history.csv").open("a") as stream:
+            stream.write("120.0,60,1")
+        (self.folder / "frames" / "rock_000008.hdf").write_bytes(b"cut short")
+        page = self.reported()
+        self.assertIn("unfinished", page.text)
+        self.assertEqual(len(page.data["series"][0]["frames"]), 8)
+        self.assertEqual(page.data["charts"][0]["series"][0]["x"][-1], 100.0)
+
+    def test_summary_alone_is_enough(self) -> None:
+        mandel_run.write_run(self.folder)
+        shutil.rmtree(self.folder / "frames")
+        (self.folder / "history.csv").unlink()
+        (self.folder / "summary.json").write_text('{"scene": {"title": "Short"}, "outcome": "failed"}')
+        page = self.reported()
+        self.assertIn("failed", page.text)
+        self.assertEqual(page.sections, [])
+
+
+class Refused(ReportTest):
+    def test_folder_without_a_run(self) -> None:
+        self.folder.mkdir()
+        self.assertIn(f"{self.folder}: holds no run; expected summary.json", self.refused(self.folder))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_no_folder(self) -> None:
+        self.assertIn(f"{self.folder}: no such folder", self.refused(self.folder))
+
+    def test_summary_that_is_no_json(self) -> None:
+        self.folder.mkdir()
+        (self.folder / "summary.json").write_text('{"outcome":\n  done}')
+        self.assertIn("summary.json:2:3: not JSON", self.refused(self.folder))
+
+    def test_history_without_time(self) -> None:
+        self.folder.mkdir()
+        (self.folder / "history.csv").write_text("step,mass [kg]\n1,2.0\n")
+        self.assertIn("history.csv: no column 'time'", self.refused(self.folder))
+
+
+class Parts(unittest.TestCase):
+    def test_synthetic_pressure_is_the_known_solution(self) -> None:
+        """p/p0 at a/4, a/2, 3a/4 after 10 s, from an independent evaluation of the series."""
+        found = mandel_run.pressure(np.array([10.0, 20.0, 30.0]), 10.0) / mandel_run.PRESSURE_SCALE
+        np.testing.assert_allclose(found, [1.05127, 0.92629, 0.58284], atol=6e-6)
+
+    def test_prefixes(self) -> None:
+        cases = {
+            (106.3e6, "Pa"): "106.3 MPa",
+            (1000.0, "Pa"): "1 kPa",
+            (1.6e-4, "m"): "160 µm",
+            (0.001, "s"): "1 ms",
+            (7200.0, "s"): "7200 s",
+            (2.5e4, "N/m"): "25 kN/m",
+            (1e-12, "m^2"): "1 × 10⁻¹² m²",
+            (0.07, "kg/m"): "0.07 kg/m",
+            (-3.0e-5, ""): "−3 × 10⁻⁵",
+            (0.0, "Pa"): "0 Pa",
+        }
+        for (value, unit), expected in cases.items():
+            self.assertEqual(quantities.quantity(value, unit), expected)
+
+    def test_embedded_names_cannot_end_the_script(self) -> None:
+        data = {"label": "</script><!--"}
+        self.assertNotIn("<", page.embedded(data))
+        self.assertEqual(json.loads(page.embedded(data)), data)
+
+    def test_spacing_is_exact_on_lattices(self) -> None:
+        axes = [np.arange(n) * 0.25 for n in (7, 4, 3)]
+        for dimension in (1, 2, 3):
+            points = np.stack(np.meshgrid(*axes[:dimension]), axis=-1).reshape(-1, dimension)
+            self.assertAlmostEqual(frames.spacing(points), 0.25, places=12)
+
+    def test_3d_body_is_shown_by_one_layer(self) -> None:
+        axes = [np.arange(n) * 0.25 for n in (7, 4, 5)]
+        points = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
+        chosen, slice_at = frames.middle_layer(points)
+        self.assertEqual((len(chosen), slice_at), (28, 0.5))
+        self.assertTrue(np.all(points[chosen, 2] == 0.5))
+
+    def test_frames_are_chosen_evenly_and_end_with_the_last(self) -> None:
+        self.assertEqual(frames.evenly(9, 3), [0, 4, 8])
+        self.assertEqual(frames.evenly(9, 1), [8])
+        self.assertEqual(frames.evenly(3, 100), [0, 1, 2])
+
+
+if __name__ == "__main__":
+    unittest.main()

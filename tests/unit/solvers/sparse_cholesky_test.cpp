@@ -1,0 +1,149 @@
+#include "core/solvers/sparse_cholesky.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+#include <omp.h>
+
+namespace perifrac {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// shift I + a graph Laplacian on a grid, each point joined to all within `reach` columns and rows:
+/// positive definite for shift > 0. The full matrix.
+Matrix grid_laplacian(int side, int reach, double shift) {
+  const int n = side * side;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, shift);
+    for (int j = 0; j < i; ++j) {
+      const int dx = std::abs(i % side - j % side), dy = std::abs(i / side - j / side);
+      if (dx > reach || dy > reach) continue;
+      const double weight = 1.0 / (dx * dx + dy * dy) + 0.01 * ((i + j) % 7);
+      entries.emplace_back(i, j, -weight);
+      entries.emplace_back(j, i, -weight);
+      entries.emplace_back(i, i, weight);
+      entries.emplace_back(j, j, weight);
+    }
+  }
+  Matrix a(n, n);
+  a.setFromTriplets(entries.begin(), entries.end());
+  return a;
+}
+
+Eigen::MatrixXd right_hand_sides(Eigen::Index rows, Eigen::Index columns) {
+  Eigen::MatrixXd b(rows, columns);
+  for (Eigen::Index j = 0; j < columns; ++j)
+    for (Eigen::Index i = 0; i < rows; ++i) b(i, j) = std::sin(1.0 + 0.7 * i + 3.1 * j);
+  return b;
+}
+
+double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).norm() / b.norm();
+}
+
+TEST(SparseCholesky, AgreesWithDenseForOneAndForManyRightHandSides) {
+  const Matrix a = grid_laplacian(12, 3, 0.5);
+  const Eigen::LLT<Eigen::MatrixXd> dense{Eigen::MatrixXd(a)};
+  SparseCholesky cholesky;
+  cholesky.factor(a);
+
+  const Eigen::MatrixXd b = right_hand_sides(a.rows(), 5);
+  Eigen::MatrixXd x(a.rows(), 5);
+  cholesky.solve(b, x);
+  EXPECT_LT(relative_difference(x, dense.solve(b)), 1e-13);
+
+  Eigen::VectorXd one(a.rows());
+  cholesky.solve(b.col(2), one);
+  EXPECT_LT(relative_difference(one, dense.solve(b.col(2))), 1e-13);
+}
+
+TEST(SparseCholesky, WritesIntoPartOfALargerArrayAndNowhereElse) {
+  const Matrix a = grid_laplacian(6, 2, 1.0);
+  const Eigen::Index n = a.rows();
+  SparseCholesky cholesky;
+  cholesky.factor(a);
+  const Eigen::MatrixXd b = right_hand_sides(n + 4, 3);
+  Eigen::MatrixXd x = Eigen::MatrixXd::Constant(n + 4, 3, 7.0);
+  cholesky.solve(b.middleRows(1, n), x.middleRows(2, n));
+  EXPECT_LT(relative_difference(a * x.middleRows(2, n), b.middleRows(1, n)), 1e-13);
+  EXPECT_TRUE((x.topRows(2).array() == 7.0).all());
+  EXPECT_TRUE((x.bottomRows(2).array() == 7.0).all());
+}
+
+TEST(SparseCholesky, ReadsTheLowerHalfOnly) {
+  const Matrix a = grid_laplacian(8, 2, 1.0);
+  const Matrix lower = a.triangularView<Eigen::Lower>();
+  Matrix spoilt_above = a;
+  for (int column = 0; column < spoilt_above.cols(); ++column)
+    for (Matrix::InnerIterator entry(spoilt_above, column); entry; ++entry)
+      if (entry.row() < entry.col()) entry.valueRef() = 1e9;
+  const Eigen::VectorXd b = right_hand_sides(a.rows(), 1);
+  for (const Matrix& given : {lower, spoilt_above}) {
+    SparseCholesky cholesky;
+    cholesky.factor(given);
+    Eigen::VectorXd x(a.rows());
+    cholesky.solve(b, x);
+    EXPECT_LT(relative_difference(a * x, b), 1e-13);
+  }
+}
+
+TEST(SparseCholesky, FactorsAgainWithTheSamePatternAndWithAnother) {
+  SparseCholesky cholesky;
+  for (const Matrix& a : {grid_laplacian(10, 2, 0.1), grid_laplacian(10, 2, 50.0),
+                          grid_laplacian(10, 1, 0.1), grid_laplacian(7, 2, 0.1)}) {
+    cholesky.factor(a);
+    const Eigen::VectorXd b = right_hand_sides(a.rows(), 1);
+    Eigen::VectorXd x(a.rows());
+    cholesky.solve(b, x);
+    EXPECT_LT(relative_difference(a * x, b), 1e-12);
+  }
+}
+
+TEST(SparseCholesky, SaysWhichRowIsNotPositiveDefinite) {
+  SparseCholesky cholesky;
+  Matrix a = grid_laplacian(6, 1, 1.0);
+  cholesky.factor(a);
+  a.coeffRef(17, 17) = -1.0;
+  try {
+    cholesky.factor(a);
+    FAIL() << "no exception";
+  } catch (const NotPositiveDefinite& error) {
+    EXPECT_EQ(error.row(), 17);
+    EXPECT_STREQ(error.what(), "the matrix is not positive definite (row 17)");
+  }
+  a.coeffRef(17, 17) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(cholesky.factor(a), NotPositiveDefinite);
+
+  a.coeffRef(17, 17) = 20.0;
+  cholesky.factor(a);
+  const Eigen::VectorXd b = right_hand_sides(a.rows(), 1);
+  Eigen::VectorXd x(a.rows());
+  cholesky.solve(b, x);
+  EXPECT_LT(relative_difference(a * x, b), 1e-13);
+}
+
+TEST(SparseCholesky, GivesTheSameBitsOnOneThreadAndOnMore) {
+  const Matrix a = grid_laplacian(40, 3, 0.01);
+  const Eigen::MatrixXd b = right_hand_sides(a.rows(), 8);
+  const int threads = omp_get_max_threads(), levels = omp_get_max_active_levels();
+  std::vector<Eigen::MatrixXd> solutions;
+  for (const int count : {1, 4}) {
+    omp_set_num_threads(count);
+    SparseCholesky cholesky;
+    cholesky.factor(a);
+    solutions.emplace_back(b.rows(), b.cols());
+    cholesky.solve(b, solutions.back());
+    EXPECT_EQ(omp_get_max_threads(), count) << "the number of threads was not put back";
+    EXPECT_EQ(omp_get_max_active_levels(), levels);
+  }
+  omp_set_num_threads(threads);
+  EXPECT_TRUE((solutions[0].array() == solutions[1].array()).all());
+}
+
+}  // namespace
+}  // namespace perifrac
