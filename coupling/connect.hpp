@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "coupling/coupling_options.hpp"
+#include "coupling/link.hpp"
+#include "coupling/module_slot.hpp"
+
+namespace perifrac {
+
+/// A link for every in-port that another module has an out-port of the same name for; an in-port
+/// without is left as its module initialised it. Modules must be initialised.
+/// Throws std::logic_error where two modules write one in-port, or the two ports of a link differ
+/// in unit, kind or components.
+std::vector<Link> connect(std::span<ModuleSlot> modules, Split split);
+
+/// Two links that run opposite ways between two modules and both carry slopes on their out-ports.
+struct CoupledPair {
+  std::size_t first;  ///< indices among the links
+  std::size_t second;
+};
+
+/// Throws std::logic_error where a link has more than one such partner.
+std::vector<CoupledPair> coupled_pairs(std::span<const Link> links);
+
+/// The largest |slope of first x slope of second| over the points: the factor by which an exchange
+/// of plain values to and fro multiplies an error. Slopes are taken as they stand now.
+double coupling_strength(const Link& first, const Link& second);
+
+}  // namespace perifrac

@@ -1,0 +1,84 @@
+#include "coupling/coupling_keys.hpp"
+
+namespace perifrac {
+namespace {
+
+// No length of window suits every physics, but the simulated time is known to be of interest: five
+// decades of growth from a sudden load, which diffuses as the square root of time, then at least
+// fifty windows. With the growth of 1.1 this comes to about 130 windows.
+constexpr double first_part = 1e-5;
+constexpr double largest_part = 0.02;
+
+AccelerationType acceleration_type(const std::string& word) {
+  if (word == "aitken") return AccelerationType::aitken;
+  if (word == "anderson") return AccelerationType::anderson;
+  return AccelerationType::none;
+}
+
+}  // namespace
+
+const KeyTable& coupling_keys() {
+  static const KeyTable keys = {
+      {.path = "window.first",
+       .unit = "s",
+       .range = "(0, inf)",
+       .meaning = "Length of the first window and of the first after a sudden load; left out: "
+                  "1e-5 of the simulated time"},
+      {.path = "window.growth",
+       .range = "[1, 2]",
+       .fallback = "1.1",
+       .meaning = "Factor from one window to the next, up to the largest"},
+      {.path = "window.largest",
+       .unit = "s",
+       .range = "(0, inf)",
+       .meaning = "Longest window; left out: a fiftieth of the simulated time"},
+      {.path = "split",
+       .type = KeyType::word,
+       .fallback = "fixed_stress",
+       .words = {"drained", "fixed_stress"},
+       .meaning = "What is sent between modules that depend on each other: plain values, or values "
+                  "with the slope of the sender's first answer"},
+      {.path = "iterations.max",
+       .type = KeyType::integer,
+       .range = "[1, inf)",
+       .fallback = "1",
+       .meaning = "Passes over the modules in a window; 1: one pass on extrapolated inputs"},
+      {.path = "iterations.tolerance",
+       .range = "(0, 1)",
+       .fallback = "1e-6",
+       .meaning = "Relative change from pass to pass below which a window is done; it cannot be "
+                  "met below the tolerance of the modules' own integrators"},
+      {.path = "acceleration",
+       .type = KeyType::word,
+       .fallback = "none",
+       .words = {"none", "aitken", "anderson"},
+       .meaning = "How the next pass's input is formed from those before"},
+  };
+  return keys;
+}
+
+CouplingOptions read_coupling_options(const Section& coupling, double duration) {
+  const auto window = [&](const char* key, double part) {
+    return coupling.has(key) ? coupling.number(key) : part * duration;
+  };
+  CouplingOptions options{.first_window = window("window.first", first_part),
+                          .window_growth = coupling.number("window.growth"),
+                          .largest_window = window("window.largest", largest_part)};
+  if (options.first_window > options.largest_window) {
+    if (coupling.has("window.first") && coupling.has("window.largest")) {
+      coupling.fail("window.first", "the first window is longer than the largest",
+                    "window.first <= window.largest");
+    }
+    // Only one was given, and it is meant.
+    const double given =
+        coupling.has("window.first") ? options.first_window : options.largest_window;
+    options.first_window = options.largest_window = given;
+  }
+  options.split = coupling.word("split") == "drained" ? Split::drained : Split::fixed_stress;
+  options.max_iterations = coupling.integer("iterations.max");
+  options.tolerance = coupling.number("iterations.tolerance");
+  options.acceleration = acceleration_type(coupling.word("acceleration"));
+  return options;
+}
+
+}  // namespace perifrac

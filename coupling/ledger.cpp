@@ -1,0 +1,86 @@
+#include "coupling/ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace perifrac {
+namespace {
+
+/// The ports of one role, added up over all modules.
+struct Total {
+  int ports = 0;
+  double sum = 0.0;
+  double throughput = 0.0;  ///< of absolute values
+  std::string unit;
+};
+
+Total total(std::span<ModuleSlot> modules, PortRole role) {
+  Total total;
+  for (ModuleSlot& slot : modules) {
+    const auto ports = slot.module->ports();
+    for (std::size_t id = 0; id < ports.size(); ++id) {
+      if (ports[id].role != role) continue;
+      const double value = slot.module->port(static_cast<PortId>(id)).value[0];
+      ++total.ports;
+      total.sum += value;
+      total.throughput += std::abs(value);
+      total.unit = ports[id].unit;
+    }
+  }
+  return total;
+}
+
+Balance balance(const Total& stored, double at_start, const Total& gained,
+                const Total& dissipated) {
+  Balance result{.stored = stored.sum, .gained = gained.sum, .dissipated = dissipated.sum};
+  result.error = (stored.sum - at_start) - (gained.sum - dissipated.sum);
+  const double scale =
+      std::max({stored.throughput, std::abs(at_start), gained.throughput, dissipated.throughput});
+  result.relative_error = result.error == 0.0 ? 0.0 : std::abs(result.error) / scale;
+  return result;
+}
+
+}  // namespace
+
+void Ledger::start() {
+  mass_at_start_ = total(modules_, PortRole::mass_stored).sum;
+  energy_at_start_ = total(modules_, PortRole::energy_stored).sum;
+}
+
+std::optional<Balance> Ledger::mass() const {
+  const Total stored = total(modules_, PortRole::mass_stored);
+  if (stored.ports == 0) return std::nullopt;
+  return balance(stored, mass_at_start_, total(modules_, PortRole::mass_gained), {});
+}
+
+std::optional<Balance> Ledger::energy() const {
+  const Total stored = total(modules_, PortRole::energy_stored);
+  if (stored.ports == 0) return std::nullopt;
+  return balance(stored, energy_at_start_, total(modules_, PortRole::energy_gained),
+                 total(modules_, PortRole::energy_dissipated));
+}
+
+std::vector<LedgerColumn> Ledger::columns() const {
+  std::vector<LedgerColumn> columns;
+  if (const auto mass = this->mass()) {
+    const std::string unit = total(modules_, PortRole::mass_stored).unit;
+    columns.push_back({"fluid_mass_stored", unit, mass->stored});
+    columns.push_back({"fluid_mass_gained", unit, mass->gained});
+    columns.push_back({"fluid_mass_error", "1", mass->relative_error});
+  }
+  if (const auto energy = this->energy()) {
+    const std::string unit = total(modules_, PortRole::energy_stored).unit;
+    columns.push_back({"energy_stored", unit, energy->stored});
+    columns.push_back({"energy_gained", unit, energy->gained});
+    columns.push_back({"energy_dissipated", unit, energy->dissipated});
+    columns.push_back({"energy_error", "1", energy->relative_error});
+  }
+  return columns;
+}
+
+void Ledger::visit_state(StateVisitor& visitor) {
+  visitor.visit("mass_at_start", mass_at_start_);
+  visitor.visit("energy_at_start", energy_at_start_);
+}
+
+}  // namespace perifrac

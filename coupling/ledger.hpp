@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/state/state_visitor.hpp"
+#include "coupling/module_slot.hpp"
+
+namespace perifrac {
+
+/// One conserved quantity over all modules, since the start: stored - stored at the start =
+/// gained - dissipated, up to `error`.
+struct Balance {
+  double stored = 0.0;
+  double gained = 0.0;
+  double dissipated = 0.0;
+  double error = 0.0;           ///< what is there beyond what should be
+  double relative_error = 0.0;  ///< |error| / the largest of what was and is stored and what passed
+};
+
+/// A column of history.csv.
+struct LedgerColumn {
+  std::string name;
+  std::string unit;
+  double value;
+};
+
+/// Adds up what modules say on their ports of the roles mass_* and energy_*. A quantity that no
+/// module stores has no balance and no columns.
+class Ledger {
+ public:
+  explicit Ledger(std::span<ModuleSlot> modules) : modules_(modules) {}
+
+  /// What is stored now is the start.
+  void start();
+
+  std::optional<Balance> mass() const;    ///< of fluid [kg; in 2D kg/m]
+  std::optional<Balance> energy() const;  ///< [J; in 2D J/m]
+
+  /// Always the same names in the same order for the same modules.
+  std::vector<LedgerColumn> columns() const;
+
+  void visit_state(StateVisitor& visitor);
+
+ private:
+  std::span<ModuleSlot> modules_;
+  double mass_at_start_ = 0.0;
+  double energy_at_start_ = 0.0;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,173 @@
+#include "coupling/link.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace perifrac {
+namespace {
+
+// Plain left-to-right sums: the same bits wherever the array lies and however many threads run.
+double norm(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+double Link::Mismatch::relative() const {
+  if (absolute == 0.0) return 0.0;
+  return scale > 0.0 ? absolute / scale : std::numeric_limits<double>::infinity();
+}
+
+Link::Link(LinkEnd source, LinkEnd target, bool lagged)
+    : name_(source.module->ports()[source.port].name),
+      kind_(source.module->ports()[source.port].kind),
+      source_(std::move(source)),
+      target_(std::move(target)),
+      lagged_(lagged),
+      mapping_(kind_) {}
+
+std::string Link::path() const {
+  return fmt::format("{}.{} -> {}", source_.module_name, name_, target_.module_name);
+}
+
+void Link::start() {
+  read_source(reached_);
+  find_rates(0.0);
+  accept();
+}
+
+void Link::predict(double length) {
+  // The source stands where the last window left it, though its points may have a new version.
+  accepted_.points = freeze(*source_.module->port(source_.port).points, accepted_.points);
+  read_slope();
+  form_value(accepted_);
+  if (kind_ == PortKind::extensive) {
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+      rate_[i] = length > 0.0 ? value_[i] / length : 0.0;
+    }
+  } else {
+    for (std::size_t i = 0; i < value_.size(); ++i) value_[i] += rate_[i] * length;
+  }
+}
+
+void Link::deliver() {
+  const PortView input = target_.module->port(target_.port);
+  const std::size_t components = target_.module->ports()[target_.port].components;
+  if (value_.size() != components * sent_points_->set().count ||
+      input.value.size() != components * input.points->count) {
+    throw std::logic_error(fmt::format("{}: values and points differ in number", path()));
+  }
+  mapping_.update(sent_points_->set(), *input.points);
+  mapping_.apply(value_, input.value);
+  if (!input.rate.empty()) mapping_.apply(rate_, input.rate);
+  if (uses_slope()) {
+    mapping_.apply(slope_, input.slope);
+  } else {
+    std::fill(input.slope.begin(), input.slope.end(), 0.0);
+  }
+}
+
+void Link::collect(double length) {
+  std::swap(used_, value_);
+  read_source(reached_);
+  find_rates(length);
+  read_slope();
+  if (lagged_ && !sent_points_->set().same_points(reached_.points->set())) {
+    Mapping moved(kind_);
+    moved.update(sent_points_->set(), reached_.points->set());
+    std::vector<double> mapped(reached_.output.size());
+    moved.apply(used_, mapped);
+    used_ = std::move(mapped);
+  }
+  form_value(reached_);
+  if (lagged_) compare();
+}
+
+void Link::relax(std::span<const double> value, double length) {
+  for (std::size_t i = 0; i < value_.size(); ++i) {
+    if (length > 0.0) rate_[i] += (value[i] - value_[i]) / length;
+    value_[i] = value[i];
+  }
+}
+
+void Link::visit_state(StateVisitor& visitor) {
+  visitor.enter(fmt::format("{}.{}.{}", source_.module_name, name_, target_.module_name));
+  visitor.visit("output", accepted_.output);
+  visitor.visit("output_rate", accepted_.output_rate);
+  visitor.visit("counter", accepted_.counter);
+  visitor.visit("counter_rate", accepted_.counter_rate);
+  visitor.leave();
+}
+
+void Link::read_source(Sample& sample) {
+  const PortView out = source_.module->port(source_.port);
+  sample.points = freeze(*out.points, sample.points);
+  sample.output.assign(out.value.begin(), out.value.end());
+  if (!uses_slope()) return;
+  const PortView in = source_.module->port(*counter_);
+  sample.counter.assign(in.value.begin(), in.value.end());
+  if (sample.counter.size() != sample.output.size()) {
+    throw std::logic_error(fmt::format("{}: the slope's two ports differ in size", path()));
+  }
+  for (std::size_t i = 0; i < in.slope.size(); ++i) {
+    sample.counter[i] += in.slope[i] * sample.output[i];
+  }
+}
+
+void Link::read_slope() {
+  if (!uses_slope()) return;
+  const PortView out = source_.module->port(source_.port);
+  slope_.assign(out.slope.begin(), out.slope.end());
+}
+
+void Link::find_rates(double length) {
+  rate_since(reached_.output, accepted_.output, length, reached_.output_rate);
+  rate_since(reached_.counter, accepted_.counter, length, reached_.counter_rate);
+}
+
+void Link::rate_since(const std::vector<double>& now, const std::vector<double>& before,
+                      double length, std::vector<double>& rate) const {
+  rate.assign(now.size(), 0.0);
+  if (length <= 0.0 || now.empty()) return;
+  std::vector<double> mapped;
+  const std::vector<double>* begin = &before;
+  if (kind_ == PortKind::extensive) {
+    mapped.assign(now.size(), 0.0);  // a total over the window grows from nothing
+    begin = &mapped;
+  } else if (!accepted_.points->set().same_points(reached_.points->set())) {
+    mapped.resize(now.size());
+    Mapping moved(kind_);
+    moved.update(accepted_.points->set(), reached_.points->set());
+    moved.apply(before, mapped);
+    begin = &mapped;
+  }
+  for (std::size_t i = 0; i < now.size(); ++i) rate[i] = (now[i] - (*begin)[i]) / length;
+}
+
+void Link::form_value(const Sample& sample) {
+  sent_points_ = sample.points;
+  value_ = sample.output;
+  rate_ = sample.output_rate;
+  for (std::size_t i = 0; i < sample.counter.size(); ++i) {
+    value_[i] -= slope_[i] * sample.counter[i];
+    rate_[i] -= slope_[i] * sample.counter_rate[i];
+  }
+}
+
+void Link::compare() {
+  std::vector<double> difference(value_.size());
+  for (std::size_t i = 0; i < value_.size(); ++i) difference[i] = value_[i] - used_[i];
+  mismatch_.absolute = norm(difference);
+  mismatch_.scale = norm(reached_.output);
+  if (!uses_slope()) return;
+  for (std::size_t i = 0; i < value_.size(); ++i) difference[i] = slope_[i] * reached_.counter[i];
+  mismatch_.scale = std::max(mismatch_.scale, norm(difference));
+}
+
+}  // namespace perifrac

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/module/physics_module.hpp"
+#include "coupling/frozen_points.hpp"
+#include "coupling/mapping.hpp"
+
+namespace perifrac {
+
+/// One end of a link.
+struct LinkEnd {
+  std::string module_name;
+  PhysicsModule* module;
+  PortId port;
+};
+
+/// One exchange in one direction: reads an out-port, writes the in-port of the same name.
+///
+/// The out-port's module (the source) may itself depend within the window on what it receives:
+/// its `slope` s = d(output)/d(x), x being the quantity on its coupled in-port (the counter). The
+/// link then sends the intercept c = output - s x*, with x* what the source saw when it gave that
+/// output, and its rate; the target adds s x with its own x, and where both agree it sees the
+/// output itself. This is the fixed-stress split, written for any pair. Without slope c is the
+/// output.
+///
+/// A link is lagged where its source comes after its target in the order of advancing: the target
+/// then starts on a prediction. An intensive value is extrapolated with the rate of the last
+/// window, so that one pass is second order in the window. An extensive one is the total of the
+/// last window: late, but in one-pass nothing of it is lost.
+///
+/// All that is held lies on the source's points and is mapped when delivered, so either end may
+/// insert, remove or reorder points at any time.
+class Link {
+ public:
+  /// ||used - answered|| of the value sent, and the size it is to be compared with: the larger of
+  /// ||output|| and ||s x||, since c itself may cancel.
+  struct Mismatch {
+    double absolute = 0.0;
+    double scale = 0.0;
+    double relative() const;
+  };
+
+  Link(LinkEnd source, LinkEnd target, bool lagged);
+
+  const std::string& name() const { return name_; }
+  std::string path() const;  ///< `solid.dilatation -> pore_flow`, for people
+  const LinkEnd& source() const { return source_; }
+  const LinkEnd& target() const { return target_; }
+  bool lagged() const { return lagged_; }
+
+  /// Send intercept and slope from now on; `counter` is the source's in-port that its slope
+  /// refers to.
+  void use_slope(PortId counter) { counter_ = counter; }
+  bool uses_slope() const { return counter_.has_value(); }
+
+  /// Reads the source as it stands, at rest: the first exchange, before any window.
+  void start();
+
+  /// Readies what a window of `length` [s] begins with. Any prediction of an earlier attempt at
+  /// that window is forgotten.
+  void predict(double length);
+
+  /// Maps what is to be sent to the target's present points and writes its in-port.
+  void deliver();
+
+  /// Reads the source at the end of a window of `length` [s] and compares with what was sent.
+  void collect(double length);
+  const Mismatch& mismatch() const { return mismatch_; }
+
+  /// What the target was sent in this pass, and what it would be sent now: on the source's points.
+  std::span<const double> used() const { return used_; }
+  std::span<const double> answer() const { return value_; }
+  /// Sends `value` in place of the answer in the next pass of this window, of `length` > 0 or 0
+  /// [s].
+  void relax(std::span<const double> value, double length);
+
+  /// The window stands: what was collected is what the next one begins with.
+  void accept() { std::swap(accepted_, reached_); }
+
+  /// The fields that the next window depends on.
+  void visit_state(StateVisitor& visitor);
+
+ private:
+  struct Sample {
+    SharedPoints points;
+    std::vector<double> output;
+    std::vector<double> output_rate;
+    std::vector<double> counter;  ///< x*, empty without slope
+    std::vector<double> counter_rate;
+  };
+
+  void read_source(Sample& sample);
+  void read_slope();
+  void find_rates(double length);
+  void rate_since(const std::vector<double>& now, const std::vector<double>& before, double length,
+                  std::vector<double>& rate) const;
+  void form_value(const Sample& sample);
+  void compare();
+
+  std::string name_;
+  PortKind kind_;
+  LinkEnd source_;
+  LinkEnd target_;
+  bool lagged_;
+  std::optional<PortId> counter_;
+
+  Sample accepted_;
+  Sample reached_;
+
+  SharedPoints sent_points_;
+  std::vector<double> value_;
+  std::vector<double> rate_;
+  std::vector<double> slope_;
+  std::vector<double> used_;
+  Mismatch mismatch_;
+
+  Mapping mapping_;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,90 @@
+#include "coupling/manager.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "coupling/connect.hpp"
+
+namespace perifrac {
+namespace {
+
+/// A window of no length is cheap and rare, and its error would stay in all that follows.
+constexpr Iterations settling{.max = 500, .tolerance = 1e-10};
+
+}  // namespace
+
+CouplingManager::CouplingManager(std::vector<ModuleSlot> modules, const CouplingOptions& options)
+    : options_(options),
+      modules_(std::move(modules)),
+      ledger_(modules_),
+      schedule_(options.first_window, options.window_growth, options.largest_window) {}
+
+void CouplingManager::initialize(double t) {
+  for (ModuleSlot& slot : modules_) slot.module->initialize(t);
+  links_ = connect(modules_, options_.split);
+  for (Link& link : links_) link.start();
+  solver_ = std::make_unique<WindowSolver>(modules_, links_, options_.acceleration);
+  ledger_.start();
+  time_ = t;
+  step_ = 0;
+}
+
+std::vector<std::string> CouplingManager::warnings() const {
+  std::vector<std::string> warnings;
+  if (options_.split != Split::drained) return warnings;
+  // Plain iteration multiplies an error by the strength s in each pass. One pass a window, on
+  // linearly extrapolated inputs, multiplies it by the roots of r^2 + 2 s r - s = 0, of which one
+  // leaves the unit circle at s = 1/3.
+  const bool one_pass = options_.max_iterations == 1;
+  const double limit = one_pass ? 1.0 / 3.0 : 1.0;
+  for (const CoupledPair& pair : coupled_pairs(links_)) {
+    const Link& first = links_[pair.first];
+    const Link& second = links_[pair.second];
+    const double strength = coupling_strength(first, second);
+    if (strength < limit) continue;
+    warnings.push_back(fmt::format(
+        "split `drained` is likely to diverge: the coupling strength of {} and {} is {:.3g}, and "
+        "{} grows where that exceeds {:.3g}; choose `split: fixed_stress`",
+        first.path(), second.path(), strength,
+        one_pass ? "over one-pass windows an error" : "from pass to pass an error", limit));
+  }
+  return warnings;
+}
+
+void CouplingManager::settle() {
+  solver_->solve({time_, time_}, settling);
+  schedule_.start_over();
+}
+
+double CouplingManager::advance(double stop) {
+  const double end = schedule_.end(time_, stop, stable_time_step());
+  time_ = solver_->solve({time_, end}, {options_.max_iterations, options_.tolerance});
+  ++step_;
+  if (time_ == end) schedule_.grow();
+  return time_;
+}
+
+void CouplingManager::restart_point() {
+  for (ModuleSlot& slot : modules_) slot.module->on_restored(time_);
+}
+
+void CouplingManager::visit_state(StateVisitor& visitor) {
+  visit_modules(modules_, visitor);
+  visitor.enter("coupling");
+  visitor.visit("time", time_);
+  visitor.visit("step", step_);
+  schedule_.visit_state(visitor);
+  ledger_.visit_state(visitor);
+  for (Link& link : links_) link.visit_state(visitor);
+  visitor.leave();
+}
+
+double CouplingManager::stable_time_step() const {
+  double step = std::numeric_limits<double>::infinity();
+  for (const ModuleSlot& slot : modules_) step = std::min(step, slot.module->stable_time_step());
+  return step;
+}
+
+}  // namespace perifrac

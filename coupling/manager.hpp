@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/state/state_visitor.hpp"
+#include "coupling/coupling_options.hpp"
+#include "coupling/ledger.hpp"
+#include "coupling/link.hpp"
+#include "coupling/module_slot.hpp"
+#include "coupling/window_schedule.hpp"
+#include "coupling/window_solver.hpp"
+
+namespace perifrac {
+
+/// Owns the modules and moves them through time together. Use: initialize, warnings, settle, then
+/// advance until the end; to restart: initialize, visit_state with what was saved, restart_point.
+class CouplingManager {
+ public:
+  /// `modules` in the order in which they advance within a window, each of another name.
+  CouplingManager(std::vector<ModuleSlot> modules, const CouplingOptions& options);
+  CouplingManager(const CouplingManager&) = delete;  // links point at the modules
+  CouplingManager& operator=(const CouplingManager&) = delete;
+
+  /// Initialises every module at time `t` [s] and connects their ports.
+  /// Throws std::logic_error where ports do not fit.
+  void initialize(double t);
+
+  /// What will probably fail, one sentence each, from the state as initialised.
+  std::vector<std::string> warnings() const;
+
+  /// The instant answer to a load that came on suddenly: a window of no length, iterated until the
+  /// modules agree whatever the scene's iterations. Windows start over from the first.
+  /// Throws NumericalError.
+  void settle();
+
+  /// Advances over one window, not past `stop` [s]; returns the time reached. Throws
+  /// NumericalError.
+  double advance(double stop);
+
+  /// From here a run that was saved now, and restored, goes on bit for bit as this one does: both
+  /// call this after saving or restoring. Every module drops what it derived from the past; inputs,
+  /// which are no one's state, are written again by the next window.
+  void restart_point();
+
+  /// All modules' fields as `<module>/<field>` and the manager's own as `coupling/<field>`.
+  void visit_state(StateVisitor& visitor);
+
+  double time() const { return time_; }        ///< [s]
+  std::int64_t step() const { return step_; }  ///< windows since the start, restarts included
+  std::span<const ModuleSlot> modules() const { return modules_; }
+  std::span<const Link> links() const { return links_; }
+  const Ledger& ledger() const { return ledger_; }
+  const CouplingWork& work() const { return solver_->work(); }
+
+ private:
+  double stable_time_step() const;
+
+  CouplingOptions options_;
+  std::vector<ModuleSlot> modules_;
+  std::vector<Link> links_;
+  Ledger ledger_;
+  WindowSchedule schedule_;
+  std::unique_ptr<WindowSolver> solver_;  ///< once the links are known
+  double time_ = 0.0;
+  std::int64_t step_ = 0;
+};
+
+}  // namespace perifrac

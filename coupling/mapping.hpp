@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/module/point_set.hpp"
+#include "core/module/port.hpp"
+
+namespace perifrac {
+
+/// Carries the values of an out-port to the points of an in-port. Which mapping suits what:
+///
+/// | points                    | intensive (pressure, dilatation)     | extensive (impulse, mass) |
+/// |---------------------------|--------------------------------------|----------------------------|
+/// | the same set and version  | identity                             | identity | | two sets |
+/// consistent: each target point takes  | conservative: each source  | | | the value of the nearest
+/// source, so  | point gives its total to   | |                           | a constant stays that
+/// constant       | the nearest target, so the | |                           | | sum stays | | one
+/// value without a place | as source only: every target takes it| as target only: the sum    |
+///
+/// The conservative mapping is the transpose of the consistent one from target to source. Of
+/// points equally near, the one of lowest index is taken.
+class Mapping {
+ public:
+  explicit Mapping(PortKind kind) : kind_(kind) {}
+
+  /// Rebuilds where either set, or its version, is another than last time.
+  /// Throws std::logic_error where the table above has no entry or the dimensions differ.
+  void update(const PointSet& source, const PointSet& target);
+
+  /// `source` and `target` hold components * count values, component by component.
+  void apply(std::span<const double> source, std::span<double> target) const;
+
+  bool is_identity() const { return identity_; }
+
+ private:
+  struct Key {
+    std::string name;
+    std::uint64_t version = 0;
+    std::size_t count = 0;
+    bool operator==(const Key&) const = default;
+  };
+  static Key key(const PointSet& points) { return {points.name, points.version, points.count}; }
+
+  PortKind kind_;
+  bool identity_ = true;
+  Key source_;
+  Key target_;
+  /// Intensive: the source point that each target point reads; extensive: the target point that
+  /// each source point adds to.
+  std::vector<std::size_t> nearest_;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,185 @@
+#include "coupling/window_solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+
+namespace perifrac {
+namespace {
+
+/// Tells a mismatch that grows for good from one that an acceleration swings, or that wanders at
+/// the level of the integrators' own tolerance.
+class GrowthWatch {
+ public:
+  bool is_diverging(double mismatch) {
+    if (first_ < 0.0) first_ = mismatch;
+    rises_ = mismatch > last_ ? rises_ + 1 : 0;
+    last_ = mismatch;
+    return (rises_ >= 5 && mismatch > first_) || !std::isfinite(mismatch);
+  }
+
+ private:
+  double first_ = -1.0;
+  double last_ = std::numeric_limits<double>::infinity();
+  int rises_ = 0;
+};
+
+/// An event that moves back this often in one window is no event that a window can end at.
+constexpr int most_redos = 50;
+
+}  // namespace
+
+WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
+                           AccelerationType acceleration)
+    : modules_(modules), links_(links), acceleration_(make_acceleration(acceleration)) {}
+
+double WindowSolver::solve(const TimeWindow& window, const Iterations& iterations) {
+  const bool alone = modules_.size() == 1;
+  if (!alone) begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
+
+  TimeWindow tried = window;
+  double reached = iterate(tried, iterations);
+  for (int redone = 0; reached < tried.end && !alone; ++redone) {
+    if (redone == most_redos)
+      fail(reached, redone, "finds an earlier event each time the window is redone");
+    go_back(tried.begin);
+    tried.end = reached;
+    reached = iterate(tried, iterations);
+  }
+  if (reached < window.end) ++work_.events;
+  for (Link& link : links_) link.accept();
+  ++work_.windows;
+  return reached;
+}
+
+double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterations) {
+  for (Link& link : links_) link.predict(window.length());
+  acceleration_->reset();
+  GrowthWatch watch;
+  for (int passes = 1;; ++passes) {
+    const double reached = pass(window);
+    if (reached < window.end || iterations.max == 1 || has_converged(iterations.tolerance)) {
+      return reached;
+    }
+    if (passes == 1) weigh_links();
+    if (watch.is_diverging(weighted_mismatch())) fail(window.end, passes, "diverges");
+    if (passes == iterations.max) fail(window.end, passes, "does not converge");
+    accelerate(window.length());
+    go_back(window.begin);
+  }
+}
+
+double WindowSolver::pass(const TimeWindow& window) {
+  ++work_.passes;
+  for (ModuleSlot& slot : modules_) {
+    for (Link& link : links_) {
+      if (link.target().module == slot.module.get()) link.deliver();
+    }
+    const double reached = advance(slot, window);
+    if (reached < window.end) return reached;
+    for (Link& link : links_) {
+      if (link.source().module == slot.module.get()) link.collect(window.length());
+    }
+  }
+  return window.end;
+}
+
+double WindowSolver::advance(ModuleSlot& slot, const TimeWindow& window) {
+  const auto start = std::chrono::steady_clock::now();
+  const double reached = slot.module->advance(window);
+  slot.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  ++slot.advances;
+  const bool moved = reached > window.begin || window.length() == 0.0;
+  if (!moved || !(reached >= window.begin && reached <= window.end)) {
+    throw NumericalError(
+        "time", slot.name, window.begin,
+        fmt::format("asked for t = {:.6g} s, the module reached {:.6g} s", window.end, reached));
+  }
+  return reached;
+}
+
+void WindowSolver::go_back(double t) {
+  begin_.restore([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
+  for (ModuleSlot& slot : modules_) slot.module->on_restored(t);
+}
+
+bool WindowSolver::has_converged(double tolerance) const {
+  for (const Link& link : links_) {
+    if (link.lagged() && !(link.mismatch().relative() <= tolerance)) return false;
+  }
+  return true;
+}
+
+void WindowSolver::weigh_links() {
+  weights_.clear();
+  for (const Link& link : links_) {
+    const double size = std::max(link.mismatch().scale, link.mismatch().absolute);
+    weights_.push_back(size > 0.0 ? 1.0 / size : 1.0);
+  }
+}
+
+double WindowSolver::weighted_mismatch() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const double mismatch = weights_[i] * links_[i].mismatch().absolute;
+    if (links_[i].lagged()) sum += mismatch * mismatch;
+  }
+  return std::sqrt(sum);
+}
+
+void WindowSolver::accelerate(double length) {
+  Eigen::Index size = 0;
+  for (const Link& link : links_) {
+    if (link.lagged()) size += static_cast<Eigen::Index>(link.answer().size());
+  }
+  if (size != accelerated_size_) acceleration_->reset();  // a module has inserted points
+  accelerated_size_ = size;
+
+  Eigen::VectorXd used(size);
+  Eigen::VectorXd answer(size);
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (!links_[i].lagged()) continue;
+    for (std::size_t j = 0; j < links_[i].answer().size(); ++j, ++at) {
+      used[at] = weights_[i] * links_[i].used()[j];
+      answer[at] = weights_[i] * links_[i].answer()[j];
+    }
+  }
+  const Eigen::VectorXd next = acceleration_->next(used, answer);
+  at = 0;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (!links_[i].lagged()) continue;
+    values.resize(links_[i].answer().size());
+    for (double& value : values) value = next[at++] / weights_[i];
+    links_[i].relax(values, length);
+  }
+}
+
+void WindowSolver::fail(double t, int passes, const char* problem) const {
+  const Link* worst = nullptr;
+  for (const Link& link : links_) {
+    if (!link.lagged()) continue;
+    if (!worst || !(link.mismatch().relative() <= worst->mismatch().relative())) worst = &link;
+  }
+  std::string strength;
+  for (const CoupledPair& pair : coupled_pairs(links_)) {
+    const Link& first = links_[pair.first];
+    const Link& second = links_[pair.second];
+    if (&first == worst || &second == worst) {
+      strength = fmt::format(", coupling strength {:.3g}", coupling_strength(first, second));
+    }
+  }
+  throw NumericalError(
+      worst ? worst->name() : "time", worst ? worst->path() : "the modules", t,
+      fmt::format("the coupling {} ({} tries, relative mismatch {:.2e}{})", problem, passes,
+                  worst ? worst->mismatch().relative() : 0.0, strength));
+}
+
+}  // namespace perifrac

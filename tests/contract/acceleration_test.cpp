@@ -1,0 +1,103 @@
+#include "coupling/acceleration.hpp"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+namespace perifrac {
+namespace {
+
+/// answer(y) = matrix y + offset, with the eigenvalues given and no symmetry.
+struct LinearProblem {
+  explicit LinearProblem(const Eigen::VectorXd& eigenvalues) {
+    const Eigen::Index n = eigenvalues.size();
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = i + 1; j < n; ++j) basis(i, j) = 0.3 / static_cast<double>(1 + i + j);
+    }
+    matrix = basis * eigenvalues.asDiagonal() * basis.inverse();
+    offset = Eigen::VectorXd::LinSpaced(n, 1.0, 2.0);
+    solution = (Eigen::MatrixXd::Identity(n, n) - matrix).partialPivLu().solve(offset);
+  }
+
+  /// Answers asked for until the residual has fallen by `tolerance`; 1000 if it never does.
+  int solve(Acceleration& acceleration, double tolerance) const {
+    acceleration.reset();
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(offset.size());
+    for (int asked = 1; asked < 1000; ++asked) {
+      const Eigen::VectorXd answer = matrix * y + offset;
+      if ((answer - y).norm() <= tolerance * offset.norm()) {
+        EXPECT_LT((y - solution).norm(), 1e3 * tolerance * solution.norm());
+        return asked;
+      }
+      y = acceleration.next(y, answer);
+    }
+    return 1000;
+  }
+
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd offset;
+  Eigen::VectorXd solution;
+};
+
+TEST(Acceleration, AndersonSolvesAnMDimensionalLinearProblemInMPlusOneSteps) {
+  for (int m = 1; m <= anderson_depth; ++m) {
+    // Plain iteration diverges: the eigenvalues reach beyond -1.
+    const LinearProblem problem(Eigen::VectorXd::LinSpaced(m, -3.0, -0.5));
+    const auto anderson = make_acceleration(AccelerationType::anderson);
+    // m + 1 steps, and one more answer to see that they did it.
+    EXPECT_LE(problem.solve(*anderson, 1e-9), m + 2) << m;
+  }
+}
+
+TEST(Acceleration, AndersonWithstandsStepsThatDependOnEachOther) {
+  // Two distinct eigenvalues among twelve: from the third step on the history says nothing new.
+  Eigen::VectorXd eigenvalues = Eigen::VectorXd::Constant(12, 0.9);
+  eigenvalues.tail(6).setConstant(-0.9);
+  const LinearProblem problem(eigenvalues);
+  const auto anderson = make_acceleration(AccelerationType::anderson);
+  EXPECT_LE(problem.solve(*anderson, 1e-12), 6);
+}
+
+TEST(Acceleration, AndersonStaysWhereItConvergedThoughAllStepsAreNoise) {
+  const LinearProblem problem(Eigen::VectorXd::LinSpaced(12, -0.02, 0.02));
+  const auto anderson = make_acceleration(AccelerationType::anderson);
+  anderson->reset();
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(12);
+  for (int asked = 1; asked <= 60; ++asked) {
+    Eigen::VectorXd answer = problem.matrix * y + problem.offset;
+    for (Eigen::Index i = 0; i < 12; ++i) answer[i] += 1e-12 * std::sin(7.0 * asked + 3.0 * i);
+    if (asked > 20) {
+      ASSERT_LT((answer - y).norm(), 1e-11) << asked;
+    }
+    y = anderson->next(y, answer);
+  }
+  EXPECT_LT((y - problem.solution).norm(), 1e-10);
+}
+
+TEST(Acceleration, AitkenIsExactForOneNumberAndTamesDivergence) {
+  const auto aitken = make_acceleration(AccelerationType::aitken);
+  EXPECT_LE(LinearProblem(Eigen::VectorXd::Constant(1, -4.0)).solve(*aitken, 1e-12), 4);
+  EXPECT_LE(LinearProblem(Eigen::VectorXd::Constant(7, -1.5)).solve(*aitken, 1e-12), 4);
+}
+
+TEST(Acceleration, NoneTriesTheAnswer) {
+  const LinearProblem problem(Eigen::VectorXd::Constant(2, 0.5));
+  const auto none = make_acceleration(AccelerationType::none);
+  // Each pass halves the residual: 2^-30 < 1e-9 < 2^-29.
+  EXPECT_EQ(problem.solve(*none, 1e-9), 31);
+}
+
+TEST(Acceleration, AFixedPointStaysPut) {
+  for (const auto type :
+       {AccelerationType::none, AccelerationType::aitken, AccelerationType::anderson}) {
+    const auto acceleration = make_acceleration(type);
+    acceleration->reset();
+    const Eigen::VectorXd y = Eigen::VectorXd::Constant(3, 2.0);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(acceleration->next(y, y), y);
+  }
+}
+
+}  // namespace
+}  // namespace perifrac

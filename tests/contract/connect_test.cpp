@@ -1,0 +1,83 @@
+#include "coupling/connect.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/contract/fake_modules.hpp"
+
+namespace perifrac {
+namespace {
+
+const PointSet point{.name = "point"};
+
+std::vector<ModuleSlot> bare(std::vector<std::vector<Port>> ports, bool sloped = false) {
+  std::vector<ModuleSlot> modules;
+  for (auto& list : ports) {
+    modules.push_back({std::string(1, static_cast<char>('a' + modules.size())),
+                       std::make_unique<fake::Socket>(std::move(list), &point, sloped)});
+  }
+  return modules;
+}
+
+const Port heat_in{"heat", "J", PortDirection::in};
+const Port heat_out{"heat", "J", PortDirection::out};
+
+TEST(Connect, LinksPortsOfOneNameAndLeavesTheOthers) {
+  auto modules = bare({{heat_in, {"pressure", "Pa", PortDirection::in}},
+                       {{"speed", "m/s", PortDirection::out}, heat_out}});
+  const auto links = connect(modules, Split::fixed_stress);
+  ASSERT_EQ(links.size(), 1u);
+  EXPECT_EQ(links[0].path(), "b.heat -> a");
+  EXPECT_TRUE(links[0].lagged()) << "b advances after a";
+}
+
+TEST(Connect, OneOutPortFeedsManyInPorts) {
+  auto modules = bare({{heat_out}, {heat_in}, {heat_in}});
+  EXPECT_EQ(connect(modules, Split::drained).size(), 2u);
+}
+
+TEST(Connect, RefusesTwoWriters) {
+  auto modules = bare({{heat_in}, {heat_out}, {heat_out}});
+  EXPECT_THROW(connect(modules, Split::drained), std::logic_error);
+}
+
+TEST(Connect, RefusesPortsThatDoNotFit) {
+  const std::vector<Port> misfits = {
+      {"heat", "kJ", PortDirection::out},
+      {"heat", "J", PortDirection::out, PortKind::extensive},
+      {"heat", "J", PortDirection::out, PortKind::intensive, PortRole::field, 2}};
+  for (const Port& misfit : misfits) {
+    auto modules = bare({{heat_in}, {misfit}});
+    EXPECT_THROW(connect(modules, Split::drained), std::logic_error);
+  }
+}
+
+TEST(Connect, OnlyFixedStressSendsSlopes) {
+  const std::vector<Port> one = {{"p", "Pa", PortDirection::in},
+                                 {"theta", "1", PortDirection::out}};
+  const std::vector<Port> two = {{"p", "Pa", PortDirection::out},
+                                 {"theta", "1", PortDirection::in}};
+  auto modules = bare({one, two}, true);
+  for (const Link& link : connect(modules, Split::fixed_stress)) EXPECT_TRUE(link.uses_slope());
+  const auto drained = connect(modules, Split::drained);
+  for (const Link& link : drained) EXPECT_FALSE(link.uses_slope());
+  ASSERT_EQ(coupled_pairs(drained).size(), 1u);
+  EXPECT_EQ(coupling_strength(drained[0], drained[1]), 1.0);
+
+  auto without = bare({one, two}, false);
+  for (const Link& link : connect(without, Split::fixed_stress)) EXPECT_FALSE(link.uses_slope());
+}
+
+TEST(Connect, RefusesASlopeThatCouldReferToTwoPorts) {
+  auto modules = bare({{{"p", "Pa", PortDirection::in},
+                        {"q", "Pa", PortDirection::in},
+                        {"theta", "1", PortDirection::out}},
+                       {{"p", "Pa", PortDirection::out},
+                        {"q", "Pa", PortDirection::out},
+                        {"theta", "1", PortDirection::in}}},
+                      true);
+  EXPECT_THROW(connect(modules, Split::fixed_stress), std::logic_error);
+}
+
+}  // namespace
+}  // namespace perifrac
