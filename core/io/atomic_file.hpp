@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace perifrac {
+
+/// What a file that is being written is called: this is added to its name.
+inline constexpr std::string_view temporary_suffix = ".tmp";
+
+/// Writes a file so that at any moment, a crash included, `target` is the old file or the whole
+/// new one: the content goes to a temporary name in the same folder, is brought to the disk and
+/// then renamed. Throws OutputError; `target` is then as it was and the temporary gone.
+void write_atomically(const std::filesystem::path& target, std::string_view content);
+
+}  // namespace perifrac

@@ -1,0 +1,141 @@
+#include "core/io/checkpoint.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/io/hdf5.hpp"
+
+namespace perifrac {
+namespace {
+
+// The seal is a text in front of the HDF5 file (its user block: HDF5 looks for its own beginning at
+// 0, 512, 1024, ...). It is checked before HDF5 sees the file, which may crash on a damaged one.
+constexpr std::size_t seal_size = 512;
+constexpr std::string_view seal_title = "perifrac checkpoint, format 1\n";
+
+/// The seal that belongs to the rest of the file.
+std::string make_seal(std::string_view content) {
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a, 64 bits
+  for (const char byte : content) {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  }
+  std::string seal = fmt::format("{}{} bytes, FNV-1a {:016x}\n", seal_title, content.size(), hash);
+  seal.resize(seal_size, '\0');
+  return seal;
+}
+
+void check_seal(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw InputError(fmt::format("{}: cannot be read: {}; expected a checkpoint_*.h5 of a run",
+                                 path.string(), std::strerror(errno)));
+  }
+  std::ostringstream copy;
+  copy << file.rdbuf();
+  const std::string bytes = copy.str();
+  if (!bytes.starts_with(seal_title)) {
+    throw InputError(path.string() +
+                     ": not a checkpoint that this version can read; expected a checkpoint_*.h5 "
+                     "that perifrac wrote");
+  }
+  const auto content = std::string_view(bytes).substr(std::min(seal_size, bytes.size()));
+  if (!bytes.starts_with(make_seal(content))) {
+    throw InputError(path.string() +
+                     ": the checkpoint is damaged or cut short; its checksum must match; restart "
+                     "from the other checkpoint_*.h5 of the run");
+  }
+}
+
+std::string make_file(const Checkpoint& checkpoint) {
+  Hdf5Writer file;
+  file.write<double>("time", std::array{checkpoint.time});
+  file.write<std::int64_t>("step", std::array{checkpoint.step});
+  file.write_text("scene", checkpoint.scene);
+  file.write_text("version", checkpoint.version);
+  file.create_group("state");
+  for (const auto& [name, values] : checkpoint.state.fields()) {
+    std::visit([&](const auto& array) { file.write("state/" + name, std::span(array)); }, values);
+  }
+  const std::string content = file.bytes();
+  return make_seal(content) + content;
+}
+
+/// The step in the name of a checkpoint; nothing for any other name.
+std::optional<std::int64_t> step_of(const std::filesystem::path& path) {
+  constexpr std::string_view begin = "checkpoint_";
+  constexpr std::string_view end = ".h5";
+  const std::string name = path.filename();
+  if (!name.starts_with(begin) || !name.ends_with(end) ||
+      name.size() <= begin.size() + end.size()) {
+    return {};
+  }
+  std::int64_t step = 0;
+  const char* last = name.data() + name.size() - end.size();
+  const auto [stop, error] = std::from_chars(name.data() + begin.size(), last, step);
+  return stop == last && error == std::errc{} ? std::optional(step) : std::nullopt;
+}
+
+void remove_older(const std::filesystem::path& folder, std::int64_t step) {
+  std::vector<std::filesystem::path> others;
+  std::filesystem::path previous;
+  std::int64_t previous_step = -1;
+  std::error_code ignored;  // one file too many does no harm
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const auto other = step_of(entry.path());
+    if (!other || other == step) {
+      continue;
+    }
+    others.push_back(entry.path());
+    if (const auto number = other.value(); number > previous_step && number < step) {
+      previous_step = number;
+      previous = entry.path();
+    }
+  }
+  for (const auto& path : others) {
+    if (path != previous) {
+      std::filesystem::remove(path, ignored);
+    }
+  }
+}
+
+}  // namespace
+
+std::filesystem::path write_checkpoint(const std::filesystem::path& output_folder,
+                                       const Checkpoint& checkpoint) {
+  const auto path = output_folder / fmt::format("checkpoint_{:06}.h5", checkpoint.step);
+  write_atomically(path, make_file(checkpoint));
+  remove_older(output_folder, checkpoint.step);
+  return path;
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+  check_seal(path);
+  const Hdf5Reader file(path);
+  Snapshot::Fields fields;
+  for (const std::string& name : file.datasets("state")) {
+    const std::string dataset = "state/" + name;
+    if (file.holds_integers(dataset)) {
+      fields[name] = file.read<std::int64_t>(dataset);
+    } else {
+      fields[name] = file.read<double>(dataset);
+    }
+  }
+  return {.time = file.read<double>("time").at(0),
+          .step = file.read<std::int64_t>("step").at(0),
+          .scene = file.read_text("scene"),
+          .version = file.read_text("version"),
+          .state = Snapshot(std::move(fields))};
+}
+
+}  // namespace perifrac

@@ -1,0 +1,32 @@
+#include "core/io/file_descriptor.hpp"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace perifrac {
+
+FileDescriptor::FileDescriptor(const std::filesystem::path& file, int flags)
+    : descriptor_(::open(file.c_str(), flags | O_CLOEXEC, 0644)) {}
+
+FileDescriptor::~FileDescriptor() {
+  if (is_open()) {
+    ::close(descriptor_);
+  }
+}
+
+bool FileDescriptor::write(std::string_view text) const {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor_, text.data(), text.size());
+    if (written >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool FileDescriptor::sync() const { return ::fsync(descriptor_) == 0; }
+
+}  // namespace perifrac

@@ -1,0 +1,140 @@
+#include "core/io/frames.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/io/hdf5.hpp"
+
+namespace perifrac {
+namespace {
+
+/// From component by component to point by point; `columns` may exceed the components given, the
+/// rest is 0.
+std::vector<double> interleave(std::span<const std::span<const double>> components,
+                               std::size_t count, std::size_t columns) {
+  std::vector<double> rows(count * columns, 0.0);
+  for (std::size_t column = 0; column < components.size(); ++column) {
+    for (std::size_t point = 0; point < count; ++point) {
+      rows[point * columns + column] = components[column][point];
+    }
+  }
+  return rows;
+}
+
+void write_geometry(Hdf5Writer& file, const PointSet& points) {
+  constexpr std::uint8_t vtk_vertex = 1;
+  const auto count = static_cast<std::int64_t>(points.count);
+  const std::array one_count{count};
+  file.write<std::int64_t>("VTKHDF/NumberOfPoints", one_count);
+  file.write<std::int64_t>("VTKHDF/NumberOfCells", one_count);
+  file.write<std::int64_t>("VTKHDF/NumberOfConnectivityIds", one_count);
+
+  const auto axes = std::span(points.position).first(static_cast<std::size_t>(points.dimension));
+  file.write<double>("VTKHDF/Points", interleave(axes, points.count, 3), 3);
+
+  std::vector<std::int64_t> ids(points.count + 1);
+  std::iota(ids.begin(), ids.end(), 0);
+  file.write<std::int64_t>("VTKHDF/Connectivity", std::span(ids).first(points.count));
+  file.write<std::int64_t>("VTKHDF/Offsets", ids);
+  file.write<std::uint8_t>("VTKHDF/Types", std::vector<std::uint8_t>(points.count, vtk_vertex));
+}
+
+void write_field(Hdf5Writer& file, const FrameField& field, std::size_t count) {
+  const std::string name = "VTKHDF/PointData/" + field.name;
+  if (field.components == 1) {
+    file.write(name, field.values);
+  } else {
+    std::vector<std::span<const double>> components;
+    for (int c = 0; c < field.components; ++c) {
+      components.push_back(field.values.subspan(static_cast<std::size_t>(c) * count, count));
+    }
+    // A vector has three components for VTK.
+    const std::size_t columns = std::max<std::size_t>(3, components.size());
+    file.write<double>(name, interleave(components, count, columns), columns);
+  }
+  file.write_attribute(name, "units", field.unit);
+}
+
+std::string make_frame(double time, const PointSet& points, std::span<const FrameField> fields) {
+  Hdf5Writer file;
+  write_geometry(file, points);
+  const std::array version{std::int64_t{1}, std::int64_t{0}};
+  file.write_attribute("VTKHDF", "Version", version);
+  file.write_attribute("VTKHDF", "Type", "UnstructuredGrid");
+  const std::array one_time{time};
+  file.write<double>("VTKHDF/FieldData/TimeValue", one_time);
+  for (const FrameField& field : fields) {
+    write_field(file, field, points.count);
+  }
+  return file.bytes();
+}
+
+}  // namespace
+
+FrameSeries::FrameSeries(const std::filesystem::path& output_folder, std::string point_set,
+                         std::optional<double> restart_time)
+    : folder_(output_folder / "frames"), point_set_(std::move(point_set)) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) {
+    throw OutputError(folder_.string(), error.message());
+  }
+  if (restart_time && std::filesystem::exists(series_file())) {
+    read_series();
+    cut_back(*restart_time);
+  }
+}
+
+std::filesystem::path FrameSeries::series_file() const {
+  return folder_ / (point_set_ + ".hdf.series");
+}
+
+void FrameSeries::cut_back(double restart_time) {
+  const auto late = std::find_if(frames_.begin(), frames_.end(),
+                                 [&](const Frame& frame) { return frame.time > restart_time; });
+  const std::vector<Frame> dropped(late, frames_.end());
+  frames_.erase(late, frames_.end());
+  write_series();  // first: the list must never name a file that is gone
+  for (const Frame& frame : dropped) {
+    std::error_code ignored;  // a file that nobody names does no harm
+    std::filesystem::remove(folder_ / frame.file, ignored);
+  }
+}
+
+void FrameSeries::write(double time, const PointSet& points, std::span<const FrameField> fields) {
+  const std::string name = fmt::format("{}_{:06}.hdf", point_set_, frames_.size());
+  write_atomically(folder_ / name, make_frame(time, points, fields));
+  frames_.push_back({name, time});
+  write_series();
+}
+
+void FrameSeries::read_series() {
+  try {
+    const auto series = nlohmann::json::parse(std::ifstream(series_file()));
+    for (const auto& entry : series.at("files")) {
+      frames_.push_back({entry.at("name"), entry.at("time")});
+    }
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(series_file().string() +
+                     ": not a list of frames as a run writes it; expected the file of the run to "
+                     "go on from; remove it to start the list anew");
+  }
+}
+
+void FrameSeries::write_series() const {
+  nlohmann::ordered_json series{{"file-series-version", "1.0"},
+                                {"files", nlohmann::ordered_json::array()}};
+  for (const Frame& frame : frames_) {
+    series["files"].push_back({{"name", frame.file}, {"time", frame.time}});
+  }
+  write_atomically(series_file(), series.dump(1) + "\n");
+}
+
+}  // namespace perifrac

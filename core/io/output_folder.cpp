@@ -1,0 +1,111 @@
+#include "core/io/output_folder.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <string>
+#include <string_view>
+#include <sys/file.h>
+#include <unistd.h>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "core/io/atomic_file.hpp"
+
+namespace perifrac {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& folder, const std::string& reason) {
+  throw InputError(fmt::format(
+      "{}: cannot be used as the output folder: {}; expected a folder that this run may write "
+      "into; give another one with --output",
+      folder.string(), reason));
+}
+
+/// Makes the folder and returns it, for use before the lock in it is opened.
+std::filesystem::path make_folder(std::filesystem::path folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    refuse(folder, error.message());
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    refuse(folder, std::strerror(errno));
+  }
+  return folder;
+}
+
+/// STEM where a name reads STEM_<digits><ending>, else nothing.
+std::string_view stem_of_numbered(std::string_view name, std::string_view ending) {
+  if (!name.ends_with(ending)) {
+    return {};
+  }
+  name.remove_suffix(ending.size());
+  const auto last = name.find_last_not_of("0123456789");
+  const bool numbered =
+      last != std::string_view::npos && name[last] == '_' && last + 1 < name.size();
+  return numbered ? name.substr(0, last) : std::string_view{};
+}
+
+bool is_result(std::string_view name) {
+  return name == "history.csv" || name == "summary.json" ||
+         stem_of_numbered(name, ".h5") == "checkpoint";
+}
+
+bool is_frame(std::string_view name) {
+  return !stem_of_numbered(name, ".hdf").empty() || name.ends_with(".hdf.series");
+}
+
+/// Files in `folder` whose names, less the suffix of a temporary, `is_ours` knows.
+std::vector<std::filesystem::path> files_of_runs(const std::filesystem::path& folder,
+                                                 bool (*is_ours)(std::string_view),
+                                                 bool unfinished_only) {
+  std::vector<std::filesystem::path> found;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) {
+    const std::string full_name = entry.path().filename();
+    std::string_view name = full_name;
+    const bool unfinished = name.ends_with(temporary_suffix);
+    if (unfinished) {
+      name.remove_suffix(temporary_suffix.size());
+    }
+    if ((unfinished || !unfinished_only) && !entry.is_directory() && is_ours(name)) {
+      found.push_back(entry.path());
+    }
+  }
+  return found;
+}
+
+int remove_files_of_runs(const std::filesystem::path& folder, bool unfinished_only) {
+  auto files = files_of_runs(folder, is_result, unfinished_only);
+  const auto frames = files_of_runs(folder / "frames", is_frame, unfinished_only);
+  files.insert(files.end(), frames.begin(), frames.end());
+  for (const auto& file : files) {
+    std::error_code error;
+    std::filesystem::remove(file, error);
+    if (error) {
+      throw OutputError(file.string(),
+                        "it is in the way and cannot be removed: " + error.message());
+    }
+  }
+  return static_cast<int>(files.size());
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(std::filesystem::path folder)
+    : path_(make_folder(std::move(folder))), lock_(path_ / ".lock", O_RDWR | O_CREAT) {
+  if (!lock_.is_open()) {
+    refuse(path_, std::strerror(errno));
+  }
+  if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
+    refuse(path_, errno == EWOULDBLOCK ? "another run is writing into it" : std::strerror(errno));
+  }
+  remove_files_of_runs(path_, true);
+}
+
+int OutputFolder::remove_earlier_results() const { return remove_files_of_runs(path_, false); }
+
+}  // namespace perifrac
