@@ -17,9 +17,8 @@ install:
 	@tools/install
 
 build: install
-	@cmake --preset release > build.log 2>&1 || { cat build.log; exit 1; }
+	@cmake --preset release --log-level=WARNING > /dev/null
 	@cmake --build --preset release
-	@mv build.log $(BUILD)/configure.log
 
 run: build
 	@$(PERIFRAC) run $(SCENE)

@@ -1,0 +1,94 @@
+#include "app/check.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/output_times.hpp"
+#include "app/recorder.hpp"
+#include "app/scene_keys.hpp"
+#include "app/simulation.hpp"
+#include "app/summary.hpp"
+#include "core/config/scene.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// Lists every evolving field and its size.
+class ArrayList final : public StateVisitor {
+ public:
+  nlohmann::json arrays = nlohmann::json::array();
+
+ private:
+  void real(const std::string& name, std::vector<double>& values) override {
+    add(name, values.size(), sizeof(double));
+  }
+  void integer(const std::string& name, std::vector<std::int64_t>& values) override {
+    add(name, values.size(), sizeof(std::int64_t));
+  }
+  void add(const std::string& name, std::size_t count, std::size_t size) {
+    arrays.push_back({{"name", name}, {"count", count}, {"bytes", count * size}});
+  }
+};
+
+nlohmann::json links_of(const CouplingManager& manager) {
+  nlohmann::json links = nlohmann::json::array();
+  for (const Link& link : manager.links()) links.push_back(link.name());
+  return links;
+}
+
+std::size_t family_bytes(const Simulation& simulation) {
+  return std::visit(
+      [](const auto& body) {
+        std::size_t bytes = 0;
+        for (const auto& family : body->families()) bytes += family->bytes();
+        return bytes;
+      },
+      simulation.body);
+}
+
+void print(const nlohmann::json& result) {
+  const auto& counts = result["counts"];
+  fmt::print("{}: fine\n", result["scene"].get<std::string>());
+  for (const auto& effect : result["effects"]) fmt::print("  {}\n", effect.get<std::string>());
+  for (const auto& link : result["links"]) fmt::print("  link {}\n", link.get<std::string>());
+  fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
+             counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
+             result["family_bytes"].get<long>() / 1000);
+  for (const auto& array : result["arrays"]) {
+    fmt::print("  {:<40} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
+               array["count"].get<long>(), array["bytes"].get<long>());
+  }
+  for (const auto& warning : result["warnings"]) {
+    fmt::print("  warning: {}\n", warning.get<std::string>());
+  }
+}
+
+}  // namespace
+
+int check_scene(const std::string& scene_file, const std::vector<std::string>& overrides,
+                bool json) {
+  const Section scene = read_scene(scene_file, overrides, scene_catalogue());
+  Simulation simulation = make_simulation(scene);
+  CouplingManager& manager = *simulation.manager;
+  manager.initialize(0.0);
+  read_output_times(scene.at("output"), simulation.end);
+  const Recorder recorder(scene, "", simulation);
+  ArrayList list;
+  manager.visit_state(list);
+  const nlohmann::json result = {{"scene", scene_file},
+                                 {"effects", effects(scene)},
+                                 {"links", links_of(manager)},
+                                 {"counts", counts(simulation)},
+                                 {"family_bytes", family_bytes(simulation)},
+                                 {"arrays", list.arrays},
+                                 {"warnings", manager.warnings()}};
+  if (json) {
+    fmt::print("{}\n", result.dump(2));
+  } else {
+    print(result);
+  }
+  return 0;
+}
+
+}  // namespace perifrac

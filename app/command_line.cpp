@@ -1,0 +1,93 @@
+#include "app/command_line.hpp"
+
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <omp.h>
+
+#include "app/check.hpp"
+#include "app/list.hpp"
+#include "app/report.hpp"
+#include "app/run.hpp"
+#include "app/version.hpp"
+#include "core/errors.hpp"
+
+namespace perifrac {
+
+namespace {
+
+constexpr int usage_error = 2;
+constexpr int failure = 1;
+
+struct Request {
+  RunRequest run;
+  int threads = 0;
+  std::string folder;
+  bool page = false;
+};
+
+void add_scene_options(CLI::App& verb, Request& request) {
+  verb.add_option("scene", request.run.scene, "scene file (YAML)")->required();
+  verb.add_option("--set", request.run.overrides,
+                  "replace a key of the scene, as in pore_flow.porosity=0.2")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb.add_flag("--json", request.run.json, "machine-readable output");
+}
+
+void add_run_options(CLI::App& verb, Request& request) {
+  add_scene_options(verb, request);
+  verb.add_option("--output", request.run.output, "folder for results; runs/<scene> if left out")
+      ->type_name("DIR");
+  verb.add_option("--threads", request.threads, "threads; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  verb.add_option("--restart", request.run.restart, "checkpoint to go on from")->type_name("FILE");
+  verb.add_option("--until", request.run.until, "another end than the scene's, as in '20 s'")
+      ->type_name("TIME");
+  verb.add_flag("!--no-report", request.run.report, "make no picture and no page");
+}
+
+int dispatch(const CLI::App& app, const Request& request) {
+  if (request.threads > 0) omp_set_num_threads(request.threads);
+  if (app.got_subcommand("run")) return run_scene(request.run);
+  if (app.got_subcommand("check")) {
+    return check_scene(request.run.scene, request.run.overrides, request.run.json);
+  }
+  if (app.got_subcommand("report")) return make_report(request.folder, false);
+  return request.page ? print_reference_page() : list_modules(request.run.json);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"Fluid-driven fracture in porous rock", "perifrac"};
+  app.set_version_flag("--version", std::string("perifrac ") + version);
+  app.require_subcommand(1);
+  Request request;
+  add_run_options(*app.add_subcommand("run", "run a scene"), request);
+  add_scene_options(*app.add_subcommand("check", "say what a scene calls for; run nothing"),
+                    request);
+  CLI::App& report = *app.add_subcommand("report", "make the picture and the page of a run");
+  report.add_option("folder", request.folder, "folder of a run")->required()->type_name("DIR");
+  CLI::App& list = *app.add_subcommand("list", "modules and keys");
+  list.add_flag("--json", request.run.json, "machine-readable output");
+  list.add_flag("--page", request.page, "the reference page, in Markdown");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : usage_error;
+  }
+  try {
+    return dispatch(app, request);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return usage_error;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "perifrac: %s\n", error.what());
+    return failure;
+  }
+}
+
+}  // namespace perifrac

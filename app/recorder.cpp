@@ -1,0 +1,118 @@
+#include "app/recorder.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "app/version.hpp"
+#include "core/state/finite_check.hpp"
+
+namespace perifrac {
+
+namespace {
+
+double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Recorder::Recorder(const Section& scene, std::string scene_text, Simulation& simulation)
+    : simulation_(simulation),
+      scene_text_(std::move(scene_text)),
+      probes_(scene.at("output"), simulation),
+      history_interval_(scene.number("output.history_interval")),
+      checkpoint_interval_(scene.number("output.checkpoint_interval")) {
+  if (scene.has("reference")) reference_.emplace(scene, simulation);
+}
+
+void Recorder::walk(StateVisitor& visitor) {
+  simulation_.manager->visit_state(visitor);
+  visitor.enter("output");
+  visitor.visit("next_history_row", next_row_);
+  if (reference_) reference_->visit_state(visitor);
+  visitor.leave();
+}
+
+void Recorder::restore(const Checkpoint& checkpoint) {
+  checkpoint.state.restore([this](StateVisitor& visitor) { walk(visitor); });
+  restart_point();
+  step_on_disk_ = last_->step;
+}
+
+void Recorder::open(const OutputFolder& folder, const std::optional<Checkpoint>& restart) {
+  folder_ = folder.path();
+  std::vector<HistoryColumn> columns = probes_.columns();
+  for (const LedgerColumn& column : simulation_.manager->ledger().columns()) {
+    columns.push_back({column.name, column.unit});
+  }
+  history_.emplace(folder_ / "history.csv", columns,
+                   restart ? std::optional(restart->step) : std::nullopt);
+  for (const Field& field : fields_of(*simulation_.manager)) {
+    const PointSet& points = field.points();
+    if (points.dimension == 0 || frames_.contains(points.name)) continue;
+    frames_.emplace(
+        points.name,
+        FrameSeries(folder_, points.name, restart ? std::optional(restart->time) : std::nullopt));
+  }
+}
+
+void Recorder::record_window() {
+  const double time = simulation_.manager->time();
+  if (reference_) reference_->record_window(time);
+  if (time < next_row_) return;
+  // Rows keep to multiples of the interval, whatever the windows.
+  if (history_interval_ > 0.0) {
+    next_row_ = history_interval_ * (std::floor(time / history_interval_ * (1 + 1e-12)) + 1.0);
+  }
+  std::vector<double> row;
+  probes_.append_values(row);
+  for (const LedgerColumn& column : simulation_.manager->ledger().columns()) {
+    row.push_back(column.value);
+  }
+  history_->append(time, simulation_.manager->step(), row);
+}
+
+void Recorder::record_output() {
+  const double time = simulation_.manager->time();
+  write_frames(time);
+  if (reference_ && time > 0.0) reference_->record_output(time);
+}
+
+void Recorder::write_frames(double time) {
+  const std::vector<Field> fields = fields_of(*simulation_.manager);
+  for (auto& [name, series] : frames_) {
+    std::vector<FrameField> shown;
+    const PointSet* points = nullptr;
+    for (const Field& field : fields) {
+      if (field.points().name != name) continue;
+      points = &field.points();
+      shown.push_back({field.port.name, field.port.unit, field.port.components, field.values()});
+    }
+    series.write(time, *points, shown);
+  }
+}
+
+void Recorder::restart_point() {
+  CouplingManager& manager = *simulation_.manager;
+  if (!last_) last_ = {.scene = scene_text_, .version = version};
+  last_->time = manager.time();
+  last_->step = manager.step();
+  last_->state.save([this](StateVisitor& visitor) { walk(visitor); });
+  manager.restart_point();
+}
+
+void Recorder::write_checkpoint(bool if_due) {
+  if (!last_ || last_->step == step_on_disk_) return;
+  const double now = wall_clock();
+  if (if_due && step_on_disk_ >= 0 && now - disk_time_ < checkpoint_interval_) return;
+  perifrac::write_checkpoint(folder_, *last_);
+  step_on_disk_ = last_->step;
+  disk_time_ = now;
+}
+
+void Recorder::check_finite() {
+  FiniteCheck check(simulation_.manager->time(), &simulation_.points());
+  simulation_.manager->visit_state(check);
+}
+
+}  // namespace perifrac

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/probes.hpp"
+#include "app/references/mandel_reference.hpp"
+#include "app/simulation.hpp"
+#include "core/io/checkpoint.hpp"
+#include "core/io/frames.hpp"
+#include "core/io/history.hpp"
+#include "core/io/output_folder.hpp"
+#include "core/state/snapshot.hpp"
+
+namespace perifrac {
+
+/// Everything that a run leaves behind while it runs: history rows, frames, checkpoints, and the
+/// comparison with a reference.
+class Recorder {
+ public:
+  /// Reads what the scene asks for; writes nothing. The manager must be initialised. Throws
+  /// InputError.
+  Recorder(const Section& scene, std::string scene_text, Simulation& simulation);
+
+  /// Puts back what a checkpoint holds; the manager must be initialised.
+  void restore(const Checkpoint& checkpoint);
+  /// Begins to write. `restart` is what the run goes on from.
+  void open(const OutputFolder& folder, const std::optional<Checkpoint>& restart);
+
+  void record_window();  ///< a row of history.csv, when one is due
+  void record_output();  ///< a frame and a comparison
+  /// Remembers this state as one that a restart goes on from bit for bit, and lets go of
+  /// everything in the running simulation that a restart would not have.
+  void restart_point();
+
+  /// Writes the last restart point, if it is not on disk yet; with `if_due`, only where the wall
+  /// time between checkpoints has gone by.
+  void write_checkpoint(bool if_due);
+
+  /// Throws NumericalError at the first value that is not finite.
+  void check_finite();
+
+  const std::optional<MandelReference>& reference() const { return reference_; }
+
+ private:
+  void walk(StateVisitor& visitor);
+  void write_frames(double time);
+
+  Simulation& simulation_;
+  std::string scene_text_;
+  Probes probes_;
+  std::optional<MandelReference> reference_;
+  double history_interval_;
+  double checkpoint_interval_;
+  double next_row_ = 0.0;
+
+  std::filesystem::path folder_;
+  std::optional<History> history_;
+  std::map<std::string, FrameSeries> frames_;  ///< by point set
+  std::optional<Checkpoint> last_;             ///< the last restart point
+  std::int64_t step_on_disk_ = -1;
+  double disk_time_ = 0.0;  ///< wall time of the last checkpoint [s]
+};
+
+}  // namespace perifrac

@@ -1,0 +1,22 @@
+#include "app/register_modules.hpp"
+
+#include "modules/pore_flow/darcy_type.hpp"
+#include "modules/solid/solid_types.hpp"
+
+namespace perifrac {
+
+const std::vector<ModuleType>& module_types() {
+  static const std::vector<ModuleType> types = {
+      quasi_static_solid_type(),
+      rigid_solid_type(),
+      darcy_type(),
+  };
+  return types;
+}
+
+const std::vector<std::string>& physics_order() {
+  static const std::vector<std::string> order = {"pore_flow", "solid"};
+  return order;
+}
+
+}  // namespace perifrac

@@ -1,0 +1,88 @@
+#include "app/scene_keys.hpp"
+
+#include "app/register_modules.hpp"
+#include "coupling/coupling_keys.hpp"
+
+namespace perifrac {
+
+namespace {
+
+KeyTable top_level_keys() {
+  return {
+      {.path = "title", .type = KeyType::text, .fallback = "", .meaning = "Name for reports."},
+      {.path = "dimension",
+       .type = KeyType::integer,
+       .range = "[2, 3]",
+       .required = true,
+       .meaning = "2: plane strain, totals per metre of thickness. 3."},
+  };
+}
+
+KeyTable time_keys() {
+  return {{.path = "end",
+           .unit = "s",
+           .range = "(0, inf)",
+           .required = true,
+           .meaning = "Time to simulate, from 0."}};
+}
+
+KeyTable output_keys() {
+  return {
+      {.path = "times",
+       .type = KeyType::numbers,
+       .unit = "s",
+       .range = "[0, inf)",
+       .meaning = "Times of frames."},
+      {.path = "interval",
+       .unit = "s",
+       .range = "(0, inf)",
+       .meaning = "Time between further frames. Start and end always get one."},
+      {.path = "history_interval",
+       .unit = "s",
+       .range = "[0, inf)",
+       .fallback = "0 s",
+       .meaning = "Least time between rows of history.csv; 0: a row a window."},
+      {.path = "checkpoint_interval",
+       .unit = "s",
+       .range = "[0, inf)",
+       .fallback = "60 s",
+       .meaning = "Least wall time between checkpoints, which are written with frames."},
+      {.path = "probes[].name",
+       .type = KeyType::text,
+       .required = true,
+       .meaning = "Name of the probe in history.csv."},
+      {.path = "probes[].at",
+       .type = KeyType::vector,
+       .unit = "m",
+       .required = true,
+       .meaning = "Place of the probe; the nearest point is read."},
+      {.path = "probes[].field",
+       .type = KeyType::text,
+       .meaning = "Field to record; all fields where left out."},
+  };
+}
+
+KeyTable reference_keys() {
+  return {{.path = "type",
+           .type = KeyType::word,
+           .required = true,
+           .words = {"mandel"},
+           .meaning = "Analytic solution that the run is compared with."}};
+}
+
+}  // namespace
+
+const Catalogue& scene_catalogue() {
+  static const Catalogue catalogue = [] {
+    Catalogue all = {{"", "", top_level_keys()},        {"body", "", body_keys()},
+                     {"time", "", time_keys()},         {"output", "", output_keys()},
+                     {"coupling", "", coupling_keys()}, {"reference", "", reference_keys()}};
+    for (const ModuleType& type : module_types()) {
+      all.push_back({type.section, type.name, type.keys});
+    }
+    return all;
+  }();
+  return catalogue;
+}
+
+}  // namespace perifrac

@@ -1,0 +1,84 @@
+#include "app/simulation.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "app/register_modules.hpp"
+#include "coupling/coupling_keys.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const ModuleType& type_of(const std::string& physics, const std::string& name) {
+  return *std::ranges::find_if(module_types(), [&](const ModuleType& type) {
+    return type.section == physics && type.name == name;
+  });
+}
+
+/// Repeating a window changes the steps that CVODE chooses, and its answer by its own tolerance:
+/// iterations cannot agree any better.
+void refuse_unreachable_tolerance(const Section& scene) {
+  if (scene.integer("coupling.iterations.max") == 1 || !scene.has("solid") ||
+      !scene.has("pore_flow") || scene.word("pore_flow.integrator.type") != "cvode") {
+    return;
+  }
+  const double wanted = scene.number("coupling.iterations.tolerance");
+  const double accuracy = scene.number("pore_flow.integrator.tolerance");
+  if (wanted < accuracy) {
+    scene.fail(
+        "coupling.iterations.tolerance",
+        fmt::format("{:g} is tighter than pore_flow.integrator.tolerance, {:g}", wanted, accuracy),
+        "a coupling that asks for no more accuracy than the integrator gives");
+  }
+}
+
+}  // namespace
+
+const PointSet& Simulation::points() const {
+  return std::visit([](const auto& b) -> const PointSet& { return b->point_set(); }, body);
+}
+
+Simulation make_simulation(const Section& scene) {
+  Simulation simulation;
+  simulation.body = make_body(scene.at("body"), scene.integer("dimension"));
+  simulation.end = scene.number("time.end");
+  std::vector<ModuleSlot> modules;
+  for (const std::string& physics : physics_order()) {
+    if (!scene.has(physics)) continue;
+    const Section section = scene.at(physics);
+    modules.push_back(
+        {physics, type_of(physics, section.word("type")).make(section, simulation.body)});
+  }
+  if (modules.empty()) {
+    scene.fail("", "no physics is named", "at least one of the sections solid, pore_flow");
+  }
+  refuse_unreachable_tolerance(scene);
+  simulation.manager = std::make_unique<CouplingManager>(
+      std::move(modules), read_coupling_options(scene.at("coupling"), simulation.end));
+  return simulation;
+}
+
+std::vector<Field> fields_of(const CouplingManager& manager) {
+  std::vector<Field> fields;
+  for (const ModuleSlot& slot : manager.modules()) {
+    const auto ports = slot.module->ports();
+    for (std::size_t id = 0; id < ports.size(); ++id) {
+      if (ports[id].direction == PortDirection::out && ports[id].role == PortRole::field) {
+        fields.push_back({slot.module.get(), static_cast<PortId>(id), ports[id]});
+      }
+    }
+  }
+  return fields;
+}
+
+Field field_named(const CouplingManager& manager, const std::string& name) {
+  for (const Field& field : fields_of(manager)) {
+    if (field.port.name == name) return field;
+  }
+  throw std::logic_error("no field " + name);
+}
+
+}  // namespace perifrac

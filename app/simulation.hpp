@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/config/section.hpp"
+#include "core/geometry/body.hpp"
+#include "coupling/manager.hpp"
+
+namespace perifrac {
+
+/// What a scene makes: a body, the physics on it, and the manager that couples them.
+struct Simulation {
+  AnyBody body;
+  std::unique_ptr<CouplingManager> manager;
+  double end;  ///< [s]
+
+  const PointSet& points() const;
+};
+
+/// Builds all that the scene calls for and nothing else. Throws InputError.
+Simulation make_simulation(const Section& scene);
+
+/// An out-port that lives on points.
+struct Field {
+  PhysicsModule* module;
+  PortId id;
+  Port port;
+
+  std::span<const double> values() const { return module->port(id).value; }
+  const PointSet& points() const { return *module->port(id).points; }
+};
+
+/// Every field of every module, in the modules' order.
+std::vector<Field> fields_of(const CouplingManager& manager);
+
+/// The field of that name; throws std::logic_error where there is none.
+Field field_named(const CouplingManager& manager, const std::string& name);
+
+}  // namespace perifrac

@@ -1,0 +1,143 @@
+#include "app/summary.hpp"
+
+#include <sys/resource.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/register_modules.hpp"
+#include "app/version.hpp"
+#include "core/io/atomic_file.hpp"
+#include "core/solvers/sparse_cholesky.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const char* word(RunOutcome outcome) {
+  switch (outcome) {
+    case RunOutcome::done:
+      return "done";
+    case RunOutcome::failed:
+      return "failed";
+    default:
+      return "stopped";
+  }
+}
+
+/// The most memory that the process ever held [bytes].
+long peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * usage.ru_maxrss;
+}
+
+nlohmann::json ledger_summary(const Ledger& ledger) {
+  nlohmann::json result = nlohmann::json::object();
+  for (const LedgerColumn& column : ledger.columns()) {
+    result[column.name] = {{"value", column.value}, {"unit", column.unit}};
+  }
+  if (const auto mass = ledger.mass()) result["mass_error"] = mass->relative_error;
+  if (const auto energy = ledger.energy()) result["energy_error"] = energy->relative_error;
+  return result;
+}
+
+/// What the module's solvers did, those that did nothing left out.
+nlohmann::json statistics(PhysicsModule& module) {
+  nlohmann::json result = nlohmann::json::object();
+  const auto ports = module.ports();
+  for (std::size_t id = 0; id < ports.size(); ++id) {
+    if (ports[id].role != PortRole::work) continue;
+    const double count = module.port(static_cast<PortId>(id)).value[0];
+    if (count > 0.0) result[ports[id].name] = count;
+  }
+  return result;
+}
+
+nlohmann::json modules_summary(const Section& scene, const CouplingManager& manager) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const ModuleSlot& slot : manager.modules()) {
+    result.push_back({{"name", slot.name},
+                      {"type", scene.word(slot.name + ".type")},
+                      {"wall_time", slot.seconds},
+                      {"advances", slot.advances},
+                      {"statistics", statistics(*slot.module)}});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> effects(const Section& scene) {
+  std::vector<std::string> result;
+  for (const std::string& physics : physics_order()) {
+    if (scene.has(physics)) result.push_back(physics + ": " + scene.word(physics + ".type"));
+  }
+  return result;
+}
+
+nlohmann::json counts(const Simulation& simulation) {
+  return std::visit(
+      [](const auto& body) -> nlohmann::json {
+        std::size_t bonds = 0, ghosts = 0;
+        for (const auto& family : body->families()) {
+          bonds += family->other.size();
+          ghosts += family->ghost_source.size();
+        }
+        return {{"points", body->points().size()}, {"ghosts", ghosts}, {"bonds", bonds}};
+      },
+      simulation.body);
+}
+
+nlohmann::json summarize(const Section& scene, const std::string& scene_file,
+                         const std::string& scene_text, Simulation& simulation,
+                         const std::optional<MandelReference>& reference, RunOutcome outcome,
+                         double seconds) {
+  const CouplingManager& manager = *simulation.manager;
+  nlohmann::json result = {
+      {"scene", {{"title", scene.text("title")}, {"path", scene_file}, {"text", scene_text}}},
+      {"version", version},
+      {"build", {{"sparse factor", SparseCholesky::backend()}, {"compiler", __VERSION__}}},
+      {"dimension", scene.integer("dimension")},
+      {"outcome", word(outcome)},
+      {"time", {{"value", manager.time()}, {"unit", "s"}}},
+      {"effects", effects(scene)},
+      {"counts", counts(simulation)},
+      {"modules", modules_summary(scene, manager)},
+      {"wall_time", seconds},
+      {"peak_memory", peak_memory()},
+      {"ledger", ledger_summary(manager.ledger())}};
+  result["counts"]["windows"] = manager.step();
+  result["counts"]["passes"] = manager.work().passes;
+  if (reference) result["reference"] = reference->summary();
+  return result;
+}
+
+void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary) {
+  write_atomically(folder / "summary.json", summary.dump(2) + "\n");
+}
+
+std::string summary_text(const nlohmann::json& summary) {
+  std::string text =
+      fmt::format("{}: {} at t = {:g} s; {} points, {} windows, {:.2f} s, {:.0f} MB\n",
+                  summary["scene"]["path"].get<std::string>(),
+                  summary["outcome"].get<std::string>(), summary["time"]["value"].get<double>(),
+                  summary["counts"]["points"].get<long>(), summary["counts"]["windows"].get<long>(),
+                  summary["wall_time"].get<double>(), summary["peak_memory"].get<double>() / 1e6);
+  for (const auto& module : summary["modules"]) {
+    text += fmt::format("  {:<10} {:<14} {:6d} advances {:8.3f} s\n",
+                        module["name"].get<std::string>(), module["type"].get<std::string>(),
+                        module["advances"].get<long>(), module["wall_time"].get<double>());
+  }
+  const auto& ledger = summary["ledger"];
+  if (ledger.contains("mass_error")) {
+    text += fmt::format("  fluid mass kept to {:.1e}\n", ledger["mass_error"].get<double>());
+  }
+  if (ledger.contains("energy_error")) {
+    text +=
+        fmt::format("  energy balance closed to {:.1e}\n", ledger["energy_error"].get<double>());
+  }
+  return text;
+}
+
+}  // namespace perifrac

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/references/mandel_reference.hpp"
+#include "app/simulation.hpp"
+#include "core/config/section.hpp"
+
+namespace perifrac {
+
+enum class RunOutcome { done, failed, stopped };
+
+/// What summary.json holds; its keys are described in app/report/README.md.
+nlohmann::json summarize(const Section& scene, const std::string& scene_file,
+                         const std::string& scene_text, Simulation& simulation,
+                         const std::optional<MandelReference>& reference, RunOutcome outcome,
+                         double seconds);
+
+/// Writes DIR/summary.json atomically. Throws OutputError.
+void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary);
+
+/// The plain summary at the end of a run.
+std::string summary_text(const nlohmann::json& summary);
+
+/// `<physics>: <type>` of everything that the scene calls for, and no more.
+std::vector<std::string> effects(const Section& scene);
+
+/// Points and bonds of the body, mirrored faces included.
+nlohmann::json counts(const Simulation& simulation);
+
+}  // namespace perifrac

@@ -1,0 +1,139 @@
+#include <cstdio>
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "core/errors.hpp"
+#include "tests/verification/mandel_run.hpp"
+
+namespace perifrac::test {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+void print(const std::string& name, const MandelRun& run) {
+  std::printf("%s: %ld solid solves, at most %ld passes a window, %.2f s, mass %.1e, energy %.1e\n",
+              name.c_str(), static_cast<long>(run.solid_solves), static_cast<long>(run.most_passes),
+              run.seconds, run.mass_error, run.energy_error);
+  for (const auto& row : run.rows) {
+    std::printf("  T = %.4f: pressure %.2e, plate %.2e\n", row.dimensionless_time,
+                row.pressure_error, row.plate_error);
+  }
+  std::printf("  peak %.2e\n", run.peak_error);
+}
+
+/// The limits that the shipped scene must keep, times `factor`.
+void expect_accurate(const MandelRun& run, double factor) {
+  EXPECT_LE(run.largest_pressure_error(0.01, 0.01), factor * 2e-3);
+  EXPECT_LE(run.largest_pressure_error(0.05, 2.0), factor * 4e-4);
+  EXPECT_LE(run.largest_plate_error(), factor * 5e-4);
+  EXPECT_LE(run.peak_error, factor * 5e-4);
+  EXPECT_GT(run.peak_error, 0.0) << "the peak was never passed";
+  EXPECT_LE(run.mass_error, 1e-12);
+  EXPECT_LE(run.energy_error, 1e-2);
+}
+
+TEST(Mandel, ShippedSceneMeetsItsLimits) {
+  const MandelRun run = run_mandel({});
+  print("as shipped", run);
+  expect_accurate(run, 1.0);
+}
+
+struct Variant {
+  const char* name;
+  Overrides overrides;
+};
+
+class MandelVariant : public testing::TestWithParam<Variant> {};
+
+TEST_P(MandelVariant, MeetsTwiceTheLimits) {
+  const MandelRun run = run_mandel(GetParam().overrides);
+  print(GetParam().name, run);
+  expect_accurate(run, 2.0);
+}
+
+const Overrides iterated = {"coupling.iterations.max=12", "coupling.iterations.tolerance=1e-6",
+                            "pore_flow.integrator.tolerance=1e-7", "coupling.window.first=100 ms"};
+
+Overrides with(Overrides base, const Overrides& more) {
+  base.insert(base.end(), more.begin(), more.end());
+  return base;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, MandelVariant,
+    testing::Values(Variant{"explicit_one_pass", {"pore_flow.integrator.type=explicit"}},
+                    Variant{"krylov_one_pass", {"pore_flow.integrator.linear_solver=krylov"}},
+                    Variant{"cvode_iterated", iterated},
+                    Variant{"cvode_anderson", with(iterated, {"coupling.acceleration=anderson"})},
+                    Variant{"cvode_aitken", with(iterated, {"coupling.acceleration=aitken"})},
+                    Variant{"explicit_iterated",
+                            with(iterated, {"pore_flow.integrator.type=explicit"})}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Mandel, HalfTheSpacingIsFourTimesAsGood) {
+  const MandelRun coarse = run_mandel({"time.end=1.6533 s", "output.times=[]"});
+  const MandelRun fine = run_mandel({"body.spacing=0.5 m", "time.end=1.6533 s", "output.times=[]"});
+  print("half the spacing", fine);
+  EXPECT_LE(fine.largest_pressure_error(0.01, 0.01), 5e-4);
+  EXPECT_GT(coarse.largest_pressure_error(0.01, 0.01),
+            3.0 * fine.largest_pressure_error(0.01, 0.01));
+}
+
+TEST(Mandel, FewSolvesSufficeForFourThousandths) {
+  const MandelRun run =
+      run_mandel({"time.end=82.665 s", "output.times=[1.6533 s, 8.2665 s, 16.533 s, 33.066 s]",
+                  "coupling.window.growth=1.15", "coupling.window.largest=4 s"});
+  print("few solves", run);
+  EXPECT_LE(run.solid_solves, 150);
+  EXPECT_LE(run.largest_pressure_error(0.0, 1.0), 4e-3);
+}
+
+class FluidStiffness : public testing::TestWithParam<const char*> {};
+
+TEST_P(FluidStiffness, FixedStressConvergesInTwelveIterations) {
+  const MandelRun run = run_mandel(
+      with(iterated, {std::string("pore_flow.fluid.bulk_modulus=") + GetParam(),
+                      "coupling.iterations.max=50", "time.end=20 s", "output.times=[]"}));
+  print(GetParam(), run);
+  EXPECT_LE(run.most_passes, 12);
+}
+
+INSTANTIATE_TEST_SUITE_P(FromSoftToIncompressible, FluidStiffness,
+                         testing::Values("22 MPa", "200 MPa", "2 GPa", "100 GPa", "1e6 GPa"));
+
+TEST(Mandel, DrainedSplitWarnsBeforeItDiverges) {
+  const Overrides drained = {"coupling.split=drained",
+                             "coupling.iterations.max=30",
+                             "coupling.iterations.tolerance=1e-4",
+                             "coupling.window.first=100 ms",
+                             "time.end=2 s",
+                             "output.times=[]"};
+  const Simulation strong = make_mandel(drained);
+  ASSERT_EQ(strong.manager->warnings().size(), 1u);
+  EXPECT_NE(strong.manager->warnings()[0].find("fixed_stress"), std::string::npos);
+  EXPECT_NE(strong.manager->warnings()[0].find("strength"), std::string::npos);
+  EXPECT_THROW(run_mandel(drained), NumericalError);
+
+  const Overrides weak = with(drained, {"pore_flow.fluid.bulk_modulus=22 MPa"});
+  EXPECT_TRUE(make_mandel(weak).manager->warnings().empty());
+  EXPECT_NO_THROW(run_mandel(weak));
+}
+
+TEST(Mandel, BitsDoNotDependOnThreads) {
+  const Overrides fine = {"body.spacing=0.5 m", "time.end=0.3 s", "output.times=[]"};
+  for (const char* integrator : {"cvode", "explicit"}) {
+    const Overrides overrides =
+        with(fine, {std::string("pore_flow.integrator.type=") + integrator});
+    omp_set_num_threads(1);
+    const MandelRun one = run_mandel(overrides);
+    for (const int threads : {2, 3}) {
+      omp_set_num_threads(threads);
+      EXPECT_EQ(run_mandel(overrides).pressure, one.pressure)
+          << threads << " threads, " << integrator;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace perifrac::test
