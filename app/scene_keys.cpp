@@ -78,7 +78,7 @@ const Catalogue& scene_catalogue() {
                      {"time", "", time_keys()},         {"output", "", output_keys()},
                      {"coupling", "", coupling_keys()}, {"reference", "", reference_keys()}};
     for (const ModuleType& type : module_types()) {
-      all.push_back({type.section, type.name, type.keys});
+      all.push_back({type.section, type.name, type.keys, type.meaning});
     }
     return all;
   }();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/register_modules.hpp"
+#include "core/errors.hpp"
 #include "coupling/coupling_keys.hpp"
 
 namespace perifrac {
@@ -16,6 +17,16 @@ const ModuleType& type_of(const std::string& physics, const std::string& name) {
   return *std::ranges::find_if(module_types(), [&](const ModuleType& type) {
     return type.section == physics && type.name == name;
   });
+}
+
+std::unique_ptr<PhysicsModule> make_module(const Section& scene, const std::string& physics,
+                                           const AnyBody& body) {
+  const Section section = scene.at(physics);
+  try {
+    return type_of(physics, section.word("type")).make(section, body);
+  } catch (const BodyError& error) {
+    scene.fail("body", error.what(), error.expected());
+  }
 }
 
 /// Repeating a window changes the steps that CVODE chooses, and its answer by its own tolerance:
@@ -48,9 +59,7 @@ Simulation make_simulation(const Section& scene) {
   std::vector<ModuleSlot> modules;
   for (const std::string& physics : physics_order()) {
     if (!scene.has(physics)) continue;
-    const Section section = scene.at(physics);
-    modules.push_back(
-        {physics, type_of(physics, section.word("type")).make(section, simulation.body)});
+    modules.push_back({physics, make_module(scene, physics, simulation.body)});
   }
   if (modules.empty()) {
     scene.fail("", "no physics is named", "at least one of the sections solid, pore_flow");

@@ -14,6 +14,19 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a physics asks of the body cannot be had with its shape and spacing. Whoever knows the
+/// scene makes an InputError of it, placed at the body.
+class BodyError : public std::runtime_error {
+ public:
+  BodyError(const std::string& problem, std::string expected)
+      : std::runtime_error(problem), expected_(std::move(expected)) {}
+
+  const std::string& expected() const { return expected_; }
+
+ private:
+  std::string expected_;
+};
+
 /// The run went wrong numerically: exit code 1, the last good checkpoint is kept.
 class NumericalError : public std::runtime_error {
  public:

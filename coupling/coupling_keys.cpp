@@ -45,12 +45,12 @@ const KeyTable& coupling_keys() {
        .meaning = "Passes over the modules in a window; 1: one pass on extrapolated inputs"},
       {.path = "iterations.tolerance",
        .range = "(0, 1)",
-       .fallback = "1e-6",
+       .fallback = "1e-4",
        .meaning = "Relative change from pass to pass below which a window is done; it cannot be "
                   "met below the tolerance of the modules' own integrators"},
       {.path = "acceleration",
        .type = KeyType::word,
-       .fallback = "none",
+       .fallback = "anderson",
        .words = {"none", "aitken", "anderson"},
        .meaning = "How the next pass's input is formed from those before"},
   };

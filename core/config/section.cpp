@@ -68,14 +68,17 @@ std::string Section::place(std::string path) const {
 
 void Section::fail(std::string_view path, std::string_view problem,
                    std::string_view expected) const {
-  const std::string full = full_path(path);
-  throw InputError(fmt::format("{}: {}{}{}; {}", place(full), full, full.empty() ? "" : ": ",
-                               problem, expected));
+  refuse(path, fmt::format("{}; expected {}", problem, expected));
 }
 
 void Section::fail_unknown(std::string_view path, std::string_view name,
                            const std::vector<std::string>& known) const {
-  fail(path, fmt::format("unknown name {}", in_quotes(name)), expected_one_of(known, name));
+  refuse(path, fmt::format("unknown name {}; {}", in_quotes(name), expected_one_of(known, name)));
+}
+
+void Section::refuse(std::string_view path, const std::string& message) const {
+  const std::string full = full_path(path);
+  throw InputError(fmt::format("{}: {}{}{}", place(full), full, full.empty() ? "" : ": ", message));
 }
 
 }  // namespace perifrac

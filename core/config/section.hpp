@@ -30,7 +30,7 @@ class Section {
   Section at(std::string_view path) const;
 
   /// The scene is wrong in a way that only the reader of this key can know.
-  /// Throws InputError `file:line:column: path: problem; expected`.
+  /// Throws InputError `file:line:column: path: problem; expected <expected>`.
   [[noreturn]] void fail(std::string_view path, std::string_view problem,
                          std::string_view expected) const;
 
@@ -41,6 +41,7 @@ class Section {
  private:
   template <class T>
   const T& value(std::string_view path, std::string_view wanted) const;
+  [[noreturn]] void refuse(std::string_view path, const std::string& message) const;
   std::string full_path(std::string_view path) const;
   std::string place(std::string path) const;
 

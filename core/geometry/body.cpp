@@ -17,7 +17,6 @@ std::array<int, 3> cells_along_axes(const Section& section, const std::vector<do
   for (std::size_t a = 0; a < size.size(); ++a) {
     const double cells = size[a] / spacing;
     counts[a] = static_cast<int>(std::lround(cells));
-    if (!(size[a] > 0.0)) section.fail("size", "an edge has no length", "positive lengths");
     if (std::abs(cells - counts[a]) > 1e-6 * cells) {
       section.fail("size", fmt::format("{:g} m is not a whole number of spacings", size[a]),
                    fmt::format("a multiple of body.spacing, {:g} m", spacing));
@@ -61,14 +60,6 @@ std::shared_ptr<const Body<D>> make_shape(const Section& section) {
   const double horizon = section.number("horizon_ratio") * spacing;
   const InfluenceFunction influence = influence_function(section.word("influence_function"));
   const bool box = section.word("shape") == "box";
-  const std::string needed = box ? "size" : "radius";
-  const std::string other = box ? "radius" : "size";
-  if (section.has(other)) {
-    section.fail(other, "does not belong to this shape", fmt::format("'{}'", needed));
-  }
-  if (!section.has(needed)) {
-    section.fail("shape", fmt::format("'{}' is missing", needed), "the extent of the shape");
-  }
   return box ? make_box<D>(section, spacing, horizon, influence)
              : make_ball<D>(section, spacing, horizon, influence);
 }
@@ -136,8 +127,15 @@ KeyTable body_keys() {
        .type = KeyType::vector,
        .unit = "m",
        .range = "(0, inf)",
+       .required = true,
+       .when = "shape=box",
        .meaning = "Edges of the box, each a whole number of spacings."},
-      {.path = "radius", .unit = "m", .range = "(0, inf)", .meaning = "Radius of the ball."},
+      {.path = "radius",
+       .unit = "m",
+       .range = "(0, inf)",
+       .required = true,
+       .when = "shape=ball",
+       .meaning = "Radius of the ball."},
       {.path = "spacing",
        .unit = "m",
        .range = "(0, inf)",

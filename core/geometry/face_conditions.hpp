@@ -9,12 +9,6 @@
 
 namespace perifrac {
 
-/// A type of boundary condition and the keys that belong to it.
-struct FaceConditionType {
-  std::string name;
-  std::vector<std::string> keys;
-};
-
 /// What a scene asks of one face: the subsection `boundary.<face>` of a physics.
 struct FaceCondition {
   int face;
@@ -23,8 +17,8 @@ struct FaceCondition {
 };
 
 /// The conditions under `boundary`, in the file's order. Throws InputError for a face the body does
-/// not have, and for a key that does not belong to the condition's type.
-std::vector<FaceCondition> read_face_conditions(const Section& section, std::span<const Face> faces,
-                                                std::span<const FaceConditionType> types);
+/// not have.
+std::vector<FaceCondition> read_face_conditions(const Section& section,
+                                                std::span<const Face> faces);
 
 }  // namespace perifrac

@@ -105,10 +105,9 @@ void check_thickness(std::span<const Face> faces, FaceSet mirrored, double horiz
   for (std::size_t low = 0; low + 1 < faces.size(); low += 2) {
     const double thickness = faces[low + 1].coordinate - faces[low].coordinate;
     if (thickness < horizon && (mirrored & (face_bit(low) | face_bit(low + 1)))) {
-      throw InputError(fmt::format(
-          "body.size: {:g} m between faces '{}' and '{}' is less than the horizon, {:g} m; a "
-          "mirrored face needs a body at least as thick as the horizon",
-          thickness, faces[low].name, faces[low + 1].name, horizon));
+      throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is less than the horizon",
+                                  thickness, faces[low].name, faces[low + 1].name),
+                      fmt::format("at least {:g} m where a face is mirrored", horizon));
     }
   }
 }

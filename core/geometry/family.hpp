@@ -33,7 +33,7 @@ struct Family {
 };
 
 /// Finds all families. Bonds of a point are sorted by their other end, so that they depend on
-/// nothing but the points. Throws InputError where the body is thinner than the horizon between
+/// nothing but the points. Throws BodyError where the body is thinner than the horizon between
 /// mirrored faces.
 template <int D>
 Family<D> build_family(const Points<D>& points, std::span<const Face> faces, FaceSet mirrored,

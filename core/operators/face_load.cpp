@@ -16,10 +16,10 @@ Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>
   const double reach = 2.0 * body.horizon();
   const double thickness = std::abs(loaded.coordinate - opposite.coordinate);
   if (!contains(mirrored, face ^ 1) && thickness < 2.0 * reach) {
-    throw InputError(fmt::format(
-        "body.size: {:g} m between faces '{}' and '{}' is too thin for a load on one of them; "
-        "expected at least 4 horizons, {:g} m, or a mirrored opposite face",
-        thickness, loaded.name, opposite.name, 2.0 * reach));
+    throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is too thin for a load on one",
+                                thickness, loaded.name, opposite.name),
+                    fmt::format("at least four horizons, {:g} m, or an opposite face that is held",
+                                2.0 * reach));
   }
   Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
   for (Index i = 0; i < points; ++i) {

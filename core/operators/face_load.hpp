@@ -13,7 +13,7 @@ namespace perifrac {
 /// and corners included, and its sum is the face's area.
 ///
 /// `gradient` is the operator's gradient_matrix(); the result has one value a point [m^(D-1)].
-/// Throws InputError where the body is too thin to tell the face from the opposite one.
+/// Throws BodyError where the body is too thin to tell the face from the opposite one.
 template <int D, int R>
 Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
                           FaceSet mirrored, int face, int component);

@@ -19,14 +19,12 @@ auto MirrorCondition<D, R>::image(FaceSet faces, int component) const -> Image {
     const int value = face_value_[face][component];
     if (!contains(faces, face) || value < 0) continue;
     image.sign = -image.sign;
-    for (int k = 0; k < image.term_count; ++k) {
-      image.terms[k].coefficient = -image.terms[k].coefficient;
-    }
-    image.terms[image.term_count++] = {value, 2.0};
+    image.terms[image.term_count++].face_value = value;
   }
   // Mirrored twice, a point must come back to its own value: at a corner of two odd faces that
-  // leaves the source itself.
+  // leaves the source itself, at one of three faces their mean takes the place of U.
   if (image.sign > 0.0) image.term_count = 0;
+  for (int k = 0; k < image.term_count; ++k) image.terms[k].coefficient = 2.0 / image.term_count;
   return image;
 }
 

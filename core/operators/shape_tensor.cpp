@@ -19,10 +19,9 @@ template <int D>
 [[noreturn]] void refuse_flat_family(const Family<D>& family, Index i) {
   Vector<D> x;
   for (int a = 0; a < D; ++a) x[a] = family.position[a][i];
-  throw InputError(
-      fmt::format("body: the {} bonds of the point at ({:.6g}) m do not span {}D space; expected a "
-                  "body at least two points thick and a horizon of about 2.5 spacings",
-                  family.bond_count(i), fmt::join(x, ", "), D));
+  throw BodyError(fmt::format("the {} bonds of the point at ({:.6g}) m do not span {}D space",
+                              family.bond_count(i), fmt::join(x, ", "), D),
+                  "a body at least two points thick and a horizon of about 2.5 spacings");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct FamilyMoments {
 template <int D>
 std::array<double, D * D> shape_tensor_at(const Family<D>& family, Index i);
 
-/// Throws InputError where a family's bonds do not span space.
+/// Throws BodyError where a family's bonds do not span space.
 template <int D>
 FamilyMoments<D> family_moments(const Family<D>& family);
 

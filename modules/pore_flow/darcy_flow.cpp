@@ -68,7 +68,7 @@ PortView DarcyFlow<D>::port(PortId id) {
       return {points, std::span(unknowns_).first(count)};
     case darcy_velocity:
       velocity_.resize(D * count);
-      system_->darcy_velocity(time_, unknowns_, velocity_);
+      system_->darcy_velocity(pressure_, velocity_);
       return {points, velocity_};
     default: {
       double& value = scalars_[id - mass_stored];

@@ -92,9 +92,8 @@ void DarcySystem<D>::magnitudes(double t, std::span<const double> y, std::span<d
 }
 
 template <int D>
-void DarcySystem<D>::darcy_velocity(double t, std::span<const double> y,
-                                    std::span<double> velocity) {
-  pressure(t, y, pressure_);
+void DarcySystem<D>::darcy_velocity(std::span<const double> p, std::span<double> velocity) {
+  std::ranges::copy(p, pressure_.begin());
   std::copy_n(face_pressures_.data(), face_pressures_.size(), pressure_.begin() + points_);
   flow_.gradient(pressure_, velocity);
   for (double& component : velocity) component *= -material_.mobility;

@@ -53,8 +53,8 @@ class DarcySystem final : public OdeSystem {
   /// Pressure at the points [Pa].
   void pressure(double t, std::span<const double> y, std::span<double> p) const;
 
-  /// Darcy velocity -kappa grad p, D blocks of point values [m/s].
-  void darcy_velocity(double t, std::span<const double> y, std::span<double> velocity);
+  /// Darcy velocity -kappa grad p of the point pressures p, D blocks of point values [m/s].
+  void darcy_velocity(std::span<const double> p, std::span<double> velocity);
 
   Index points() const { return points_; }
   const std::vector<double>& volume() const { return flow_.family().volume; }

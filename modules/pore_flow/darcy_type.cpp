@@ -62,6 +62,7 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
 }
 
 KeyTable darcy_keys() {
+  // Keys of one integrator may stand beside another, so that one word swaps them.
   KeyTable keys = {
       {.path = "operator",
        .type = KeyType::word,

@@ -30,7 +30,11 @@ void PoreBoundary<D>::source(Index point, double rate) {
 
 template <int D>
 FaceSet PoreBoundary<D>::mirrored() const {
-  return face_bit(static_cast<int>(faces_.size())) - 1;
+  FaceSet set = 0;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].condition != Condition::flux) set |= face_bit(f);
+  }
+  return set;
 }
 
 template <int D>
@@ -78,10 +82,14 @@ KeyTable pore_boundary_keys() {
        .meaning = "Condition of a face; a face that is not named is sealed."},
       {.path = "boundary.*.pressure",
        .unit = "Pa",
-       .meaning = "pressure: pore pressure on the face."},
+       .required = true,
+       .when = "type=pressure",
+       .meaning = "Pore pressure on the face."},
       {.path = "boundary.*.flux",
        .unit = "m/s",
-       .meaning = "flux: volume that enters per area and time; negative leaves."},
+       .required = true,
+       .when = "type=flux",
+       .meaning = "Volume that enters per area and time; negative leaves."},
       {.path = "sources[].at",
        .type = KeyType::vector,
        .unit = "m",
@@ -94,26 +102,12 @@ KeyTable pore_boundary_keys() {
   };
 }
 
-namespace {
-
-const std::vector<FaceConditionType> condition_types = {
-    {"sealed", {}}, {"pressure", {"pressure"}}, {"flux", {"flux"}}};
-
-}  // namespace
-
 template <int D>
 PoreBoundary<D> read_pore_boundary(const Section& section, const Body<D>& body) {
   PoreBoundary<D> boundary(body);
-  for (const auto& [face, type, path] :
-       read_face_conditions(section, body.faces(), condition_types)) {
-    if (type == "sealed") continue;
-    const std::string key = path + "." + type;  // the condition is named after its only key
-    if (!section.has(key)) section.fail(path, "'" + type + "' is missing", "its value");
-    if (type == "pressure") {
-      boundary.pressure(face, section.number(key));
-    } else {
-      boundary.flux(face, section.number(key));
-    }
+  for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
+    if (type == "pressure") boundary.pressure(face, section.number(path + ".pressure"));
+    if (type == "flux") boundary.flux(face, section.number(path + ".flux"));
   }
   for (std::size_t n = 0; n < section.count("sources"); ++n) {
     const std::string item = fmt::format("sources[{}]", n);

@@ -24,7 +24,8 @@ class PoreBoundary {
   /// Adds fluid at a point [m^3/s, per metre in 2D].
   void source(Index point, double rate);
 
-  /// Every face is mirrored: even where sealed, odd where the pressure is prescribed.
+  /// A sealed face mirrors evenly, one of prescribed pressure oddly. A face with inflow is none: an
+  /// even image has no slope there, a linear field would not be exact.
   FaceSet mirrored() const;
   MirrorCondition<D, 1> mirror_condition(const Family<D>& family) const;
   /// Prescribed pressures, by face value [Pa].

@@ -80,7 +80,7 @@ IsotropicElasticity<D> read_isotropic_elasticity(const Section& section) {
   }
   const std::string expected = fmt::format("exactly two of {}", fmt::join(constant_names, ", "));
   if (given.size() != 2) {
-    section.fail("material", fmt::format("{} elastic constants are given", given.size()), expected);
+    section.fail("material", fmt::format("elastic constants given: {}", given.size()), expected);
   }
   const auto [lambda, mu] = lame_constants(value[0], value[1], value[2], value[3], value[4]);
   if (!(mu > 0.0) || !(lambda + 2.0 / 3.0 * mu > 0.0) || !std::isfinite(lambda)) {

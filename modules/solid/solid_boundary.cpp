@@ -115,17 +115,24 @@ KeyTable solid_boundary_keys() {
       {.path = "boundary.*.traction",
        .type = KeyType::vector,
        .unit = "Pa",
-       .meaning = "traction: force per area on the face."},
+       .required = true,
+       .when = "type=traction",
+       .meaning = "Force per area on the face."},
       {.path = "boundary.*.normal_displacement",
        .unit = "m",
-       .meaning = "roller: displacement along the outward normal; 0 where left out."},
+       .fallback = "0 m",
+       .when = "type=roller",
+       .meaning = "Displacement of the face along its outward normal."},
       {.path = "boundary.*.displacement",
        .type = KeyType::vector,
        .unit = "m",
-       .meaning = "fixed: displacement of the face; 0 where left out."},
+       .when = "type=fixed",
+       .meaning = "Displacement of the face; 0 where left out."},
       {.path = "boundary.*.force",
        .unit = "N/m|N",
-       .meaning = "rigid_plate: force that presses the plate on the body."},
+       .required = true,
+       .when = "type=rigid_plate",
+       .meaning = "Force that presses the plate on the body."},
       {.path = "body_force",
        .type = KeyType::vector,
        .unit = "N/m^3",
@@ -142,32 +149,20 @@ Vector<D> read_vector(const Section& section, const std::string& path) {
   return result;
 }
 
-const std::vector<FaceConditionType> condition_types = {{"free", {}},
-                                                        {"traction", {"traction"}},
-                                                        {"roller", {"normal_displacement"}},
-                                                        {"fixed", {"displacement"}},
-                                                        {"rigid_plate", {"force"}}};
-
 }  // namespace
 
 template <int D>
 SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body) {
   SolidBoundary<D> boundary(body);
-  for (const auto& [face, type, path] :
-       read_face_conditions(section, body.faces(), condition_types)) {
-    const auto require = [&, path = path](const std::string& key, const char* expected) {
-      if (!section.has(path + "." + key)) section.fail(path, "'" + key + "' is missing", expected);
-      return path + "." + key;
-    };
+  for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
     if (type == "roller") {
-      const std::string key = path + ".normal_displacement";
-      boundary.roller(face, section.has(key) ? section.number(key) : 0.0);
+      boundary.roller(face, section.number(path + ".normal_displacement"));
     } else if (type == "fixed") {
       boundary.fixed(face, read_vector<D>(section, path + ".displacement"));
     } else if (type == "rigid_plate") {
-      boundary.rigid_plate(face, section.number(require("force", "the force on the plate")));
+      boundary.rigid_plate(face, section.number(path + ".force"));
     } else if (type == "traction") {
-      boundary.traction(face, read_vector<D>(section, require("traction", "a vector of stresses")));
+      boundary.traction(face, read_vector<D>(section, path + ".traction"));
     }
   }
   boundary.body_force(read_vector<D>(section, "body_force"));

@@ -31,8 +31,8 @@ TEST(CouplingKeys, DefaultsFollowFromTheSimulatedTime) {
   EXPECT_DOUBLE_EQ(options.largest_window, 2.0);
   EXPECT_EQ(options.split, Split::fixed_stress);
   EXPECT_EQ(options.max_iterations, 1);
-  EXPECT_DOUBLE_EQ(options.tolerance, 1e-6);
-  EXPECT_EQ(options.acceleration, AccelerationType::none);
+  EXPECT_DOUBLE_EQ(options.tolerance, 1e-4);
+  EXPECT_EQ(options.acceleration, AccelerationType::anderson);
 }
 
 TEST(CouplingKeys, ReadsEachKey) {

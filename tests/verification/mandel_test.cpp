@@ -53,7 +53,8 @@ TEST_P(MandelVariant, MeetsTwiceTheLimits) {
 }
 
 const Overrides iterated = {"coupling.iterations.max=12", "coupling.iterations.tolerance=1e-6",
-                            "pore_flow.integrator.tolerance=1e-7", "coupling.window.first=100 ms"};
+                            "pore_flow.integrator.tolerance=1e-7", "coupling.window.first=100 ms",
+                            "coupling.acceleration=none"};
 
 Overrides with(Overrides base, const Overrides& more) {
   base.insert(base.end(), more.begin(), more.end());
@@ -64,6 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
     Schemes, MandelVariant,
     testing::Values(Variant{"explicit_one_pass", {"pore_flow.integrator.type=explicit"}},
                     Variant{"krylov_one_pass", {"pore_flow.integrator.linear_solver=krylov"}},
+                    Variant{"iterated_by_default", {"coupling.iterations.max=12"}},
                     Variant{"cvode_iterated", iterated},
                     Variant{"cvode_anderson", with(iterated, {"coupling.acceleration=anderson"})},
                     Variant{"cvode_aitken", with(iterated, {"coupling.acceleration=aitken"})},

@@ -75,13 +75,13 @@ std::string failure(const Section& section, const char* path) {
 TEST(section, failures_name_the_place_or_that_of_the_parent) {
   const Section scene = read_text(example_scene);
   EXPECT_EQ(failure(scene.at("body"), "spacing"),
-            "5:12: body.spacing: does not fit; something else");
+            "5:12: body.spacing: does not fit; expected something else");
   EXPECT_EQ(failure(scene, "solid.boundary.left"),
-            "11:5: solid.boundary.left: does not fit; something else");
+            "11:5: solid.boundary.left: does not fit; expected something else");
   EXPECT_EQ(failure(scene.at("pore_flow"), "iterations.max"),
-            "12:1: pore_flow.iterations.max: does not fit; something else");
+            "12:1: pore_flow.iterations.max: does not fit; expected something else");
   EXPECT_EQ(failure(scene, "output.probes[1]"),
-            "21:7: output.probes[1]: does not fit; something else");
+            "21:7: output.probes[1]: does not fit; expected something else");
 }
 
 TEST(section, failures_about_names_suggest_the_nearest) {

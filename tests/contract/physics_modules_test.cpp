@@ -1,0 +1,104 @@
+#include <set>
+
+#include "app/register_modules.hpp"
+#include "app/simulation.hpp"
+#include "tests/contract/module_contract.hpp"
+#include "tests/contract/scene_text.hpp"
+
+namespace perifrac {
+namespace {
+
+std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::string& physics,
+                                           const std::vector<std::string>& overrides) {
+  const Section scene = read_scene_text(text, overrides);
+  const AnyBody body = make_body(scene.at("body"), scene.integer("dimension"));
+  const Section section = scene.at(physics);
+  for (const ModuleType& type : module_types()) {
+    if (type.section == physics && type.name == section.word("type")) {
+      return type.make(section, body);
+    }
+  }
+  return nullptr;
+}
+
+struct Variant {
+  std::string type;  ///< as registered, `physics/type`
+  ModuleCase contract;
+};
+
+Variant variant(std::string name, std::string type, std::string text,
+                std::vector<std::string> overrides = {}) {
+  const std::string physics = type.substr(0, type.find('/'));
+  ModuleCase contract{.name = std::move(name),
+                      .make = [=] { return make_module(text, physics, overrides); },
+                      .window = 0.01,
+                      .input_size = {{"dilatation", 1e-5}, {"pore_stress", 1e5}}};
+  return {std::move(type), std::move(contract)};
+}
+
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all = {
+      variant("quasi_static_2d", "solid/quasi_static", box_2d + quasi_static_2d),
+      variant("quasi_static_3d", "solid/quasi_static", box_3d + quasi_static_3d),
+      variant("rigid", "solid/rigid", box_2d + rigid),
+      variant("darcy_cvode_2d", "pore_flow/darcy", box_2d + darcy),
+      variant("darcy_cvode_3d", "pore_flow/darcy", box_3d + darcy),
+      variant("darcy_krylov", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.integrator.linear_solver=krylov"}),
+      variant("darcy_explicit", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.integrator.type=explicit"}),
+      variant("darcy_with_well", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.sources=[{at: [3 m, 3 m], rate: 1 cm^2/s}]"}),
+  };
+  return all;
+}
+
+std::vector<ModuleCase> cases() {
+  std::vector<ModuleCase> cases;
+  for (const Variant& variant : variants()) cases.push_back(variant.contract);
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Physics, ModuleContract, testing::ValuesIn(cases()), case_name);
+
+TEST(ModuleContract, CoversEveryRegisteredModule) {
+  std::set<std::string> covered;
+  for (const Variant& variant : variants()) covered.insert(variant.type);
+  for (const ModuleType& type : module_types()) {
+    EXPECT_TRUE(covered.contains(type.section + "/" + type.name)) << type.section << type.name;
+  }
+}
+
+/// Every solid beside every pore flow, each also alone: it runs, with finite results, and only what
+/// is named exists.
+TEST(SwapMatrix, EveryCombinationRuns) {
+  const std::vector<std::string> solids = {"", rigid, quasi_static_2d};
+  const std::vector<std::vector<std::string>> flows = {
+      {},
+      {"pore_flow.integrator.type=explicit"},
+      {"pore_flow.integrator.type=cvode"},
+      {"pore_flow.integrator.linear_solver=krylov"}};
+  for (const std::string& solid : solids) {
+    for (const auto& flow : flows) {
+      if (solid.empty() && flow.empty()) continue;
+      SCOPED_TRACE(solid + (flow.empty() ? "no pore flow" : flow[0]));
+      const Section scene = read_scene_text(box_2d + solid + (flow.empty() ? "" : darcy), flow);
+      Simulation simulation = make_simulation(scene);
+      CouplingManager& manager = *simulation.manager;
+      manager.initialize(0.0);
+      manager.settle();
+      for (int window = 0; window < 3; ++window) manager.advance(1.0);
+      EXPECT_EQ(manager.modules().size(), (solid.empty() ? 0u : 1u) + (flow.empty() ? 0u : 1u));
+      EXPECT_EQ(manager.links().size(), solid == quasi_static_2d && !flow.empty() ? 2u : 0u);
+      for (const Field& field : fields_of(manager)) {
+        for (const double value : field.values()) ASSERT_TRUE(std::isfinite(value));
+      }
+      if (!flow.empty()) {
+        EXPECT_LT(manager.ledger().mass()->relative_error, 1e-12);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace perifrac

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/scene_keys.hpp"
+#include "core/config/scene.hpp"
+
+namespace perifrac {
+
+/// Reads a scene that stands in a test.
+inline Section read_scene_text(const std::string& text,
+                               const std::vector<std::string>& overrides = {}) {
+  const std::string path = testing::TempDir() + "scene_in_a_test.yaml";
+  std::ofstream(path) << text;
+  return read_scene(path, overrides, scene_catalogue());
+}
+
+/// Sections of small scenes, to be put together.
+inline const std::string box_2d = R"(
+dimension: 2
+body: {shape: box, size: [12 m, 11 m], spacing: 1 m}
+time: {end: 1 s}
+)";
+inline const std::string box_3d = R"(
+dimension: 3
+body: {shape: box, size: [6 m, 5 m, 5 m], spacing: 1 m}
+time: {end: 1 s}
+)";
+inline const std::string quasi_static_2d = R"(
+solid:
+  type: quasi_static
+  material: {bulk_modulus: 1 GPa, shear_modulus: 0.4 GPa}
+  boundary:
+    left: {type: roller}
+    bottom: {type: roller, normal_displacement: -1 mm}
+    top: {type: rigid_plate, force: 1 MN/m}
+    right: {type: traction, traction: [-1 MPa, 0.2 MPa]}
+  body_force: [0 N/m^3, -10 kN/m^3]
+)";
+inline const std::string quasi_static_3d = R"(
+solid:
+  type: quasi_static
+  material: {youngs_modulus: 1 GPa, poisson_ratio: 0.2}
+  boundary:
+    left: {type: fixed}
+    top: {type: rigid_plate, force: 1 MN}
+)";
+inline const std::string rigid = R"(
+solid: {type: rigid}
+)";
+inline const std::string darcy = R"(
+pore_flow:
+  type: darcy
+  permeability: 1 D
+  porosity: 0.2
+  grain_bulk_modulus: 20 GPa
+  biot_coefficient: 0.9
+  fluid: {bulk_modulus: 2 GPa, viscosity: 1 cP}
+  initial_pressure: 0.1 MPa
+  boundary:
+    right: {type: pressure, pressure: 1 MPa}
+    left: {type: flux, flux: 1 mm/s}
+)";
+
+}  // namespace perifrac
