@@ -21,24 +21,24 @@ Eigen::SparseMatrix<double> bond_flow(const DarcySystem<D>& system) {
 
 template <int D>
 DarcyNewtonMatrix<D>::DarcyNewtonMatrix(DarcySystem<D>& system, Method method)
-    : system_(system),
-      method_(method),
-      right_side_(system.points()),
-      pressure_(system.points()),
-      outflow_(system.flow().size()) {
+    : system_(system), method_(method), right_side_(system.points()), pressure_(system.points()) {
   const Eigen::SparseMatrix<double> all =
       method == Method::direct ? system.flow().assemble() : bond_flow(system);
-  flow_ = all.leftCols(system.points());
+  flow_ = all.topLeftCorner(system.points(), system.points());
+  face_flow_ = all.bottomLeftCorner(all.rows() - system.points(), system.points());
+  matrix_ = flow_;
+  outflow_.resize(system.points());
+  face_outflow_.resize(face_flow_.rows());
 }
 
 template <int D>
 void DarcyNewtonMatrix<D>::set_up(double, std::span<const double>, double gamma) {
   gamma_ = gamma;
-  Eigen::SparseMatrix<double> matrix = gamma * flow_.topRows(system_.points());
+  matrix_.coeffs() = gamma * flow_.coeffs();
   for (Index i = 0; i < system_.points(); ++i) {
-    matrix.coeffRef(i, i) += system_.volume()[i] * system_.effective_storage()[i];
+    matrix_.coeffRef(i, i) += system_.volume()[i] * system_.effective_storage()[i];
   }
-  factor_.factor(matrix);
+  factor_.factor(matrix_);
 }
 
 template <int D>
@@ -48,9 +48,12 @@ void DarcyNewtonMatrix<D>::solve(std::span<const double> r, std::span<double> so
   for (Index i = 0; i < points; ++i) right_side_[i] = volume[i] * r[i];
   factor_.solve(right_side_, pressure_);
   outflow_.noalias() = flow_ * pressure_;
+  face_outflow_.noalias() = face_flow_ * pressure_;
   for (Index i = 0; i < points; ++i) solution[i] = r[i] - gamma_ * outflow_[i] / volume[i];
-  for (Index k = points; k < outflow_.size(); ++k) solution[k] = r[k] + gamma_ * outflow_[k];
-  for (std::size_t k = outflow_.size(); k < r.size(); ++k) solution[k] = r[k];
+  std::copy(r.begin() + points, r.end(), solution.begin() + points);
+  for (Index f = 0; f < face_outflow_.size(); ++f) {
+    solution[points + f] += gamma_ * face_outflow_[f];
+  }
 }
 
 template class DarcyNewtonMatrix<2>;

@@ -30,12 +30,15 @@ class DarcyNewtonMatrix final : public NewtonMatrix {
  private:
   DarcySystem<D>& system_;
   Method method_;
-  Eigen::SparseMatrix<double> flow_;  ///< H or what stands in for it; rows of faces included
+  Eigen::SparseMatrix<double> flow_;       ///< H or what stands in for it
+  Eigen::SparseMatrix<double> face_flow_;  ///< its rows of the faces
+  Eigen::SparseMatrix<double> matrix_;     ///< V S + gamma H
   SparseCholesky factor_;
   double gamma_ = 0.0;
   Eigen::VectorXd right_side_;
   Eigen::VectorXd pressure_;
   Eigen::VectorXd outflow_;
+  Eigen::VectorXd face_outflow_;
 };
 
 }  // namespace perifrac
