@@ -10,7 +10,7 @@ namespace perifrac {
 /// that the result does not depend on the number of threads.
 template <class Use>
 void for_each_point(Index count, Use&& use) {
-  constexpr Index worth_threads = 2000;
+  constexpr Index worth_threads = 8000;  // below, waking a thread costs more than its share
 #pragma omp parallel for schedule(static) if (count >= worth_threads)
   for (Index i = 0; i < count; ++i) use(i);
 }

@@ -106,6 +106,7 @@ INSTANTIATE_TEST_SUITE_P(FromSoftToIncompressible, FluidStiffness,
 
 TEST(Mandel, DrainedSplitWarnsBeforeItDiverges) {
   const Overrides drained = {"coupling.split=drained",
+                             "coupling.acceleration=none",
                              "coupling.iterations.max=30",
                              "coupling.iterations.tolerance=1e-4",
                              "coupling.window.first=100 ms",
@@ -123,17 +124,16 @@ TEST(Mandel, DrainedSplitWarnsBeforeItDiverges) {
 }
 
 TEST(Mandel, BitsDoNotDependOnThreads) {
-  const Overrides fine = {"body.spacing=0.5 m", "time.end=0.3 s", "output.times=[]"};
+  // Enough points for the loops to be shared out among threads.
+  const Overrides fine = {"body.spacing=0.25 m", "body.size=[40 m, 13 m]", "time.end=0.04 s",
+                          "output.times=[]"};
   for (const char* integrator : {"cvode", "explicit"}) {
     const Overrides overrides =
         with(fine, {std::string("pore_flow.integrator.type=") + integrator});
     omp_set_num_threads(1);
     const MandelRun one = run_mandel(overrides);
-    for (const int threads : {2, 3}) {
-      omp_set_num_threads(threads);
-      EXPECT_EQ(run_mandel(overrides).pressure, one.pressure)
-          << threads << " threads, " << integrator;
-    }
+    omp_set_num_threads(2);
+    EXPECT_EQ(run_mandel(overrides).pressure, one.pressure) << integrator;
   }
 }
 
