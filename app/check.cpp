@@ -31,6 +31,12 @@ class ArrayList final : public StateVisitor {
   }
 };
 
+nlohmann::json modules_of(const CouplingManager& manager) {
+  nlohmann::json modules = nlohmann::json::array();
+  for (const ModuleSlot& slot : manager.modules()) modules.push_back(slot.name);
+  return modules;
+}
+
 nlohmann::json links_of(const CouplingManager& manager) {
   nlohmann::json links = nlohmann::json::array();
   for (const Link& link : manager.links()) links.push_back(link.name());
@@ -76,15 +82,13 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
   const Recorder recorder(scene, "", simulation);
   ArrayList list;
   manager.visit_state(list);
-  const nlohmann::json result = {{"scene", scene_file},
-                                 {"effects", effects(scene)},
-                                 {"links", links_of(manager)},
-                                 {"counts", counts(simulation)},
-                                 {"family_bytes", family_bytes(simulation)},
-                                 {"arrays", list.arrays},
-                                 {"warnings", manager.warnings()}};
+  const nlohmann::json result = {
+      {"scene", scene_file},          {"modules", modules_of(manager)},
+      {"effects", effects(scene)},    {"links", links_of(manager)},
+      {"counts", counts(simulation)}, {"family_bytes", family_bytes(simulation)},
+      {"arrays", list.arrays},        {"warnings", manager.warnings()}};
   if (json) {
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}", json_text(result));
   } else {
     print(result);
   }

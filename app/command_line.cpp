@@ -1,6 +1,8 @@
 #include "app/command_line.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 #include <CLI/CLI.hpp>
 #include <omp.h>
@@ -38,7 +40,8 @@ void add_scene_options(CLI::App& verb, Request& request) {
 
 void add_run_options(CLI::App& verb, Request& request) {
   add_scene_options(verb, request);
-  verb.add_option("--output", request.run.output, "folder for results; runs/<scene> if left out")
+  verb.add_option("--output", request.run.output,
+                  "folder for results; the checkpoint's, or runs/<scene>")
       ->type_name("DIR");
   verb.add_option("--threads", request.threads, "threads; results do not depend on it")
       ->type_name("N")
@@ -59,12 +62,10 @@ int dispatch(const CLI::App& app, const Request& request) {
   return request.page ? print_reference_page() : list_modules(request.run.json);
 }
 
-}  // namespace
-
-int run_command_line(int argc, char** argv) {
+int parse_and_dispatch(int argc, char** argv) {
   CLI::App app{"Fluid-driven fracture in porous rock", "perifrac"};
   app.set_version_flag("--version", std::string("perifrac ") + version);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // with (1) a wrong verb would be called a missing one
   Request request;
   add_run_options(*app.add_subcommand("run", "run a scene"), request);
   add_scene_options(*app.add_subcommand("check", "say what a scene calls for; run nothing"),
@@ -77,10 +78,23 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : usage_error;
+    if (error.get_exit_code() == 0) return app.exit(error);  // prints help or version
+    throw InputError(std::string("perifrac: ") + error.what() + "; see perifrac --help");
   }
+  if (app.get_subcommands().empty()) {
+    throw InputError("perifrac: a verb is missing; expected run, check, report or list");
+  }
+  return dispatch(app, request);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
   try {
-    return dispatch(app, request);
+    const int code = parse_and_dispatch(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+      throw OutputError("standard output", std::strerror(errno));
+    return code;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return usage_error;

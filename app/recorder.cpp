@@ -36,11 +36,15 @@ void Recorder::walk(StateVisitor& visitor) {
 void Recorder::restore(const Checkpoint& checkpoint) {
   checkpoint.state.restore([this](StateVisitor& visitor) { walk(visitor); });
   restart_point();
-  step_on_disk_ = last_->step;
 }
 
 void Recorder::open(const OutputFolder& folder, const std::optional<Checkpoint>& restart) {
   folder_ = folder.path();
+  if (restart) {
+    // Before rows and frames are cut back: checkpoints beyond them, and the summary, must not stay.
+    write_checkpoint(false);
+    std::filesystem::remove(folder_ / "summary.json");
+  }
   std::vector<HistoryColumn> columns = probes_.columns();
   for (const LedgerColumn& column : simulation_.manager->ledger().columns()) {
     columns.push_back({column.name, column.unit});

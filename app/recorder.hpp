@@ -29,7 +29,7 @@ class Recorder {
 
   /// Puts back what a checkpoint holds; the manager must be initialised.
   void restore(const Checkpoint& checkpoint);
-  /// Begins to write. `restart` is what the run goes on from.
+  /// Begins to write. `restart` is what the run goes on from: what lies beyond it is removed.
   void open(const OutputFolder& folder, const std::optional<Checkpoint>& restart);
 
   void record_window();  ///< a row of history.csv, when one is due

@@ -15,7 +15,9 @@
 #include "app/scene_keys.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
+#include "app/version.hpp"
 #include "core/config/scene.hpp"
+#include "core/config/units.hpp"
 #include "core/errors.hpp"
 #include "core/io/log.hpp"
 #include "core/io/progress.hpp"
@@ -38,10 +40,15 @@ std::string scene_text(const RunRequest& request) {
   return text.str();
 }
 
-Section read_request(const RunRequest& request) {
-  std::vector<std::string> overrides = request.overrides;
-  if (!request.until.empty()) overrides.push_back("time.end=" + request.until);
-  return read_scene(request.scene, overrides, scene_catalogue());
+/// The time [s] that --until names. The scene's own end stays what it is: windows follow from it.
+std::optional<double> read_until(const std::string& until) {
+  if (until.empty()) return {};
+  try {
+    if (const double time = to_si(until, "s"); time > 0.0) return time;
+  } catch (const QuantityError& error) {
+    throw InputError(fmt::format("--until: {}", error.what()));
+  }
+  throw InputError(fmt::format("--until: '{}' is out of range; expected a time after 0 s", until));
 }
 
 std::optional<Checkpoint> read_restart(const RunRequest& request, const std::string& text,
@@ -54,7 +61,12 @@ std::optional<Checkpoint> read_restart(const RunRequest& request, const std::str
         "from (only --until may differ)",
         request.restart, request.scene));
   }
-  if (checkpoint.time >= end) {
+  if (checkpoint.version != version) {
+    throw InputError(fmt::format("{}: was written by perifrac {}, this is {}; expected the same",
+                                 request.restart, checkpoint.version, version));
+  }
+  // At the end itself a run may still lack its summary.
+  if (checkpoint.time > end) {
     throw InputError(
         fmt::format("{}: lies at {:g} s, the run ends at {:g} s; expected a later "
                     "end, as by --until",
@@ -65,7 +77,21 @@ std::optional<Checkpoint> read_restart(const RunRequest& request, const std::str
 
 std::filesystem::path folder_of(const RunRequest& request) {
   if (!request.output.empty()) return request.output;
+  if (!request.restart.empty()) return std::filesystem::absolute(request.restart).parent_path();
   return std::filesystem::path("runs") / std::filesystem::path(request.scene).stem();
+}
+
+/// A restart goes on with the rows and frames in its folder: they must be of the same run.
+void refuse_other_results(const RunRequest& request, const std::filesystem::path& folder) {
+  const auto own_folder = std::filesystem::absolute(request.restart).parent_path();
+  std::error_code missing;
+  if (!std::filesystem::exists(folder / "history.csv", missing) ||
+      std::filesystem::equivalent(folder, own_folder, missing)) {
+    return;
+  }
+  throw InputError(fmt::format(
+      "{}: holds results, and {} is not among them; expected a new folder, or the checkpoint's",
+      folder.string(), request.restart));
 }
 
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
@@ -74,19 +100,19 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const d
   Progress progress(manager.time(), simulation.end);
   auto output = std::ranges::upper_bound(outputs, manager.time());
   while (output != outputs.end()) {
+    if (const int signal = received_signal()) return signal;
     manager.advance(*output);
     recorder.check_finite();
     recorder.record_window();
     if (manager.time() == *output) {
       recorder.record_output();
       recorder.restart_point();
-      recorder.write_checkpoint(true);
       ++output;
     } else if (manager.step() % windows_between_restart_points == 0) {
       recorder.restart_point();
     }
+    recorder.write_checkpoint(true);
     progress.update(manager.time(), manager.step());
-    if (const int signal = received_signal()) return signal;
   }
   return 0;
 }
@@ -114,13 +140,16 @@ void start(Simulation& simulation, Recorder& recorder, const OutputFolder& folde
 int run_scene(const RunRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
   install_signal_handlers();
-  const Section scene = read_request(request);
+  const Section scene = read_scene(request.scene, request.overrides, scene_catalogue());
   const std::string text = scene_text(request);
   Simulation simulation = make_simulation(scene);
   simulation.manager->initialize(0.0);
-  const std::vector<double> outputs = read_output_times(scene.at("output"), simulation.end);
+  const std::vector<double> outputs =
+      read_output_times(scene.at("output"), simulation.end, read_until(request.until));
+  simulation.end = outputs.back();
   Recorder recorder(scene, text, simulation);
   const std::optional<Checkpoint> restart = read_restart(request, text, simulation.end);
+  if (restart) refuse_other_results(request, folder_of(request));
   const OutputFolder folder(folder_of(request));
   if (!restart) folder.remove_earlier_results();
 
@@ -144,13 +173,16 @@ int run_scene(const RunRequest& request) {
       summarize(scene, request.scene, text, simulation, recorder.reference(), outcome, seconds);
   write_summary(folder.path(), summary);
   if (request.json) {
-    fmt::print("{}\n", summary.dump(2));
+    fmt::print("{}", json_text(summary));
   } else {
     fmt::print("{}", summary_text(summary));
     if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
   }
   std::fflush(stdout);
-  if (request.report && outcome != RunOutcome::stopped) make_report(folder.path(), request.json);
+  if (request.report && outcome != RunOutcome::stopped &&
+      make_report(folder.path(), request.json) != 0) {
+    log_warning("no report was made of the results; `perifrac report` tries again");
+  }
   return exit_code;
 }
 

@@ -10,9 +10,9 @@ namespace perifrac {
 struct RunRequest {
   std::string scene;                   ///< file
   std::vector<std::string> overrides;  ///< `key=value` of --set
-  std::string output;                  ///< folder; empty: runs/<name of the scene>
+  std::string output;                  ///< folder; empty: the checkpoint's, or runs/<scene>
   std::string restart;                 ///< checkpoint to go on from; empty: start anew
-  std::string until;                   ///< replaces time.end; empty: as in the scene
+  std::string until;                   ///< where to end; empty: the scene's time.end
   bool json = false;                   ///< summary on standard output as JSON
   bool report = true;                  ///< make the picture and the page at the end
 };

@@ -46,7 +46,8 @@ KeyTable output_keys() {
        .unit = "s",
        .range = "[0, inf)",
        .fallback = "60 s",
-       .meaning = "Least wall time between checkpoints, which are written with frames."},
+       .meaning = "Least wall time between checkpoints, which are written with frames and "
+                  "every 50 windows."},
       {.path = "probes[].name",
        .type = KeyType::text,
        .required = true,

@@ -109,12 +109,17 @@ nlohmann::json summarize(const Section& scene, const std::string& scene_file,
       {"ledger", ledger_summary(manager.ledger())}};
   result["counts"]["windows"] = manager.step();
   result["counts"]["passes"] = manager.work().passes;
+  result["counts"]["most passes in a window"] = manager.work().most_passes;
   if (reference) result["reference"] = reference->summary();
   return result;
 }
 
+std::string json_text(const nlohmann::json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
 void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary) {
-  write_atomically(folder / "summary.json", summary.dump(2) + "\n");
+  write_atomically(folder / "summary.json", json_text(summary));
 }
 
 std::string summary_text(const nlohmann::json& summary) {

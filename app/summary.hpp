@@ -20,6 +20,9 @@ nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const std::optional<MandelReference>& reference, RunOutcome outcome,
                          double seconds);
 
+/// JSON as text. Bytes of a scene that are not UTF-8 are replaced: they must not cost the results.
+std::string json_text(const nlohmann::json& json);
+
 /// Writes DIR/summary.json atomically. Throws OutputError.
 void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary);
 

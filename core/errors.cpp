@@ -1,8 +1,13 @@
 #include "core/errors.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace perifrac {
+
+std::string describe_point(std::size_t point, std::span<const double> position) {
+  return fmt::format("point {} at ({:.6g}) m", point, fmt::join(position, ", "));
+}
 
 NumericalError::NumericalError(std::string field, std::string place, double time,
                                std::string problem)

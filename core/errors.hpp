@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -26,6 +28,9 @@ class BodyError : public std::runtime_error {
  private:
   std::string expected_;
 };
+
+/// A place for NumericalError: `point 37 at (1, 3) m`; `position` in [m], one value a coordinate.
+std::string describe_point(std::size_t point, std::span<const double> position);
 
 /// The run went wrong numerically: exit code 1, the last good checkpoint is kept.
 class NumericalError : public std::runtime_error {

@@ -43,20 +43,24 @@ Balance balance(const Total& stored, double at_start, const Total& gained,
 }  // namespace
 
 void Ledger::start() {
-  mass_at_start_ = total(modules_, PortRole::mass_stored).sum;
-  energy_at_start_ = total(modules_, PortRole::energy_stored).sum;
+  const auto stored = [this](PortRole role) {
+    const Total all = total(modules_, role);
+    return all.ports > 0 ? std::optional(all.sum) : std::nullopt;
+  };
+  mass_at_start_ = stored(PortRole::mass_stored);
+  energy_at_start_ = stored(PortRole::energy_stored);
 }
 
 std::optional<Balance> Ledger::mass() const {
-  const Total stored = total(modules_, PortRole::mass_stored);
-  if (stored.ports == 0) return std::nullopt;
-  return balance(stored, mass_at_start_, total(modules_, PortRole::mass_gained), {});
+  if (!mass_at_start_) return std::nullopt;
+  return balance(total(modules_, PortRole::mass_stored), *mass_at_start_,
+                 total(modules_, PortRole::mass_gained), {});
 }
 
 std::optional<Balance> Ledger::energy() const {
-  const Total stored = total(modules_, PortRole::energy_stored);
-  if (stored.ports == 0) return std::nullopt;
-  return balance(stored, energy_at_start_, total(modules_, PortRole::energy_gained),
+  if (!energy_at_start_) return std::nullopt;
+  return balance(total(modules_, PortRole::energy_stored), *energy_at_start_,
+                 total(modules_, PortRole::energy_gained),
                  total(modules_, PortRole::energy_dissipated));
 }
 
@@ -79,8 +83,8 @@ std::vector<LedgerColumn> Ledger::columns() const {
 }
 
 void Ledger::visit_state(StateVisitor& visitor) {
-  visitor.visit("mass_at_start", mass_at_start_);
-  visitor.visit("energy_at_start", energy_at_start_);
+  if (mass_at_start_) visitor.visit("mass_at_start", *mass_at_start_);
+  if (energy_at_start_) visitor.visit("energy_at_start", *energy_at_start_);
 }
 
 }  // namespace perifrac

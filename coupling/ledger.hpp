@@ -33,7 +33,7 @@ class Ledger {
  public:
   explicit Ledger(std::span<ModuleSlot> modules) : modules_(modules) {}
 
-  /// What is stored now is the start.
+  /// What is stored now is the start. To be called before all else.
   void start();
 
   std::optional<Balance> mass() const;    ///< of fluid [kg; in 2D kg/m]
@@ -46,8 +46,8 @@ class Ledger {
 
  private:
   std::span<ModuleSlot> modules_;
-  double mass_at_start_ = 0.0;
-  double energy_at_start_ = 0.0;
+  std::optional<double> mass_at_start_;  ///< nothing where no module stores it
+  std::optional<double> energy_at_start_;
 };
 
 }  // namespace perifrac

@@ -43,6 +43,7 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   const bool alone = modules_.size() == 1;
   if (!alone) begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
 
+  const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
   double reached = iterate(tried, iterations);
   for (int redone = 0; reached < tried.end && !alone; ++redone) {
@@ -54,6 +55,7 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   }
   if (reached < window.end) ++work_.events;
   for (Link& link : links_) link.accept();
+  work_.most_passes = std::max(work_.most_passes, work_.passes - passes_before);
   ++work_.windows;
   return reached;
 }

@@ -24,7 +24,8 @@ struct Iterations {
 struct CouplingWork {
   std::int64_t windows = 0;
   std::int64_t passes = 0;  ///< over all modules; more than windows by iterating and by events
-  std::int64_t events = 0;  ///< windows that a module ended early
+  std::int64_t most_passes = 0;  ///< in any one window
+  std::int64_t events = 0;       ///< windows that a module ended early
 };
 
 /// Takes all modules through one window: predict, advance in order and exchange, compare, go back

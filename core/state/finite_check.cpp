@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/errors.hpp"
 
@@ -29,7 +28,7 @@ std::string FiniteCheck::place(std::size_t index, std::size_t size) const {
   for (int axis = 0; axis < points_->dimension; ++axis) {
     position.push_back(points_->position[axis][point]);
   }
-  return fmt::format("point {} at ({:.6g}) m", point, fmt::join(position, ", "));
+  return describe_point(point, position);
 }
 
 }  // namespace perifrac

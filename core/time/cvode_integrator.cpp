@@ -192,7 +192,7 @@ void CvodeIntegrator::Cvode::fail(int flag) {
   if (thrown_) std::rethrow_exception(thrown_);
   const std::string field(system_.name());
   if (not_finite_)
-    throw NumericalError(field, fmt::format("entry {}", not_finite_->entry), not_finite_->t,
+    throw NumericalError(field, system_.place(not_finite_->entry), not_finite_->t,
                          "the rate of change is not finite");
   double t = t_;
   if (memory_) CVodeGetCurrentTime(memory_, &t);

@@ -80,8 +80,8 @@ void ForwardEuler::advance(double t_end, std::span<double> y) {
   statistics_.rhs_evaluations += steps;
   const auto bad = std::find_if_not(y.begin(), y.end(), [](double v) { return std::isfinite(v); });
   if (bad != y.end())
-    throw NumericalError(std::string(system_.name()), fmt::format("entry {}", bad - y.begin()),
-                         t_end, "a value is not finite");
+    throw NumericalError(std::string(system_.name()), system_.place(bad - y.begin()), t_end,
+                         "a value is not finite");
 }
 
 }  // namespace perifrac

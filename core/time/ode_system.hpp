@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace perifrac {
@@ -17,6 +18,11 @@ class OdeSystem {
 
   virtual std::size_t size() const = 0;
 
+  /// Where an unknown lies, for messages.
+  virtual std::string place(std::size_t unknown) const {
+    return "entry " + std::to_string(unknown);
+  }
+
   /// How many of the last unknowns only add up what the others do (the volume that left through a
   /// face): no rate depends on them, so they have no say in stability.
   virtual std::size_t accumulators() const { return 0; }
@@ -28,7 +34,8 @@ class OdeSystem {
   virtual void jacobian_times(double t, std::span<const double> y, std::span<const double> v,
                               std::span<double> product) = 0;
 
-  /// What an error in each unknown is measured against, positive; infinity: it need not be accurate.
+  /// What an error in each unknown is measured against, positive; infinity: it need not be
+  /// accurate.
   virtual void magnitudes(double t, std::span<const double> y, std::span<double> magnitude) = 0;
 
   /// Rises whenever J becomes another matrix (bonds broke), so that what was derived from the old

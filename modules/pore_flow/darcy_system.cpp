@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/errors.hpp"
+
 namespace perifrac {
 
 template <int D>
@@ -17,6 +19,19 @@ DarcySystem<D>::DarcySystem(LinearExactOperator<D, DarcyLaw<D>> flow, PoreMateri
       effective_storage_(points_, material.storage),
       pressure_(flow_.size()),
       outflow_(flow_.size()) {}
+
+template <int D>
+std::string DarcySystem<D>::place(std::size_t unknown) const {
+  if (unknown < static_cast<std::size_t>(points_)) {
+    Vector<D> position;
+    for (int a = 0; a < D; ++a) position[a] = flow_.family().position[a][unknown];
+    return describe_point(unknown, position);
+  }
+  const std::size_t accumulated = unknown - points_;
+  const std::size_t faces = face_pressures_.size();
+  if (accumulated < faces) return "the volume that came in through a face";
+  return accumulated == faces ? "the energy dissipated" : "the energy of the sources";
+}
 
 template <int D>
 void DarcySystem<D>::set_dilatation(const DilatationInput& input) {

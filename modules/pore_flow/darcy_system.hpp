@@ -38,6 +38,7 @@ class DarcySystem final : public OdeSystem {
 
   std::string_view name() const override { return "fluid_content"; }
   std::size_t size() const override { return points_ + accumulators(); }
+  std::string place(std::size_t unknown) const override;
   std::size_t accumulators() const override {
     return face_pressures_.size() + (sources_.size() > 0 ? 2 : 1);
   }

@@ -85,7 +85,7 @@ KeyTable darcy_keys() {
        .meaning = "cvode: factor the flow, or iterate with GMRES, preconditioned by the bonds."},
       {.path = "integrator.tolerance",
        .range = "(0, 0.1]",
-       .fallback = "1e-4",
+       .fallback = "1e-5",
        .meaning = "cvode: largest error of a step over the largest pressure."},
       {.path = "initial_pressure",
        .unit = "Pa",

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace perifrac {
 /// Reads a scene that stands in a test.
 inline Section read_scene_text(const std::string& text,
                                const std::vector<std::string>& overrides = {}) {
-  const std::string path = testing::TempDir() + "scene_in_a_test.yaml";
+  const std::string path = testing::TempDir() + "scene_" + std::to_string(getpid()) + ".yaml";
   std::ofstream(path) << text;
   return read_scene(path, overrides, scene_catalogue());
 }

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "app/references/mandel_reference.hpp"
 #include "app/simulation.hpp"
 
 namespace perifrac::test {
@@ -22,13 +21,14 @@ struct MandelRun {
   double mass_error = 0.0;
   double energy_error = 0.0;
   double seconds = 0.0;  ///< in advancing, set-up apart
-  std::vector<double> pressure;
+  int exit_code = 0;
+  std::vector<std::vector<double>> profile;  ///< pressure along x, one row an output
 
   double largest_pressure_error(double from_time, double to_time) const;
   double largest_plate_error() const;
 };
 
-/// Runs configs/mandel.yaml with `--set` overrides, in memory.
+/// Runs configs/mandel.yaml with `--set` overrides as `perifrac run` does.
 MandelRun run_mandel(const std::vector<std::string>& overrides);
 
 /// The simulation that it makes, initialised.

@@ -33,9 +33,7 @@ class CvodeIntegratorTest : public testing::TestWithParam<bool> {
     return std::make_unique<LineDiagonal>(line_);
   }
 
-  CvodeIntegrator make(double tolerance) {
-    return CvodeIntegrator(line_, *matrix_, tolerance);
-  }
+  CvodeIntegrator make(double tolerance) { return CvodeIntegrator(line_, *matrix_, tolerance); }
 
   LineDiffusion line_{40, 1000.0};
   std::unique_ptr<NewtonMatrix> matrix_;
@@ -46,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(LinearSolver, CvodeIntegratorTest, testing::Bool(),
 
 TEST_P(CvodeIntegratorTest, ErrorAgainstTheMatrixExponentialFallsWithTheTolerance) {
   const std::vector<double> start = line_.start(), exact = line_.exact(start, 0.5);
-  double coarser = 1.0;
+  double coarser = 1.0, coarsest = 0.0;
   for (const double tolerance : {1e-3, 1e-5, 1e-7, 1e-9}) {
     CvodeIntegrator cvode = make(tolerance);
     std::vector<double> y = start;
@@ -54,10 +52,12 @@ TEST_P(CvodeIntegratorTest, ErrorAgainstTheMatrixExponentialFallsWithTheToleranc
     cvode.advance(0.5, y);
     const double error = largest_difference(y, exact);
     EXPECT_LT(error, 100.0 * tolerance);
-    EXPECT_LT(error, 0.1 * coarser);
+    EXPECT_LT(error, 0.2 * coarser);
     coarser = error;
+    coarsest = std::max(coarsest, error);
     EXPECT_LT(cvode.statistics().steps, 2000) << "an explicit method needs 5000";
   }
+  EXPECT_LT(coarser, 1e-4 * coarsest) << "over six decades of tolerance";
 }
 
 TEST_P(CvodeIntegratorTest, GoesOnWithItsHistoryFromWindowToWindow) {

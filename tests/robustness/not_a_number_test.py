@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+"""Values that overflow stop the run with field, place and time; the last good checkpoint is kept and can be used."""
+import json
+import math
+import unittest
+
+import h5py
+from perifrac_runs import MANDEL, RunTest, SMALL, checkpoints, perifrac, settings
+
+# One pass a window of `drained` at coupling strength 5.7: the error grows twelvefold a window until
+# the dissipated energy, a square, overflows after some 150 windows. Honest mathematics, no hook.
+DIVERGING = SMALL | {"coupling.split": "drained", "pore_flow.integrator.type": "explicit", "time.end": "1000 s",
+                     "output.interval": "10 s", "output.times": "[]"}
+# An overflow at a point that the scene names.
+SOURCE = SMALL | {"pore_flow.integrator.type": "explicit",
+                  "pore_flow.sources": "[{at: [21 m, 7 m], rate: 1e306}]"}
+
+
+class NotANumber(RunTest):
+    def fail_to_run(self, keys, folder, *options):
+        done = perifrac("run", MANDEL, "--no-report", "--output", self.folder / folder, *settings(keys), *options)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        errors = [line for line in done.stderr.splitlines() if "error" in line.split(":")[2]]
+        self.assertEqual(len(errors), 1, done.stderr)
+        self.assertEqual(json.loads((self.folder / folder / "summary.json").read_text())["outcome"], "failed")
+        return errors[0]
+
+    def test_names_field_point_and_time(self):
+        error = self.fail_to_run(SOURCE, "run")
+        self.assertRegex(error, r"(infinite value|not a number|not finite) in pore_flow/pore_pressure "
+                                r"at point \d+ at \(21, 7\) m, t = 0\.02 s$")
+
+    def test_keeps_a_checkpoint_from_which_the_same_follows(self):
+        error = self.fail_to_run(DIVERGING, "run")
+        self.assertRegex(error, r"not finite in fluid_content at the energy dissipated, t = \d+(\.\d+)? s$")
+        last = checkpoints(self.folder / "run")[-1]
+        with h5py.File(last, "r") as opened:
+            self.assertGreater(opened["step"][0], 0)
+            opened["state"].visititems(self.assert_finite)
+        again = self.fail_to_run(DIVERGING, "run", "--restart", last)
+        self.assertEqual(error.split("error")[1], again.split("error")[1])
+
+    def assert_finite(self, name, node):
+        if isinstance(node, h5py.Dataset):
+            self.assertTrue(all(map(math.isfinite, node[()].flat)), name)
+
+    def test_a_checkpoint_from_before_can_end_well(self):
+        # The run of the same scene that is stopped in time has nothing to complain of.
+        self.fail_to_run(DIVERGING, "run")
+        start = checkpoints(self.folder / "run")[-1]
+        with h5py.File(start, "r") as opened:
+            until = opened["time"][0]
+        self.run_scene(DIVERGING, "run", "--restart", start, "--until", repr(float(until)))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,26 @@
+#!/usr/bin/python3
+"""Results are the same bits at any number of threads."""
+import unittest
+
+from perifrac_runs import RunTest, SMALL
+
+# Enough points for every loop to be shared out.
+FINE = SMALL | {"body.spacing": "0.5 m", "output.times": "[0.1 s]", "time.end": "0.3 s"}
+SCHEMES = {"explicit": {"pore_flow.integrator.type": "explicit"},
+           "cvode, krylov": {"pore_flow.integrator.linear_solver": "krylov"},
+           "cvode, direct, iterated": {"coupling.iterations.max": "20", "coupling.iterations.tolerance": "1e-3",
+                        "coupling.acceleration": "anderson"}}
+
+
+class Threads(RunTest):
+    def test_the_number_of_threads_changes_nothing(self):
+        for name, keys in SCHEMES.items():
+            one = self.run_scene(FINE | keys, f"{name}/1", "--threads", "1")
+            for number in ("2", "4"):
+                with self.subTest(name, threads=number):
+                    other = self.run_scene(FINE | keys, f"{name}/{number}", "--threads", number)
+                    self.assert_same_results(one, other)
+
+
+if __name__ == "__main__":
+    unittest.main()
