@@ -109,7 +109,7 @@ nlohmann::json summarize(const Section& scene, const std::string& scene_file,
       {"ledger", ledger_summary(manager.ledger())}};
   result["counts"]["windows"] = manager.step();
   result["counts"]["passes"] = manager.work().passes;
-  result["counts"]["most passes in a window"] = manager.work().most_passes;
+  result["counts"]["most_passes"] = manager.work().most_passes;
   if (reference) result["reference"] = reference->summary();
   return result;
 }

@@ -11,14 +11,13 @@
 namespace perifrac {
 
 /// Carries the values of an out-port to the points of an in-port. Which mapping suits what:
-///
-/// | points                    | intensive (pressure, dilatation)     | extensive (impulse, mass) |
-/// |---------------------------|--------------------------------------|----------------------------|
-/// | the same set and version  | identity                             | identity | | two sets |
-/// consistent: each target point takes  | conservative: each source  | | | the value of the nearest
-/// source, so  | point gives its total to   | |                           | a constant stays that
-/// constant       | the nearest target, so the | |                           | | sum stays | | one
-/// value without a place | as source only: every target takes it| as target only: the sum    |
+/// - on the same set and version of points, each value goes to its own point;
+/// - an intensive quantity (pressure, dilatation) between two sets is mapped consistently: each
+///   target point takes the value of the nearest source, so a constant stays that constant;
+/// - an extensive quantity (impulse, mass) between two sets is mapped conservatively: each source
+///   gives its total to the nearest target, so the sum stays;
+/// - one intensive value without a place goes to every target; extensive values go to one place
+///   without points as their sum.
 ///
 /// The conservative mapping is the transpose of the consistent one from target to source. Of
 /// points equally near, the one of lowest index is taken.
@@ -27,7 +26,7 @@ class Mapping {
   explicit Mapping(PortKind kind) : kind_(kind) {}
 
   /// Rebuilds where either set, or its version, is another than last time.
-  /// Throws std::logic_error where the table above has no entry or the dimensions differ.
+  /// Throws std::logic_error where none of these applies or the dimensions differ.
   void update(const PointSet& source, const PointSet& target);
 
   /// `source` and `target` hold components * count values, component by component.

@@ -23,7 +23,7 @@ struct Iterations {
 /// What the exchange cost in this process.
 struct CouplingWork {
   std::int64_t windows = 0;
-  std::int64_t passes = 0;  ///< over all modules; more than windows by iterating and by events
+  std::int64_t passes = 0;       ///< over all modules; more than windows by iterating and by events
   std::int64_t most_passes = 0;  ///< in any one window
   std::int64_t events = 0;       ///< windows that a module ended early
 };

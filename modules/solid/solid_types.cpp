@@ -31,6 +31,16 @@ KeyTable quasi_static_keys() {
   return keys;
 }
 
+/// A rigid solid uses no key, but takes those of a deforming one, so that one word swaps them.
+KeyTable rigid_keys() {
+  KeyTable keys = quasi_static_keys();
+  for (Key& key : keys) {
+    key.required = key.required && key.path.starts_with("boundary.");
+    key.meaning = "Not used.";
+  }
+  return keys;
+}
+
 }  // namespace
 
 ModuleType quasi_static_solid_type() {
@@ -48,7 +58,7 @@ ModuleType rigid_solid_type() {
   return {.section = "solid",
           .name = "rigid",
           .meaning = "Solid that does not deform: no unknowns, no cost.",
-          .keys = {},
+          .keys = rigid_keys(),
           .make = [](const Section&, const AnyBody&) -> std::unique_ptr<PhysicsModule> {
             return std::make_unique<RigidSolid>();
           }};

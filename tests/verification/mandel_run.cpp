@@ -60,7 +60,7 @@ MandelRun run_mandel(const std::vector<std::string>& overrides) {
     if (module["name"] == "solid") run.solid_solves = module["advances"];
     run.seconds += module["wall_time"].get<double>();
   }
-  run.most_passes = summary["counts"]["most passes in a window"];
+  run.most_passes = summary["counts"]["most_passes"];
   run.mass_error = summary["ledger"]["mass_error"];
   run.energy_error = summary["ledger"]["energy_error"];
   run.profile = summary["reference"]["profiles"][0]["computed"];
