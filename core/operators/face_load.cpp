@@ -12,14 +12,15 @@ Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>
   const Face& loaded = body.faces()[face];
   const Face& opposite = body.faces()[face ^ 1];
   const Index points = body.points().size();
-  // Families within a horizon of the face are cut; their members lie within two.
+  // Families within a horizon of the face are cut; their members lie within two. So it is at the
+  // opposite face, or, where that one is mirrored, the stress jumps there and one horizon feels it.
   const double reach = 2.0 * body.horizon();
+  const double needed = reach + (contains(mirrored, face ^ 1) ? body.horizon() : reach);
   const double thickness = std::abs(loaded.coordinate - opposite.coordinate);
-  if (!contains(mirrored, face ^ 1) && thickness < 2.0 * reach) {
+  if (thickness < needed * (1.0 - 1e-9)) {
     throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is too thin for a load on one",
                                 thickness, loaded.name, opposite.name),
-                    fmt::format("at least four horizons, {:g} m, or an opposite face that is held",
-                                2.0 * reach));
+                    fmt::format("at least {:g} horizons, {:g} m", needed / body.horizon(), needed));
   }
   Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
   for (Index i = 0; i < points; ++i) {

@@ -28,7 +28,7 @@ time: {end: 1 s}
 )";
 inline const std::string box_3d = R"(
 dimension: 3
-body: {shape: box, size: [6 m, 5 m, 5 m], spacing: 1 m}
+body: {shape: box, size: [8 m, 5 m, 5 m], spacing: 1 m}
 time: {end: 1 s}
 )";
 inline const std::string quasi_static_2d = R"(

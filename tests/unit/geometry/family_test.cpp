@@ -1,0 +1,113 @@
+#include "core/geometry/family.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.hpp"
+#include "tests/unit/operators/brute_force.hpp"
+#include "tests/unit/operators/test_bodies.hpp"
+
+namespace perifrac {
+namespace {
+
+using test::Cloud;
+
+double omega(InfluenceFunction function, double r, double horizon) {
+  if (function == InfluenceFunction::constant) return 1.0;
+  if (function == InfluenceFunction::inverse) return horizon / r;
+  return std::exp(-std::pow(r / (0.4 * horizon), 2));
+}
+
+/// A bond by what it joins: source of the other end, faces that it is mirrored at.
+using Bond = std::tuple<Index, FaceSet>;
+
+template <int D>
+void expect_all_bonds(const std::array<int, D>& counts, double spacing, double horizon,
+                      FaceSet mirrored, Cloud cloud, InfluenceFunction influence) {
+  const Points<D> points = test::box_points<D>(counts, spacing, cloud);
+  const std::vector<Face> faces = test::box_faces<D>(counts, spacing);
+  const Family<D> family = build_family<D>(points, faces, mirrored, horizon, influence);
+  const auto nodes = test::all_images<D>(points, faces, mirrored);
+  ASSERT_EQ(family.point_count, points.size());
+  for (Index i = 0; i < points.size(); ++i) {
+    std::vector<std::pair<Bond, const test::Node<D>*>> expected;
+    for (const auto& node : nodes) {
+      const double r = test::distance<D>(points.at(i), node.x);
+      if ((node.faces == 0 && node.source == i) || r > horizon * (1.0 + 1e-9)) continue;
+      expected.push_back({{node.source, node.faces}, &node});
+    }
+    std::ranges::sort(expected);
+    std::vector<std::pair<Bond, Index>> found;
+    for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) {
+      const Index j = family.other[b];
+      const Index ghost = j - points.size();
+      found.push_back(
+          {ghost < 0 ? Bond(j, 0u) : Bond(family.ghost_source[ghost], family.ghost_faces[ghost]),
+           b});
+    }
+    std::ranges::sort(found);
+    ASSERT_EQ(found.size(), expected.size()) << "point " << i;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      ASSERT_EQ(found[k].first, expected[k].first) << "point " << i;
+      const auto& node = *expected[k].second;
+      const Index b = found[k].second;
+      const double r = test::distance<D>(points.at(i), node.x);
+      EXPECT_NEAR(family.weight[b], omega(influence, r, horizon) * points.volume[node.source],
+                  1e-12 * points.volume[node.source]);
+      for (int a = 0; a < D; ++a) {
+        EXPECT_NEAR(family.position[a][family.other[b]], node.x[a], 1e-12);
+      }
+    }
+    EXPECT_TRUE(std::is_sorted(family.other.begin() + family.offset[i],
+                               family.other.begin() + family.offset[i + 1]));
+  }
+}
+
+TEST(Family, HoldsExactlyTheBondsWithinTheHorizon) {
+  for (const Cloud cloud : {Cloud::lattice, Cloud::jittered}) {
+    expect_all_bonds<2>({9, 7}, 0.1, 0.25, 0, cloud, InfluenceFunction::gaussian);
+    expect_all_bonds<3>({5, 4, 6}, 0.1, 0.3, 0, cloud, InfluenceFunction::inverse);
+  }
+}
+
+TEST(Family, MirrorsPointsAtFacesEdgesAndCorners) {
+  for (const Cloud cloud : {Cloud::lattice, Cloud::jittered}) {
+    expect_all_bonds<2>({9, 7}, 0.1, 0.25, 0b1111, cloud, InfluenceFunction::constant);
+    expect_all_bonds<2>({3, 3}, 0.1, 0.3, 0b1111, cloud, InfluenceFunction::gaussian);
+    expect_all_bonds<2>({9, 7}, 0.1, 0.25, 0b0101, cloud, InfluenceFunction::gaussian);
+    expect_all_bonds<3>({4, 3, 4}, 0.1, 0.25, 0b111111, cloud, InfluenceFunction::gaussian);
+    expect_all_bonds<3>({4, 3, 4}, 0.1, 0.25, 0b100110, cloud, InfluenceFunction::gaussian);
+  }
+}
+
+// A lattice distance that equals the horizon is a bond at every spacing, whatever rounding does.
+TEST(Family, CountsLatticeBondsAtTheHorizonAlike) {
+  for (const double spacing : {1.0, 0.1, 1.0 / 3.0, 7e-4}) {
+    const auto body = test::box_body<2>({9, 9}, spacing, Cloud::lattice, 3.0);
+    const auto family = body->family(0);
+    const Index centre = body->nearest_point({4.5 * spacing, 4.5 * spacing});
+    EXPECT_EQ(family->bond_count(centre), 28) << spacing;
+  }
+}
+
+TEST(Family, RefusesABodyThinnerThanTheHorizonBetweenMirroredFaces) {
+  const Points<2> points = box_lattice<2>({8, 2}, 1.0);
+  const auto faces = test::box_faces<2>({8, 2}, 1.0);
+  const auto build = [&](FaceSet mirrored) {
+    return build_family<2>(points, faces, mirrored, 2.5, InfluenceFunction::gaussian);
+  };
+  EXPECT_NO_THROW(build(0b0011));
+  try {
+    build(0b1100);
+    FAIL() << "accepted";
+  } catch (const BodyError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("2 m between faces 'bottom' and 'top'"));
+  }
+}
+
+}  // namespace
+}  // namespace perifrac

@@ -1,0 +1,72 @@
+#include "core/geometry/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace perifrac {
+namespace {
+
+template <int D>
+void expect_box(const std::array<int, D>& counts, double spacing) {
+  const Points<D> points = box_lattice<D>(counts, spacing);
+  double size = 1.0;
+  std::size_t count = 1;
+  for (const int n : counts) {
+    size *= n * spacing;
+    count *= n;
+  }
+  ASSERT_EQ(points.volume.size(), count);
+  EXPECT_NEAR(std::accumulate(points.volume.begin(), points.volume.end(), 0.0), size, 1e-13 * size);
+  std::set<std::array<long, D>> cells;
+  for (Index i = 0; i < points.size(); ++i) {
+    std::array<long, D> cell;
+    for (int a = 0; a < D; ++a) {
+      const double place = points.position[a][i] / spacing - 0.5;
+      cell[a] = std::lround(place);
+      EXPECT_NEAR(place, cell[a], 1e-12);
+    }
+    cells.insert(cell);
+  }
+  EXPECT_EQ(cells.size(), count) << "a cell is taken twice";
+  for (int a = 0; a < D; ++a) {
+    const auto [low, high] = std::ranges::minmax_element(points.position[a]);
+    EXPECT_NEAR(*low, 0.5 * spacing, 1e-13) << "face half a spacing outside";
+    EXPECT_NEAR(*high, (counts[a] - 0.5) * spacing, 1e-12);
+  }
+}
+
+TEST(BoxLattice, FillsTheBoxWithFacesHalfASpacingOutside) {
+  expect_box<2>({7, 12}, 0.3);
+  expect_box<3>({3, 5, 4}, 0.25);
+}
+
+template <int D>
+void expect_ball(double radius, double spacing, double volume) {
+  const Points<D> points = ball_lattice<D>(radius, spacing);
+  EXPECT_NEAR(std::accumulate(points.volume.begin(), points.volume.end(), 0.0), volume,
+              1e-12 * volume);
+  EXPECT_NEAR(points.size() * std::pow(spacing, D), volume, 0.05 * volume) << "count";
+  for (int a = 0; a < D; ++a) {
+    EXPECT_NEAR(std::accumulate(points.position[a].begin(), points.position[a].end(), 0.0), 0.0,
+                1e-9)
+        << "centred";
+  }
+  for (Index i = 0; i < points.size(); ++i) {
+    double r2 = 0.0;
+    for (const double x : points.at(i)) r2 += x * x;
+    EXPECT_LT(r2, radius * radius);
+  }
+}
+
+TEST(BallLattice, HoldsTheBallsVolumeAboutTheOrigin) {
+  expect_ball<2>(1.0, 0.07, std::numbers::pi);
+  expect_ball<3>(2.0, 0.21, 4.0 / 3.0 * std::numbers::pi * 8.0);
+}
+
+}  // namespace
+}  // namespace perifrac

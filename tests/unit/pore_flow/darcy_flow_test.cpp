@@ -1,0 +1,196 @@
+#include "modules/pore_flow/darcy_flow.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/pore_flow/pore_body.hpp"
+
+namespace perifrac {
+namespace {
+
+using std::numbers::pi;
+using test::Method;
+using test::scalar;
+
+constexpr std::array methods = {Method::forward_euler, Method::direct, Method::krylov};
+constexpr std::array method_names = {"forward_euler", "direct", "krylov"};
+
+/// Pressures that are anything but uniform, put in through the state.
+class RandomStart final : public StateVisitor {
+ private:
+  void real(const std::string& name, std::vector<double>& values) override {
+    if (name == "fluid_content") {
+      const std::vector<double> random = test::random_values(points_);
+      std::ranges::copy(random, values.begin());
+    }
+  }
+  void integer(const std::string&, std::vector<std::int64_t>&) override {}
+
+ public:
+  explicit RandomStart(std::size_t points) : points_(points) {}
+
+ private:
+  std::size_t points_;
+};
+
+template <int D>
+void expect_mass_kept(const std::shared_ptr<const Body<D>>& body, const PoreBoundary<D>& boundary,
+                      const std::string& what) {
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    DarcyFlow<D> flow(body, test::darcy_system<D>(*body, boundary), 0.5,
+                      test::integrator_maker<D>(methods[m], 1e-5));
+    flow.initialize(0.0);
+    RandomStart start(body->points().volume.size());
+    flow.visit_state(start);
+    flow.on_restored(0.0);
+    const double before = scalar(flow, "pore_fluid_mass");
+    double moved = 0.0;
+    for (const double zeta : test::port(flow, "fluid_content").value) moved += std::abs(zeta);
+    moved *= test::some_rock.fluid_density * body->points().volume[0];
+    double drift = 0.0, t = 0.0;
+    for (int window = 0; window < 40; ++window) {
+      const double end = t + 0.01 * std::pow(1.15, window);
+      flow.advance({t, end});
+      t = end;
+      drift = std::max(drift, std::abs(scalar(flow, "pore_fluid_mass") - before -
+                                       scalar(flow, "pore_fluid_gained")));
+    }
+    ::testing::Test::RecordProperty(fmt::format("drift_{}_{}D_{}", what, D, method_names[m]),
+                                    fmt::format("{:.1e}", drift / moved));
+    EXPECT_LE(drift, 1e-12 * moved) << what << ", " << method_names[m];
+    if (what != "closed") {
+      EXPECT_GT(std::abs(scalar(flow, "pore_fluid_gained")), 1e-3 * moved);
+    }
+  }
+}
+
+TEST(DarcyFlow, KeepsItsMassInAClosedBox) {
+  const auto square = test::box_body<2>({14, 11}, 0.5);
+  expect_mass_kept<2>(square, PoreBoundary<2>(*square), "closed");
+  const auto cube = test::box_body<3>({6, 5, 6}, 0.5);
+  expect_mass_kept<3>(cube, PoreBoundary<3>(*cube), "closed");
+}
+
+TEST(DarcyFlow, StoresWhatComesThroughItsFaces) {
+  const auto square = test::box_body<2>({14, 11}, 0.5);
+  PoreBoundary<2> boundary(*square);
+  boundary.pressure(1, 0.7);
+  boundary.pressure(2, -0.3);
+  boundary.flux(0, 0.02);
+  boundary.source(40, 0.05);
+  expect_mass_kept<2>(square, boundary, "open");
+  const auto cube = test::box_body<3>({6, 5, 6}, 0.5);
+  PoreBoundary<3> around(*cube);
+  for (const int face : {0, 2, 5}) around.pressure(face, 0.1 * face);
+  expect_mass_kept<3>(cube, around, "open");
+}
+
+/// A layer, drained at x = 1 and sealed at x = 0: Terzaghi's series at the points.
+double drained_layer(double x, double time_factor) {
+  double p = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const double k = (n + 0.5) * pi;
+    p += 2.0 / k * (n % 2 == 0 ? 1.0 : -1.0) * std::cos(k * x) * std::exp(-k * k * time_factor);
+  }
+  return p;
+}
+
+double error_of_drainage(int count, Method method) {
+  const auto body = test::box_body<2>({count, 4}, 1.0 / count);
+  PoreBoundary<2> boundary(*body);
+  boundary.pressure(1, 0.0);
+  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 1.0,
+                    test::integrator_maker<2>(method, 1e-7, 0.1));
+  flow.initialize(0.0);
+  const double diffusivity = test::some_rock.mobility / test::some_rock.storage;
+  double t = 0.0, worst = 0.0;
+  for (const double time_factor : {0.1, 0.5}) {
+    flow.advance({t, time_factor / diffusivity});
+    t = time_factor / diffusivity;
+    const auto p = test::port(flow, "pore_pressure").value;
+    for (Index i = 0; i < body->points().size(); ++i) {
+      worst = std::max(worst,
+                       std::abs(p[i] - drained_layer(body->points().position[0][i], time_factor)));
+    }
+  }
+  return worst;
+}
+
+TEST(DarcyFlow, DrainsALayerAsTheSeriesSays) {
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const double coarse = error_of_drainage(20, methods[m]);
+    const double fine = error_of_drainage(40, methods[m]);
+    RecordProperty(
+        fmt::format("drained_layer_{}", method_names[m]),
+        fmt::format("error {:.2e} {:.2e}, order {:.2f}", coarse, fine, std::log2(coarse / fine)));
+    EXPECT_LT(fine, 2e-4) << method_names[m];
+    EXPECT_GE(std::log2(coarse / fine), 1.9) << method_names[m];
+  }
+}
+
+TEST(DarcyFlow, BalancesEnergy) {
+  const auto body = test::box_body<2>({14, 11}, 0.5);
+  PoreBoundary<2> boundary(*body);
+  boundary.pressure(1, 0.7);
+  boundary.source(40, 0.05);
+  // Explicit steps balance to first order; CVODE to its tolerance.
+  for (const double tolerance : {1e-5, 1e-8}) {
+    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.2,
+                      test::integrator_maker<2>(Method::direct, tolerance));
+    flow.initialize(0.0);
+    const double before = scalar(flow, "pore_fluid_energy");
+    flow.advance({0.0, 2.0});
+    const double gained = scalar(flow, "pore_fluid_work");
+    const double gap =
+        scalar(flow, "pore_fluid_energy") - before - gained + scalar(flow, "darcy_dissipation");
+    RecordProperty(fmt::format("energy_gap_at_{:.0e}", tolerance),
+                   fmt::format("{:.1e}", gap / gained));
+    EXPECT_LT(std::abs(gap), 100.0 * tolerance * gained);
+    EXPECT_GT(scalar(flow, "darcy_dissipation"), 0.1 * gained);
+  }
+}
+
+/// A window of no length asks for the undrained answer: nothing flows, dilatation alone lowers the
+/// pressure.
+TEST(DarcyFlow, AnswersAJumpOfDilatationUndrained) {
+  const auto body = test::box_body<2>({8, 8}, 0.5);
+  PoreBoundary<2> boundary(*body);
+  boundary.pressure(1, 0.0);
+  for (const Method method : methods) {
+    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 1.0,
+                      test::integrator_maker<2>(method, 1e-5));
+    flow.initialize(0.0);
+    std::ranges::fill(test::port(flow, "dilatation").value, -0.05);
+    flow.advance({0.0, 0.0});
+    const auto [points, stress, rate, slope] = test::port(flow, "pore_stress");
+    const auto [alpha, storage, mobility, density] = test::some_rock;
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+      EXPECT_NEAR(stress[i], alpha * (1.0 + alpha * 0.05 / storage), 1e-13);
+      EXPECT_NEAR(stress[i], alpha - 0.05 * slope[i], 1e-13) << "the port's slope";
+    }
+    EXPECT_EQ(scalar(flow, "pore_fluid_gained"), 0.0);
+  }
+}
+
+TEST(DarcyFlow, ShowsDarcysVelocity) {
+  const auto body = test::box_body<2>({10, 6}, 0.5);
+  PoreBoundary<2> boundary(*body);
+  boundary.pressure(0, 1.0);
+  boundary.pressure(1, 0.0);
+  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.5,
+                    test::integrator_maker<2>(Method::direct, 1e-8));
+  flow.initialize(0.0);
+  flow.advance({0.0, 1000.0});
+  const auto velocity = test::port(flow, "darcy_velocity").value;
+  const Index n = body->points().size();
+  for (Index i = 0; i < n; ++i) {
+    EXPECT_NEAR(velocity[i], 0.7 / 5.0, 1e-6);
+    EXPECT_NEAR(velocity[n + i], 0.0, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace perifrac

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "core/time/cvode_integrator.hpp"
+#include "core/time/forward_euler.hpp"
+#include "modules/pore_flow/darcy_flow.hpp"
+#include "modules/pore_flow/darcy_newton_matrix.hpp"
+#include "modules/pore_flow/pore_boundary.hpp"
+#include "tests/unit/operators/test_bodies.hpp"
+
+namespace perifrac::test {
+
+constexpr PoreMaterial some_rock{
+    .biot_coefficient = 0.8, .storage = 0.3, .mobility = 0.7, .fluid_density = 1.5};
+
+template <int D>
+LinearExactOperator<D, DarcyLaw<D>> flow_operator(const Body<D>& body,
+                                                  const PoreBoundary<D>& boundary,
+                                                  double mobility) {
+  const auto family = body.family(boundary.mirrored());
+  return {family, boundary.mirror_condition(*family), DarcyLaw<D>{mobility}};
+}
+
+template <int D>
+DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary,
+                            const PoreMaterial& material = some_rock) {
+  auto flow = flow_operator<D>(body, boundary, material.mobility);
+  const Eigen::VectorXd pressures = boundary.face_pressures(flow.mirror());
+  Eigen::VectorXd sources;
+  if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
+  return {std::move(flow), material, pressures, sources};
+}
+
+enum class Method { forward_euler, direct, krylov };
+
+/// CVODE with a matrix of its own.
+template <int D>
+class CvodeWithMatrix final : public Integrator {
+ public:
+  CvodeWithMatrix(DarcySystem<D>& system, typename DarcyNewtonMatrix<D>::Method method,
+                  double tolerance)
+      : matrix_(system, method), cvode_(system, matrix_, tolerance) {}
+  void reset(double t, std::span<const double> y) override { cvode_.reset(t, y); }
+  void advance(double t_end, std::span<double> y) override { cvode_.advance(t_end, y); }
+  double stable_step() const override { return cvode_.stable_step(); }
+  IntegratorStatistics statistics() const override { return cvode_.statistics(); }
+
+ private:
+  DarcyNewtonMatrix<D> matrix_;
+  CvodeIntegrator cvode_;
+};
+
+template <int D>
+DarcyIntegratorMaker<D> integrator_maker(Method method, double tolerance, double safety = 0.9) {
+  return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
+    using Matrix = DarcyNewtonMatrix<D>;
+    if (method == Method::forward_euler) return std::make_unique<ForwardEuler>(system, safety);
+    return std::make_unique<CvodeWithMatrix<D>>(
+        system, method == Method::direct ? Matrix::Method::direct : Matrix::Method::preconditioner,
+        tolerance);
+  };
+}
+
+inline PortView port(PhysicsModule& module, const std::string& name) {
+  const auto ports = module.ports();
+  const auto found = std::ranges::find(ports, name, &Port::name);
+  return module.port(static_cast<PortId>(found - ports.begin()));
+}
+
+inline double scalar(PhysicsModule& module, const std::string& name) {
+  return port(module, name).value[0];
+}
+
+}  // namespace perifrac::test
