@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install build run test test-slow check-style docs bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs bench clean
 
 SCENE ?= configs/mandel.yaml
 BUILD := build/release
@@ -16,11 +16,16 @@ help:
 install:
 	@tools/install
 
-build: install
+configure: install
 	@cmake --preset release --log-level=WARNING > /dev/null
+
+perifrac: configure
+	@cmake --build --preset release --target perifrac
+
+build: configure
 	@cmake --build --preset release
 
-run: build
+run: perifrac
 	@$(PERIFRAC) run $(SCENE)
 
 test: build check-style
@@ -35,7 +40,7 @@ check-style:
 bench: build
 	$(BUILD)/bin/perifrac_bench
 
-docs: build
+docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md
 
 clean:
