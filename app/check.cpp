@@ -62,7 +62,7 @@ void print(const nlohmann::json& result) {
              counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
              result["family_bytes"].get<long>() / 1000);
   for (const auto& array : result["arrays"]) {
-    fmt::print("  {:<40} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
+    fmt::print("  {:<48} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
                array["count"].get<long>(), array["bytes"].get<long>());
   }
   for (const auto& warning : result["warnings"]) {
