@@ -38,6 +38,11 @@ struct Port {
   int components = 1;
 };
 
+/// The unit of a total, such as a mass or an energy: in 2D it is per metre of thickness.
+inline std::string unit_of_total(const std::string& unit, int dimension) {
+  return dimension == 2 ? unit + "/m" : unit;
+}
+
 /// The changing part of a port, refetched at every exchange. Arrays hold components * count values,
 /// component by component (all x, then all y).
 ///

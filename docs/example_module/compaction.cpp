@@ -17,8 +17,9 @@ std::span<const Port> Compaction::ports() const {
   static const std::vector<Port> ports = {
       {"pore_stress", "Pa", PortDirection::in},
       {"dilatation", "1", PortDirection::out},
-      {"compaction_energy", "J", PortDirection::out, PortKind::extensive, PortRole::energy_stored},
-      {"overburden_work", "J", PortDirection::out, PortKind::extensive, PortRole::energy_gained}};
+      {"compaction_energy", "J/m", PortDirection::out, PortKind::extensive,
+       PortRole::energy_stored},
+      {"overburden_work", "J/m", PortDirection::out, PortKind::extensive, PortRole::energy_gained}};
   return ports;
 }
 

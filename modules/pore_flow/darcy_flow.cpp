@@ -8,8 +8,11 @@ namespace {
 
 const std::vector<Port>& darcy_ports(int dimension) {
   static const auto make = [](int d) -> std::vector<Port> {
-    const auto total = [](const char* name, const char* unit, PortRole role) {
-      return Port{name, unit, PortDirection::out, PortKind::extensive, role};
+    const auto total = [d](const char* name, const char* unit, PortRole role) {
+      return Port{name, unit_of_total(unit, d), PortDirection::out, PortKind::extensive, role};
+    };
+    const auto count = [](const char* name) {
+      return Port{name, "1", PortDirection::out, PortKind::extensive, PortRole::work};
     };
     return {
         {"dilatation", "1", PortDirection::in},
@@ -22,11 +25,11 @@ const std::vector<Port>& darcy_ports(int dimension) {
         total("pore_fluid_energy", "J", PortRole::energy_stored),
         total("pore_fluid_work", "J", PortRole::energy_gained),
         total("darcy_dissipation", "J", PortRole::energy_dissipated),
-        total("integrator_steps", "1", PortRole::work),
-        total("rhs_evaluations", "1", PortRole::work),
-        total("newton_iterations", "1", PortRole::work),
-        total("matrix_set_ups", "1", PortRole::work),
-        total("linear_iterations", "1", PortRole::work),
+        count("integrator_steps"),
+        count("rhs_evaluations"),
+        count("newton_iterations"),
+        count("matrix_set_ups"),
+        count("linear_iterations"),
     };
   };
   static const std::vector<Port> in_2d = make(2), in_3d = make(3);

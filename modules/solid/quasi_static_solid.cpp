@@ -54,8 +54,10 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
           {"pore_stress", "Pa", PortDirection::in},
           {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, D},
           {"dilatation", "1", PortDirection::out},
-          {"elastic_energy", "J", PortDirection::out, PortKind::extensive, PortRole::energy_stored},
-          {"external_work", "J", PortDirection::out, PortKind::extensive, PortRole::energy_gained},
+          {"elastic_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
+           PortRole::energy_stored},
+          {"external_work", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
+           PortRole::energy_gained},
       } {
   const auto family = body_->family(boundary.mirrored());
   const auto mirror = boundary.mirror_condition(*family);
