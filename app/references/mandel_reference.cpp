@@ -128,9 +128,11 @@ nlohmann::json MandelReference::summary() const {
                      {"plate_error", plate_error_[n]}});
   }
   if (peak_passed()) {
+    const double x = points_->position[0][histories_.front().point];
     result["quantities"] = {{{"name", "Mandel-Cryer peak in the middle / p0"},
                              {"unit", ""},
-                             {"max_error", peak_error()}}};
+                             {"max_error", peak_error()},
+                             {"at", {{"x", {{"value", x}, {"unit", "m"}}}}}}};
   }
 
   constexpr std::array places = {"the middle", "a/4", "a/2", "3a/4"};
