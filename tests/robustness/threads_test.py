@@ -5,7 +5,8 @@ import unittest
 from perifrac_runs import RunTest, SMALL
 
 # Enough points for every loop to be shared out.
-FINE = SMALL | {"body.spacing": "0.5 m", "output.times": "[0.1 s]", "time.end": "0.3 s"}
+FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.times": "[0.02 s]",
+                "time.end": "0.04 s"}
 SCHEMES = {"explicit": {"pore_flow.integrator.type": "explicit"},
            "cvode, krylov": {"pore_flow.integrator.linear_solver": "krylov"},
            "cvode, direct, iterated": {"coupling.iterations.max": "20", "coupling.iterations.tolerance": "1e-3",

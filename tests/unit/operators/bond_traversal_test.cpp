@@ -38,7 +38,7 @@ TEST(BondTraversal, SumsOverEveryBondOnce) {
 }
 
 TEST(BondTraversal, VisitsEveryPointOnce) {
-  for (const Index count : {1, 1999, 2000, 5001}) {
+  for (const Index count : {1, 1999, points_worth_threads, 2 * points_worth_threads + 1}) {
     std::vector<std::atomic<int>> visits(count);
     for_each_point(count, [&](Index i) { ++visits[i]; });
     for (const auto& n : visits) ASSERT_EQ(n, 1);
