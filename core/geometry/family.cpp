@@ -130,7 +130,6 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
   family.point_count = points.size();
   family.position = points.position;
   family.volume = points.volume;
-  family.mirrored = mirrored;
   check_thickness(faces, mirrored, horizon);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (contains(mirrored, f)) add_ghosts(family, faces[f], static_cast<int>(f), reach);

@@ -24,7 +24,6 @@ struct Family {
   std::vector<Index> offset;                    ///< bonds of i: offset[i] .. offset[i + 1]
   std::vector<Index> other;                     ///< the bond's other end
   std::vector<double> weight;                   ///< omega(|xi|) V_other
-  FaceSet mirrored = 0;
 
   Index ghost_count() const { return static_cast<Index>(ghost_source.size()); }
   Index node_count() const { return point_count + ghost_count(); }

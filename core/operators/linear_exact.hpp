@@ -97,11 +97,6 @@ class LinearExactOperator {
     return perifrac::gradient_matrix(*family_, moments_, mirror_);
   }
 
-  std::size_t bytes() const {
-    return sizeof(double) * (field_.size() + state_.size() + bond_stiffness_.size() +
-                             (D * D + 1) * static_cast<std::size_t>(family_->point_count));
-  }
-
  private:
   void fill_field(std::span<const double> u) {
     const Index points = family_->point_count;

@@ -1,32 +1,14 @@
 #include "modules/pore_flow/darcy_type.hpp"
 
-#include "core/time/cvode_integrator.hpp"
 #include "core/time/forward_euler.hpp"
+#include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
-#include "modules/pore_flow/darcy_newton_matrix.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "modules/pore_flow/pore_material.hpp"
 
 namespace perifrac {
 
 namespace {
-
-/// CVODE with the matrix that its Newton iteration needs; both live as long as the integrator.
-template <int D>
-class DarcyCvode final : public Integrator {
- public:
-  DarcyCvode(DarcySystem<D>& system, typename DarcyNewtonMatrix<D>::Method method, double tolerance)
-      : matrix_(system, method), cvode_(system, matrix_, tolerance) {}
-
-  void reset(double t, std::span<const double> y) override { cvode_.reset(t, y); }
-  void advance(double t_end, std::span<double> y) override { cvode_.advance(t_end, y); }
-  double stable_step() const override { return cvode_.stable_step(); }
-  IntegratorStatistics statistics() const override { return cvode_.statistics(); }
-
- private:
-  DarcyNewtonMatrix<D> matrix_;
-  CvodeIntegrator cvode_;
-};
 
 template <int D>
 DarcyIntegratorMaker<D> read_integrator(const Section& section) {

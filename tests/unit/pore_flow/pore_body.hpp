@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "core/time/cvode_integrator.hpp"
 #include "core/time/forward_euler.hpp"
+#include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
-#include "modules/pore_flow/darcy_newton_matrix.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
@@ -35,29 +34,12 @@ DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary
 
 enum class Method { forward_euler, direct, krylov };
 
-/// CVODE with a matrix of its own.
-template <int D>
-class CvodeWithMatrix final : public Integrator {
- public:
-  CvodeWithMatrix(DarcySystem<D>& system, typename DarcyNewtonMatrix<D>::Method method,
-                  double tolerance)
-      : matrix_(system, method), cvode_(system, matrix_, tolerance) {}
-  void reset(double t, std::span<const double> y) override { cvode_.reset(t, y); }
-  void advance(double t_end, std::span<double> y) override { cvode_.advance(t_end, y); }
-  double stable_step() const override { return cvode_.stable_step(); }
-  IntegratorStatistics statistics() const override { return cvode_.statistics(); }
-
- private:
-  DarcyNewtonMatrix<D> matrix_;
-  CvodeIntegrator cvode_;
-};
-
 template <int D>
 DarcyIntegratorMaker<D> integrator_maker(Method method, double tolerance, double safety = 0.9) {
   return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
     using Matrix = DarcyNewtonMatrix<D>;
     if (method == Method::forward_euler) return std::make_unique<ForwardEuler>(system, safety);
-    return std::make_unique<CvodeWithMatrix<D>>(
+    return std::make_unique<DarcyCvode<D>>(
         system, method == Method::direct ? Matrix::Method::direct : Matrix::Method::preconditioner,
         tolerance);
   };
