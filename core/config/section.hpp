@@ -28,6 +28,7 @@ class Section {
   std::vector<std::string> names(std::string_view path) const;  ///< children, in the file's order
   std::size_t count(std::string_view path) const;               ///< items of a list; 0 if absent
   Section at(std::string_view path) const;
+  Section scene() const { return {tree_, ""}; }  ///< the whole scene, for what all physics share
 
   /// The scene is wrong in a way that only the reader of this key can know.
   /// Throws InputError `file:line:column: path: problem; expected <expected>`.

@@ -26,8 +26,8 @@ std::array<int, 3> cells_along_axes(const Section& section, const std::vector<do
 }
 
 template <int D>
-std::shared_ptr<const Body<D>> make_box(const Section& section, double spacing, double horizon,
-                                        InfluenceFunction influence) {
+std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double horizon,
+                                  InfluenceFunction influence) {
   const std::vector<double> size = section.numbers("size");
   const auto cells = cells_along_axes(section, size, spacing);
   std::array<int, D> counts;
@@ -38,20 +38,20 @@ std::shared_ptr<const Body<D>> make_box(const Section& section, double spacing, 
     faces.push_back({names[2 * a], a, -1, 0.0});
     faces.push_back({names[2 * a + 1], a, +1, cells[a] * spacing});
   }
-  return std::make_shared<const Body<D>>(box_lattice<D>(counts, spacing), std::move(faces), spacing,
-                                         horizon, influence);
+  return std::make_shared<Body<D>>(box_lattice<D>(counts, spacing), std::move(faces), spacing,
+                                   horizon, influence);
 }
 
 template <int D>
-std::shared_ptr<const Body<D>> make_ball(const Section& section, double spacing, double horizon,
-                                         InfluenceFunction influence) {
+std::shared_ptr<Body<D>> make_ball(const Section& section, double spacing, double horizon,
+                                   InfluenceFunction influence) {
   const double radius = section.number("radius");
   if (radius < horizon) {
     section.fail("radius", fmt::format("{:g} m is less than the horizon, {:g} m", radius, horizon),
                  "a ball that holds a whole family");
   }
-  return std::make_shared<const Body<D>>(ball_lattice<D>(radius, spacing), std::vector<Face>{},
-                                         spacing, horizon, influence);
+  return std::make_shared<Body<D>>(ball_lattice<D>(radius, spacing), std::vector<Face>{}, spacing,
+                                   horizon, influence);
 }
 
 template <int D>
@@ -60,8 +60,10 @@ std::shared_ptr<const Body<D>> make_shape(const Section& section) {
   const double horizon = section.number("horizon_ratio") * spacing;
   const InfluenceFunction influence = influence_function(section.word("influence_function"));
   const bool box = section.word("shape") == "box";
-  return box ? make_box<D>(section, spacing, horizon, influence)
-             : make_ball<D>(section, spacing, horizon, influence);
+  const auto body = box ? make_box<D>(section, spacing, horizon, influence)
+                        : make_ball<D>(section, spacing, horizon, influence);
+  body->set_regions(read_regions<D>(section));
+  return body;
 }
 
 }  // namespace
@@ -71,6 +73,7 @@ Body<D>::Body(Points<D> points, std::vector<Face> faces, double spacing, double 
               InfluenceFunction influence)
     : points_(std::move(points)),
       faces_(std::move(faces)),
+      layers_(faces_.size()),
       spacing_(spacing),
       horizon_(horizon),
       influence_(influence) {
@@ -97,7 +100,7 @@ Index Body<D>::nearest_point(const Vector<D>& x) const {
 }
 
 template <int D>
-std::shared_ptr<const Family<D>> Body<D>::family(FaceSet mirrored) const {
+std::shared_ptr<const Family<D>> Body<D>::family(FaceSet mirrored, FaceSet) const {
   for (const auto& [faces, shared] : families_) {
     if (auto family = shared.lock(); family && faces == mirrored) return family;
   }
@@ -117,7 +120,7 @@ std::vector<std::shared_ptr<const Family<D>>> Body<D>::families() const {
 }
 
 KeyTable body_keys() {
-  return {
+  KeyTable keys = {
       {.path = "shape",
        .type = KeyType::word,
        .required = true,
@@ -151,6 +154,8 @@ KeyTable body_keys() {
        .words = {"gaussian", "constant", "inverse"},
        .meaning = "How a bond's weight falls with its length."},
   };
+  for (const Key& key : region_keys()) keys.push_back(key);
+  return keys;
 }
 
 AnyBody make_body(const Section& section, int dimension) {

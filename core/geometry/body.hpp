@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "core/geometry/faces.hpp"
 #include "core/geometry/family.hpp"
 #include "core/geometry/points.hpp"
+#include "core/geometry/region.hpp"
 #include "core/module/point_set.hpp"
 #include "core/operators/influence_function.hpp"
 
@@ -27,17 +29,24 @@ class Body {
   double spacing() const { return spacing_; }  ///< [m]
   double horizon() const { return horizon_; }  ///< [m]
   const PointSet& point_set() const { return point_set_; }
+  const std::vector<Region<D>>& regions() const { return regions_; }
+  void set_regions(std::vector<Region<D>> regions) { regions_ = std::move(regions); }
+  /// Points of the bonded layer behind a face, which stand in for its ghosts; empty where the face
+  /// is mirrored.
+  std::span<const Index> layer(int face) const { return layers_[face]; }
   Index nearest_point(const Vector<D>& x) const;
 
-  /// Families with mirror ghosts behind the faces in `mirrored`. Modules that mirror the same faces
-  /// share one.
-  std::shared_ptr<const Family<D>> family(FaceSet mirrored) const;
+  /// Families with mirror ghosts behind the faces in `mirrored`; points of the layers behind the
+  /// faces in `without_layers` have no bonds. Modules that ask for the same share one.
+  std::shared_ptr<const Family<D>> family(FaceSet mirrored, FaceSet without_layers = 0) const;
   /// All families that are in use.
   std::vector<std::shared_ptr<const Family<D>>> families() const;
 
  private:
   Points<D> points_;
   std::vector<Face> faces_;
+  std::vector<std::vector<Index>> layers_;  ///< by face
+  std::vector<Region<D>> regions_;
   double spacing_;
   double horizon_;
   InfluenceFunction influence_;

@@ -8,6 +8,7 @@
 #include <Eigen/SparseCore>
 
 #include "core/operators/bond_traversal.hpp"
+#include "core/operators/law_by_region.hpp"
 #include "core/operators/mirror_condition.hpp"
 #include "core/operators/nonlocal_gradient.hpp"
 #include "core/operators/shape_tensor.hpp"
@@ -24,7 +25,8 @@ namespace perifrac {
 /// and Darcy flow (R = 1) are two laws of it.
 ///
 /// Law: `static constexpr int components` (R), `Tensor<R, D> stress(const Tensor<R, D>& gradient)`
-/// (linear, symmetric), `double stabilisation()`.
+/// (linear, symmetric), `double stabilisation()`. Where it differs from point to point, a class
+/// with `components` and `at(i)`, the law of point i (law_by_region.hpp).
 ///
 /// An unknown vector holds R blocks of point values and then the face values of the
 /// MirrorCondition; rows of face values are the reactions of the faces.
@@ -44,7 +46,7 @@ class LinearExactOperator {
         bond_stiffness_(family_->node_count()) {
     const Index points = family_->point_count;
     for (Index i = 0; i < points; ++i) {
-      bond_stiffness_[i] = law_.stabilisation() / moments_.weighted_volume[i];
+      bond_stiffness_[i] = law_at(law_, i).stabilisation() / moments_.weighted_volume[i];
     }
     for (Index g = 0; g < family_->ghost_count(); ++g) {
       bond_stiffness_[points + g] = bond_stiffness_[family_->ghost_source[g]];
@@ -56,15 +58,22 @@ class LinearExactOperator {
 
   const Family<D>& family() const { return *family_; }
   const MirrorCondition<D, R>& mirror() const { return mirror_; }
+  const Law& law() const { return law_; }
   double weighted_volume(Index i) const { return moments_.weighted_volume[i]; }
   Index point_unknowns() const { return R * family_->point_count; }
   Index size() const { return point_unknowns() + mirror_.face_value_count(); }
 
   /// result = A u = dE/du without forming A; both of size().
   void apply(std::span<const double> u, std::span<double> result) {
+    apply(u, result, [](Index, const Tensor<R, D>&, Tensor<R, D>&) {});
+  }
+
+  /// The same with the stress that add(i, gradient, stress) makes of the law's at every point.
+  template <class AddStress>
+  void apply(std::span<const double> u, std::span<double> result, AddStress&& add) {
     assert(static_cast<Index>(u.size()) == size() && u.size() == result.size());
     fill_field(u);
-    for_each_point(family_->point_count, [&](Index i) { store_state(i); });
+    for_each_point(family_->point_count, [&](Index i) { store_state(i, add); });
     mirror_.fill_conjugate(state_);
     const Index points = family_->point_count;
     for_each_point(points, [&](Index i) {
@@ -147,9 +156,12 @@ class LinearExactOperator {
   }
 
   /// What a point contributes to the force of its bonds: (C : F K^-1 - s F) xi + s (u_j - u_i).
-  void store_state(Index i) {
+  template <class AddStress>
+  void store_state(Index i, AddStress&& add) {
     const Tensor<R, D> f = gradient_at(i);
-    const Tensor<R, D> stress = times_inverse_shape(law_.stress(f), i);
+    Tensor<R, D> stress = law_at(law_, i).stress(f);
+    add(i, f, stress);
+    stress = times_inverse_shape(stress, i);
     for (int k = 0; k < R * D; ++k) state(k)[i] = stress[k] - bond_stiffness_[i] * f[k];
   }
 
@@ -227,7 +239,7 @@ class LinearExactOperator {
       for (int column = 0; column < R * D; ++column) {
         Tensor<R, D> unit{};
         unit[column] = 1.0;
-        Tensor<R, D> stress = law_.stress(unit);
+        Tensor<R, D> stress = law_at(law_, i).stress(unit);
         const int r = column / D;
         for (int b = 0; b < D; ++b) {
           stress[r * D + b] -= bond_stiffness_[i] * shape[(column % D) * D + b];

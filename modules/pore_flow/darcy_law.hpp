@@ -18,6 +18,8 @@ struct DarcyLaw {
     return result;
   }
 
+  double mean_mobility() const { return mobility; }
+
   /// 4 D / 3 cancels the leading error of the nonlocal gradient: about fourth order inside.
   double stabilisation() const { return 4.0 * D / 3.0 * mobility; }
 };

@@ -1,29 +1,12 @@
 #include "modules/pore_flow/darcy_newton_matrix.hpp"
 
-#include "core/operators/nonlocal_gradient.hpp"
-
 namespace perifrac {
-
-namespace {
-
-/// kappa sum_i V_i (D / m_i) sum_j w_ij (p_j - p_i)^2 / 2: Darcy flow on bonds alone.
-template <int D>
-Eigen::SparseMatrix<double> bond_flow(const DarcySystem<D>& system) {
-  const Family<D>& family = system.flow().family();
-  std::vector<double> stiffness(family.point_count);
-  for (Index i = 0; i < family.point_count; ++i) {
-    stiffness[i] = D * system.material().mobility / system.flow().weighted_volume(i);
-  }
-  return bond_matrix(family, system.flow().mirror(), std::span<const double>(stiffness));
-}
-
-}  // namespace
 
 template <int D>
 DarcyNewtonMatrix<D>::DarcyNewtonMatrix(DarcySystem<D>& system, Method method)
     : system_(system), method_(method), right_side_(system.points()), pressure_(system.points()) {
   const Eigen::SparseMatrix<double> all =
-      method == Method::direct ? system.flow().assemble() : bond_flow(system);
+      method == Method::direct ? system.flow().assemble() : system.flow().preconditioner();
   flow_ = all.topLeftCorner(system.points(), system.points());
   face_flow_ = all.bottomLeftCorner(all.rows() - system.points(), system.points());
   matrix_ = flow_;

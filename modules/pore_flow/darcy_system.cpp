@@ -9,22 +9,22 @@
 namespace perifrac {
 
 template <int D>
-DarcySystem<D>::DarcySystem(LinearExactOperator<D, DarcyLaw<D>> flow, PoreMaterial material,
+DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow, PoreMaterial material,
                             Eigen::VectorXd face_pressures, Eigen::VectorXd sources)
     : flow_(std::move(flow)),
       material_(material),
       face_pressures_(std::move(face_pressures)),
       sources_(std::move(sources)),
-      points_(flow_.point_unknowns()),
+      points_(flow_->family().point_count),
       effective_storage_(points_, material.storage),
-      pressure_(flow_.size()),
-      outflow_(flow_.size()) {}
+      pressure_(flow_->size()),
+      outflow_(flow_->size()) {}
 
 template <int D>
 std::string DarcySystem<D>::place(std::size_t unknown) const {
   if (unknown < static_cast<std::size_t>(points_)) {
     Vector<D> position;
-    for (int a = 0; a < D; ++a) position[a] = flow_.family().position[a][unknown];
+    for (int a = 0; a < D; ++a) position[a] = flow_->family().position[a][unknown];
     return describe_point(unknown, position);
   }
   const std::size_t accumulated = unknown - points_;
@@ -65,7 +65,7 @@ void DarcySystem<D>::rhs(double t, std::span<const double> y, std::span<double> 
   pressure(t, y, pressure_);
   const auto faces = face_pressures_.size();
   std::copy_n(face_pressures_.data(), faces, pressure_.begin() + points_);
-  flow_.apply(pressure_, outflow_);
+  flow_->apply(pressure_, outflow_);
   const std::vector<double>& v = volume();
   for (Index i = 0; i < points_; ++i) dydt[i] = -outflow_[i] / v[i];
 
@@ -88,7 +88,7 @@ void DarcySystem<D>::jacobian_times(double, std::span<const double>, std::span<c
                                     std::span<double> product) {
   for (Index i = 0; i < points_; ++i) pressure_[i] = v[i] / effective_storage_[i];
   std::fill(pressure_.begin() + points_, pressure_.end(), 0.0);
-  flow_.apply(pressure_, outflow_);
+  flow_->apply(pressure_, outflow_);
   for (Index i = 0; i < points_; ++i) product[i] = -outflow_[i] / volume()[i];
   // Energies follow the flow and nothing follows them: their rows may be left out.
   std::ranges::fill(product.subspan(points_), 0.0);
@@ -110,8 +110,7 @@ template <int D>
 void DarcySystem<D>::darcy_velocity(std::span<const double> p, std::span<double> velocity) {
   std::ranges::copy(p, pressure_.begin());
   std::copy_n(face_pressures_.data(), face_pressures_.size(), pressure_.begin() + points_);
-  flow_.gradient(pressure_, velocity);
-  for (double& component : velocity) component *= -material_.mobility;
+  flow_->velocity(pressure_, velocity);
 }
 
 template class DarcySystem<2>;

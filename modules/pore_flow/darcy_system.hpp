@@ -6,9 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "core/operators/linear_exact.hpp"
 #include "core/time/ode_system.hpp"
-#include "modules/pore_flow/darcy_law.hpp"
+#include "modules/pore_flow/flow_operator.hpp"
 #include "modules/pore_flow/pore_material.hpp"
 
 namespace perifrac {
@@ -33,7 +32,7 @@ struct DilatationInput {
 template <int D>
 class DarcySystem final : public OdeSystem {
  public:
-  DarcySystem(LinearExactOperator<D, DarcyLaw<D>> flow, PoreMaterial material,
+  DarcySystem(std::unique_ptr<FlowOperator<D>> flow, PoreMaterial material,
               Eigen::VectorXd face_pressures, Eigen::VectorXd sources);
 
   std::string_view name() const override { return "fluid_content"; }
@@ -54,20 +53,20 @@ class DarcySystem final : public OdeSystem {
   /// Pressure at the points [Pa].
   void pressure(double t, std::span<const double> y, std::span<double> p) const;
 
-  /// Darcy velocity -kappa grad p of the point pressures p, D blocks of point values [m/s].
+  /// Darcy velocity of the point pressures p, D blocks of point values [m/s].
   void darcy_velocity(std::span<const double> p, std::span<double> velocity);
 
   Index points() const { return points_; }
-  const std::vector<double>& volume() const { return flow_.family().volume; }
+  const std::vector<double>& volume() const { return flow_->family().volume; }
   /// d(zeta)/dp with the dilatation's answer [1/Pa], per point.
   const std::vector<double>& effective_storage() const { return effective_storage_; }
-  const LinearExactOperator<D, DarcyLaw<D>>& flow() const { return flow_; }
+  const FlowOperator<D>& flow() const { return *flow_; }
   const PoreMaterial& material() const { return material_; }
   const Eigen::VectorXd& face_pressures() const { return face_pressures_; }
   const Eigen::VectorXd& sources() const { return sources_; }
 
  private:
-  LinearExactOperator<D, DarcyLaw<D>> flow_;
+  std::unique_ptr<FlowOperator<D>> flow_;
   PoreMaterial material_;
   Eigen::VectorXd face_pressures_;
   Eigen::VectorXd sources_;  ///< empty where there are none

@@ -1,6 +1,7 @@
 #include "modules/pore_flow/darcy_type.hpp"
 
 #include "core/time/forward_euler.hpp"
+#include "modules/pore_flow/conservative_flow.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
@@ -35,10 +36,11 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
   const PoreMaterial material = read_pore_material(section);
   const auto family = body->family(boundary.mirrored());
   const auto mirror = boundary.mirror_condition(*family);
-  LinearExactOperator<D, DarcyLaw<D>> flow(family, mirror, DarcyLaw<D>{material.mobility});
+  LinearExactOperator<D, DarcyLaw<D>> op(family, mirror, DarcyLaw<D>{material.mobility});
   Eigen::VectorXd sources;
-  if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
-  DarcySystem<D> system(std::move(flow), material, boundary.face_pressures(mirror), sources);
+  if (boundary.has_sources()) sources = boundary.sources(op.gradient_matrix());
+  DarcySystem<D> system(std::make_unique<ConservativeFlow<D, DarcyLaw<D>>>(std::move(op)), material,
+                        boundary.face_pressures(mirror), sources);
   return std::make_unique<DarcyFlow<D>>(body, std::move(system), section.number("initial_pressure"),
                                         read_integrator<D>(section));
 }

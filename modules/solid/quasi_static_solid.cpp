@@ -24,17 +24,6 @@ Eigen::SparseMatrix<double> free_part(Index unknowns, Index displacements,
   return matrix;
 }
 
-template <int D>
-Eigen::SparseMatrix<double> dilatation_matrix(const Eigen::SparseMatrix<double>& gradient,
-                                              Index points) {
-  Eigen::SparseMatrix<double> trace(points, gradient.rows());
-  trace.reserve(Eigen::VectorXi::Ones(gradient.rows()));
-  for (int a = 0; a < D; ++a) {
-    for (Index i = 0; i < points; ++i) trace.insert(i, (a * D + a) * points + i) = 1.0;
-  }
-  return trace * gradient;
-}
-
 Eigen::Map<const Eigen::VectorXd> view(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
@@ -47,7 +36,7 @@ Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
 
 template <int D>
 QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
-                                      IsotropicElasticity<D> elasticity,
+                                      const ElasticOperator<D>& elastic,
                                       const SolidBoundary<D>& boundary)
     : body_(std::move(body)),
       ports_{
@@ -59,21 +48,19 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
           {"external_work", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_gained},
       } {
-  const auto family = body_->family(boundary.mirrored());
-  const auto mirror = boundary.mirror_condition(*family);
-  const LinearExactOperator<D, IsotropicElasticity<D>> elastic(family, mirror, elasticity);
-  const Eigen::SparseMatrix<double> gradient = elastic.gradient_matrix();
+  const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
   const Index points = body_->points().size();
   stiffness_ = elastic.assemble();
-  dilatation_of_ = dilatation_matrix<D>(gradient, points);
+  dilatation_of_ = elastic.dilatation_matrix();
   for (const auto& [face, unknown] : boundary.plates(mirror)) {
     ports_.push_back({face + "_plate_displacement", "m", PortDirection::out});
     plate_unknowns_.push_back(unknown);
   }
   free_part_ = free_part(elastic.size(), D * points, plate_unknowns_);
   prescribed_ = boundary.prescribed_values(mirror);
-  load_ = free_part_ * (boundary.load(mirror, gradient) - stiffness_ * prescribed_);
-  slope_.assign(points, 1.0 / elasticity.drained_bulk_modulus());
+  load_ =
+      free_part_ * (boundary.load(mirror, elastic.gradient_matrix()) - stiffness_ * prescribed_);
+  for (Index i = 0; i < points; ++i) slope_.push_back(1.0 / elastic.drained_bulk_modulus(i));
 }
 
 template <int D>

@@ -9,9 +9,8 @@
 
 #include "core/geometry/body.hpp"
 #include "core/module/physics_module.hpp"
-#include "core/operators/linear_exact.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/solid/elastic_operator.hpp"
 #include "modules/solid/solid_boundary.hpp"
 
 namespace perifrac {
@@ -25,7 +24,8 @@ namespace perifrac {
 template <int D>
 class QuasiStaticSolid final : public PhysicsModule {
  public:
-  QuasiStaticSolid(std::shared_ptr<const Body<D>> body, IsotropicElasticity<D> elasticity,
+  /// `elastic` is used here only, for its matrices; its mirror condition is the boundary's.
+  QuasiStaticSolid(std::shared_ptr<const Body<D>> body, const ElasticOperator<D>& elastic,
                    const SolidBoundary<D>& boundary);
 
   /// A motion of the whole body that nothing resists, in words; empty where there is none. Such a

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/time/forward_euler.hpp"
+#include "modules/pore_flow/conservative_flow.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
@@ -29,7 +30,8 @@ DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary
   const Eigen::VectorXd pressures = boundary.face_pressures(flow.mirror());
   Eigen::VectorXd sources;
   if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
-  return {std::move(flow), material, pressures, sources};
+  return {std::make_unique<ConservativeFlow<D, DarcyLaw<D>>>(std::move(flow)), material, pressures,
+          sources};
 }
 
 enum class Method { forward_euler, direct, krylov };

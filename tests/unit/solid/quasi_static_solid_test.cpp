@@ -8,6 +8,7 @@
 #include "core/operators/face_load.hpp"
 #include "core/state/snapshot.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
+#include "tests/unit/solid/elastic.hpp"
 
 namespace perifrac {
 namespace {
@@ -33,8 +34,8 @@ struct Solid {
   }
 
   void start() {
-    module =
-        std::make_unique<QuasiStaticSolid<D>>(body, IsotropicElasticity<D>{lambda, mu}, boundary);
+    module = std::make_unique<QuasiStaticSolid<D>>(
+        body, test::elastic<D>(*body, boundary, {lambda, mu}), boundary);
     module->initialize(0.0);
   }
 

@@ -4,6 +4,7 @@
 
 #include "modules/solid/quasi_static_solid.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
+#include "tests/unit/solid/elastic.hpp"
 
 namespace perifrac {
 namespace {
@@ -14,7 +15,8 @@ struct Held {
   SolidBoundary<D> boundary{*body};
 
   std::string free_motion() const {
-    return QuasiStaticSolid<D>(body, {1e9, 1e9}, boundary).free_motion();
+    return QuasiStaticSolid<D>(body, elastic<D>(*body, boundary, {1e9, 1e9}), boundary)
+        .free_motion();
   }
 };
 

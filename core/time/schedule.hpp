@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/config/key.hpp"
+#include "core/config/section.hpp"
+
+namespace perifrac {
+
+/// A factor that changes with time and multiplies what a scene prescribes (a load, a pressure, a
+/// flux): constant 1, a ramp from 0, or a table, linear in between and constant beyond its ends.
+class Schedule {
+ public:
+  Schedule() = default;
+  static Schedule ramp(double duration);  ///< from 0 at t = 0 to 1 at `duration` [s]
+  /// `times` [s] rise strictly; as many factors.
+  static Schedule table(std::vector<double> times, std::vector<double> factors);
+
+  double factor(double t) const;  ///< t [s]
+  bool is_constant() const { return times_.empty(); }
+
+ private:
+  std::vector<double> times_;
+  std::vector<double> factors_;
+};
+
+/// The keys of a schedule beside what it multiplies: `<prefix>schedule.ramp` and so on, where
+/// `prefix` is as `boundary.*.`; `when` as in Key.
+KeyTable schedule_keys(const std::string& prefix, const std::string& when = "");
+
+/// Reads `<path>.schedule`, constant where it is left out. Throws InputError.
+Schedule read_schedule(const Section& section, const std::string& path);
+
+}  // namespace perifrac

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/SparseCore>
+
+#include "core/geometry/family.hpp"
+
+namespace perifrac {
+
+/// A discretisation of Darcy flow in space: all that the equations of pore flow need to know of it.
+/// Pressures are a vector of size(): of the points, then of the faces (MirrorCondition).
+template <int D>
+class FlowOperator {
+ public:
+  virtual ~FlowOperator() = default;
+
+  virtual const Family<D>& family() const = 0;
+  virtual Index size() const = 0;
+
+  /// outflow = H p: volume that leaves every point per time, and that enters through every face
+  /// value's faces [m^3/s, per metre in 2D].
+  virtual void apply(std::span<const double> p, std::span<double> outflow) = 0;
+
+  /// Darcy velocity at the points, D blocks [m/s].
+  virtual void velocity(std::span<const double> p, std::span<double> velocity) = 0;
+
+  /// H as a matrix.
+  virtual Eigen::SparseMatrix<double> assemble() const = 0;
+
+  /// A symmetric positive semidefinite matrix with the spectrum of H up to a factor and fewer
+  /// entries.
+  virtual Eigen::SparseMatrix<double> preconditioner() const = 0;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,43 @@
+#include "core/time/schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/time/scheduled_vector.hpp"
+
+namespace perifrac {
+namespace {
+
+TEST(Schedule, IsOneWhereNothingIsSaid) {
+  EXPECT_TRUE(Schedule().is_constant());
+  EXPECT_EQ(Schedule().factor(-3.0), 1.0);
+}
+
+TEST(Schedule, RampsFromZeroAndStays) {
+  const Schedule ramp = Schedule::ramp(4.0);
+  EXPECT_EQ(ramp.factor(0.0), 0.0);
+  EXPECT_EQ(ramp.factor(1.0), 0.25);
+  EXPECT_EQ(ramp.factor(4.0), 1.0);
+  EXPECT_EQ(ramp.factor(9.0), 1.0);
+}
+
+TEST(Schedule, IsLinearBetweenTheTimesOfATableAndConstantBeyond) {
+  const Schedule table = Schedule::table({1.0, 3.0, 4.0}, {2.0, 6.0, 0.0});
+  EXPECT_EQ(table.factor(0.0), 2.0);
+  EXPECT_EQ(table.factor(2.0), 4.0);
+  EXPECT_EQ(table.factor(3.5), 3.0);
+  EXPECT_EQ(table.factor(8.0), 0.0);
+}
+
+TEST(ScheduledVector, AddsWhatEachScheduleAllows) {
+  ScheduledVector sum(2);
+  sum.add({}, Eigen::Vector2d(1.0, 0.0));
+  EXPECT_TRUE(sum.is_constant());
+  sum.add(Schedule::ramp(2.0), Eigen::Vector2d(0.0, 8.0));
+  EXPECT_FALSE(sum.is_constant());
+  Eigen::VectorXd value(2);
+  sum.at(0.5, value);
+  EXPECT_EQ(value, Eigen::Vector2d(1.0, 2.0));
+}
+
+}  // namespace
+}  // namespace perifrac
