@@ -50,18 +50,19 @@ class QuasiStaticSolid final : public PhysicsModule {
     first_plate
   };
 
+  Eigen::SparseMatrix<double> free_stiffness() const;
   Eigen::VectorXd pore_force() const;
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;
   std::vector<Port> ports_;
-  std::vector<Index> plate_unknowns_;
+  std::vector<Index> plate_unknowns_;          ///< one that each plate moves
   Eigen::SparseMatrix<double> stiffness_;      ///< of all unknowns, face values included
   Eigen::SparseMatrix<double> dilatation_of_;  ///< takes all unknowns to point dilatations
-  Eigen::SparseMatrix<double> free_part_;      ///< takes all unknowns to those solved for
-  SparseCholesky factor_;                      ///< of the stiffness of those
-  Eigen::VectorXd prescribed_;                 ///< face values that are prescribed, 0 elsewhere [m]
-  Eigen::VectorXd load_;  ///< of the unknowns solved for, prescribed ones' part taken off [N]
+  Eigen::SparseMatrix<double> free_unknowns_;  ///< takes those solved for to all unknowns
+  SparseCholesky factor_;                      ///< of the stiffness of those solved for
+  ScheduledVector prescribed_{0};  ///< displacements that are prescribed, 0 elsewhere [m]
+  ScheduledVector load_{0};        ///< of those solved for, what the prescribed ones do added [N]
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   std::vector<double> force_;     ///< external force on every unknown, reactions included [N]
