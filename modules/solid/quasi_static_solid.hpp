@@ -16,7 +16,8 @@
 namespace perifrac {
 
 /// A linear elastic solid in equilibrium at the end of every window: its stiffness is factored once
-/// and each window costs one back-substitution. Small strain.
+/// and each window costs one back-substitution. Loads and prescribed displacements are those of the
+/// window's end. Small strain.
 ///
 /// Ports: in `pore_stress` [Pa]; out `displacement` [m], `dilatation` with its slope
 /// d(dilatation)/d(pore_stress), `elastic_energy`, `external_work` [J] (per metre in 2D), and for

@@ -60,9 +60,7 @@ KeyTable solid_boundary_keys() {
        .range = "(0, inf)",
        .meaning = "Bulk density of the saturated rock; gravity needs it."},
   };
-  for (const KeyTable& part :
-       {schedule_keys("boundary.*.", "type=traction|pressure|roller|fixed|rigid_plate"),
-        schedule_keys("body_force_")}) {
+  for (const KeyTable& part : {schedule_keys("boundary.*."), schedule_keys("body_force_")}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;
@@ -109,6 +107,8 @@ void read_face(const Section& section, const FaceCondition& condition, SolidBoun
   } else if (type == "pressure") {
     const double pressure = number(".pressure");
     boundary.pressure(face, pressure, schedule(pressure));
+  } else {
+    schedule(0.0);
   }
 }
 
