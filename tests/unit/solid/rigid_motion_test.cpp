@@ -61,7 +61,9 @@ TEST(RigidMotion, FindsARotation) {
   mean.setZero();
   mean.tail(n).setOnes();
   dense += mean * mean.transpose();
-  EXPECT_EQ(rigid_motion_without_energy<2>(body->points(), dense.sparseView()),
+  Eigen::SparseMatrix<double> all(2 * n, 2 * n);
+  all.setIdentity();
+  EXPECT_EQ(rigid_motion_without_energy<2>(body->points(), dense.sparseView(), all, 0),
             "it can turn in the plane of x and y");
 }
 
