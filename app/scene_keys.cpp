@@ -1,5 +1,6 @@
 #include "app/scene_keys.hpp"
 
+#include "app/references/reference_types.hpp"
 #include "app/register_modules.hpp"
 #include "coupling/coupling_keys.hpp"
 
@@ -68,10 +69,12 @@ KeyTable output_keys() {
 }
 
 KeyTable reference_keys() {
+  std::vector<std::string> words;
+  for (const ReferenceType& type : reference_types()) words.push_back(type.name);
   return {{.path = "type",
            .type = KeyType::word,
            .required = true,
-           .words = {"mandel"},
+           .words = words,
            .meaning = "Analytic solution that the run is compared with."}};
 }
 
