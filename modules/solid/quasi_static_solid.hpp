@@ -16,7 +16,8 @@
 namespace perifrac {
 
 /// A linear elastic solid in equilibrium at the end of every window: its stiffness is factored once
-/// and each window costs one back-substitution. Small strain.
+/// and each window costs one back-substitution. Loads and prescribed displacements are those of the
+/// window's end. Small strain.
 ///
 /// Ports: in `pore_stress` [Pa]; out `displacement` [m], `dilatation` with its slope
 /// d(dilatation)/d(pore_stress), `elastic_energy`, `external_work` [J] (per metre in 2D), and for
@@ -50,18 +51,19 @@ class QuasiStaticSolid final : public PhysicsModule {
     first_plate
   };
 
+  Eigen::SparseMatrix<double> free_stiffness() const;
   Eigen::VectorXd pore_force() const;
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;
   std::vector<Port> ports_;
-  std::vector<Index> plate_unknowns_;
+  std::vector<Index> plate_unknowns_;          ///< one that each plate moves
   Eigen::SparseMatrix<double> stiffness_;      ///< of all unknowns, face values included
   Eigen::SparseMatrix<double> dilatation_of_;  ///< takes all unknowns to point dilatations
-  Eigen::SparseMatrix<double> free_part_;      ///< takes all unknowns to those solved for
-  SparseCholesky factor_;                      ///< of the stiffness of those
-  Eigen::VectorXd prescribed_;                 ///< face values that are prescribed, 0 elsewhere [m]
-  Eigen::VectorXd load_;  ///< of the unknowns solved for, prescribed ones' part taken off [N]
+  Eigen::SparseMatrix<double> free_unknowns_;  ///< takes those solved for to all unknowns
+  SparseCholesky factor_;                      ///< of the stiffness of those solved for
+  ScheduledVector prescribed_{0};  ///< displacements that are prescribed, 0 elsewhere [m]
+  ScheduledVector load_{0};        ///< of those solved for, what the prescribed ones do added [N]
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   std::vector<double> force_;     ///< external force on every unknown, reactions included [N]

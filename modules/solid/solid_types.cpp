@@ -4,6 +4,7 @@
 #include "modules/solid/linear_exact_elasticity.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
 #include "modules/solid/rigid_solid.hpp"
+#include "modules/solid/solid_boundary_keys.hpp"
 
 namespace perifrac {
 

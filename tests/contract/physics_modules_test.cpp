@@ -40,6 +40,9 @@ const std::vector<Variant>& variants() {
   static const std::vector<Variant> all = {
       variant("quasi_static_2d", "solid/quasi_static", box_2d + quasi_static_2d),
       variant("quasi_static_3d", "solid/quasi_static", box_3d + quasi_static_3d),
+      variant("quasi_static_scheduled", "solid/quasi_static", box_2d + quasi_static_2d,
+              {"solid.boundary.top.schedule={ramp: 0.02 s}", "gravity=[0 m/s^2, -9.81 m/s^2]",
+               "solid.boundary.bottom.normal_velocity=1 mm/s", "solid.density=2300 kg/m^3"}),
       variant("rigid", "solid/rigid", box_2d + rigid),
       variant("darcy_cvode_2d", "pore_flow/darcy", box_2d + darcy),
       variant("darcy_cvode_3d", "pore_flow/darcy", box_3d + darcy),
