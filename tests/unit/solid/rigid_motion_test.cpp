@@ -15,7 +15,7 @@ struct Held {
   SolidBoundary<D> boundary{*body};
 
   std::string free_motion() const {
-    return QuasiStaticSolid<D>(body, elastic<D>(*body, boundary, {1e9, 1e9}), boundary)
+    return QuasiStaticSolid<D>(body, test::elastic<D>(*body, boundary, {1e9, 1e9}), boundary)
         .free_motion();
   }
 };
