@@ -36,13 +36,16 @@ Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
 
 template <int D>
 QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
-                                      const ElasticOperator<D>& elastic,
+                                      std::shared_ptr<ElasticOperator<D>> elastic,
                                       const SolidBoundary<D>& boundary)
     : body_(std::move(body)),
+      elastic_(std::move(elastic)),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
           {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, D},
           {"dilatation", "1", PortDirection::out},
+          {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field,
+           D * D},
           {"elastic_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_stored},
           {"external_work", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
@@ -50,17 +53,17 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
       } {
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
   const Index points = body_->points().size();
-  stiffness_ = elastic.assemble();
-  dilatation_of_ = elastic.dilatation_matrix();
+  stiffness_ = elastic_->assemble();
+  dilatation_of_ = elastic_->dilatation_matrix();
   for (const auto& [face, unknown] : boundary.plates(mirror)) {
     ports_.push_back({face + "_plate_displacement", "m", PortDirection::out});
     plate_unknowns_.push_back(unknown);
   }
-  free_part_ = free_part(elastic.size(), D * points, plate_unknowns_);
+  free_part_ = free_part(elastic_->size(), D * points, plate_unknowns_);
   prescribed_ = boundary.prescribed_values(mirror);
   load_ =
-      free_part_ * (boundary.load(mirror, elastic.gradient_matrix()) - stiffness_ * prescribed_);
-  for (Index i = 0; i < points; ++i) slope_.push_back(1.0 / elastic.drained_bulk_modulus(i));
+      free_part_ * (boundary.load(mirror, elastic_->gradient_matrix()) - stiffness_ * prescribed_);
+  for (Index i = 0; i < points; ++i) slope_.push_back(1.0 / elastic_->drained_bulk_modulus(i));
 }
 
 template <int D>
@@ -85,6 +88,10 @@ PortView QuasiStaticSolid<D>::port(PortId id) {
       return {points, std::span(unknowns_).first(D * body_->points().volume.size())};
     case dilatation:
       return {points, dilatation_, {}, slope_};
+    case effective_stress:
+      effective_stress_.resize(D * D * body_->points().volume.size());
+      elastic_->stress(unknowns_, effective_stress_);
+      return {points, effective_stress_};
     case elastic_energy:
       return {&whole_body, {&elastic_energy_, 1}};
     case external_work:

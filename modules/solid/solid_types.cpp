@@ -24,8 +24,8 @@ template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
-  const auto elastic = read_elastic_operator<D>(section, *body, boundary);
-  auto solid = std::make_unique<QuasiStaticSolid<D>>(body, *elastic, boundary);
+  std::shared_ptr<ElasticOperator<D>> elastic = read_elastic_operator<D>(section, *body, boundary);
+  auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary);
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");

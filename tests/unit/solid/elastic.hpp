@@ -10,12 +10,12 @@ namespace perifrac::test {
 
 /// A uniform linear-exact material on the families that the boundary asks for.
 template <int D>
-LinearExactElasticity<D, IsotropicElasticity<D>> elastic(const Body<D>& body,
-                                                         const SolidBoundary<D>& boundary,
-                                                         IsotropicElasticity<D> law) {
+std::shared_ptr<ElasticOperator<D>> elastic(const Body<D>& body, const SolidBoundary<D>& boundary,
+                                            IsotropicElasticity<D> law) {
+  using Law = IsotropicElasticity<D>;
   const auto family = body.family(boundary.mirrored());
-  return LinearExactElasticity<D, IsotropicElasticity<D>>(
-      {family, boundary.mirror_condition(*family), law});
+  return std::make_shared<LinearExactElasticity<D, Law>>(
+      LinearExactOperator<D, Law>(family, boundary.mirror_condition(*family), law));
 }
 
 }  // namespace perifrac::test
