@@ -261,7 +261,8 @@ void expect_isotropic_patch(int count) {
   const auto solid = test::lps<D>(*body, boundary, law);
   const auto mirror = boundary.mirror_condition(*body->family(boundary.mirrored()));
   const Index points = body->points().size();
-  Eigen::VectorXd u = boundary.prescribed_values(mirror);
+  Eigen::VectorXd u(solid->size());
+  boundary.prescribed(mirror).at(0.0, u);
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < points; ++i) u[a * points + i] = epsilon * body->points().position[a][i];
   }
