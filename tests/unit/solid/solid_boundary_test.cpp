@@ -198,7 +198,7 @@ void expect_ball_shrinks_uniformly(double radius) {
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < n; ++i) shrunk[a * n + i] = slope[a] * whole->points().position[a][i];
   }
-  EXPECT_LT(test::largest(elastic.assemble() * shrunk - load), 1e-12 * test::largest(load));
+  EXPECT_LT(test::largest(elastic->assemble() * shrunk - load), 1e-12 * test::largest(load));
 }
 
 TEST(SolidBoundary, PressesOnABall) {
