@@ -114,8 +114,7 @@ KeyTable pore_boundary_keys() {
        .required = true,
        .meaning = "Volume that the source adds per time, at zero pressure; negative takes out."},
   };
-  for (const KeyTable& part :
-       {schedule_keys("boundary.*.", "type=pressure|flux"), schedule_keys("sources[].")}) {
+  for (const KeyTable& part : {schedule_keys("boundary.*."), schedule_keys("sources[].")}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;
@@ -127,6 +126,10 @@ PoreBoundary<D> read_pore_boundary(const Section& section, const Body<D>& body) 
   const PoreGravity<D> gravity(body, read_gravity<D>(section), 1.0);
   for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
     const Schedule schedule = read_schedule(section, path);
+    if (type == "sealed" && !schedule.is_constant()) {
+      section.fail(path + ".schedule", "nothing to multiply on a sealed face",
+                   "type: pressure or flux");
+    }
     if (type == "flux") boundary.flux(face, section.number(path + ".flux"), schedule);
     if (type != "pressure") continue;
     boundary.pressure(face, section.number(path + ".pressure"), schedule);

@@ -31,11 +31,14 @@ bool TaitStorage::set_dilatation(const DilatationInput& input) {
 }
 
 double TaitStorage::density_ratio(double fluid, double pores, double softness) const {
-  if (!(fluid > 0.0 && pores > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(fluid > 0.0 && (pores > 0.0 || softness > 0.0))) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   // x [pores + softness (x^gamma - 1)] - fluid is convex, negative at 0 and not negative at the
   // first x: from there Newton's method falls to the root without a detour, down to rounding.
   const double gamma = fluid_.tait_exponent;
-  double x = std::max(1.0, fluid / pores);
+  double x = pores > 0.0 ? std::max(1.0, fluid / pores)
+                         : std::pow(1.0 + (fluid - pores) / softness, 1.0 / gamma);
   while (true) {
     const double power = std::pow(x, gamma);
     const double excess = x * (pores + softness * (power - 1.0)) - fluid;

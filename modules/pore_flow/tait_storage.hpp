@@ -22,7 +22,8 @@ class TaitStorage final : public PoreStorage {
 
  private:
   /// rho/rho_0 at which pores of a volume `pores` + `softness` [(rho/rho_0)^gamma - 1] hold `fluid`
-  /// (all per volume of rock).
+  /// (all per volume of rock). `pores` may be negative, where only the answer to pressure opens
+  /// them.
   double density_ratio(double fluid, double pores, double softness) const;
 
   PoreFluid fluid_;
