@@ -1,4 +1,6 @@
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -327,6 +329,24 @@ TEST(PoreSchedule, DeliversTheIntegralOfATable) {
   EXPECT_NEAR(inflow.scalar("pore_fluid_gained"), 1000.0 * 1e-5 * 5.0 * 2.0, 1e-6);
 }
 
+// ---------------------------------------------------------------- the shipped aquifer
+
+TEST(Aquifer, FallsAsTheErrorFunctionSays) {
+  std::ifstream file(PERIFRAC_SOURCE_DIR "/configs/aquifer.yaml");
+  const std::string scene((std::istreambuf_iterator<char>(file)), {});
+  for (const Overrides& integrator : {Overrides{}, explicit_steps}) {
+    const PoreRun run(scene, integrator);
+    const double error = run.error([](const Vector<2>& x) {
+      return 200e3 + 9810.0 * (10.0 - x[1]) - 98.1e3 * std::erfc(x[0] / 20.0);
+    });
+    std::printf("aquifer: error %.1e of the drop, mass %.1e, energy %.1e\n", error / 98.1e3,
+                run.mass_error(), run.energy_error());
+    EXPECT_LT(error, 5e-4 * 98.1e3);
+    EXPECT_LT(run.mass_error(), 1e-12);
+    EXPECT_LT(run.energy_error(), 1e-2);
+  }
+}
+
 // ---------------------------------------------------------------- Tait
 
 /// Between two pressures the mass flux rho(p) dp/dx is the same everywhere.
@@ -398,6 +418,29 @@ TEST(TaitFluid, IsTheSameForEveryIntegrator) {
   EXPECT_LT(small_steps.mass_error(), 1e-12);
   std::printf("Tait explicit against cvode: %.1e, %g and %g steps\n", difference / 6e6,
               small_steps.scalar("integrator_steps"), implicit.scalar("integrator_steps"));
+}
+
+/// A rock that deforms, squeezed while its soft fluid leaves: what the solid takes as work of the
+/// pore stress is what the fluid gives.
+TEST(TaitFluid, BalancesEnergyWithADeformingSolid) {
+  const Overrides squeezed = {"pore_flow.boundary.left={type: sealed}",
+                              "pore_flow.fluid.bulk_modulus=22 MPa",
+                              tait,
+                              "time.end=2 s",
+                              "pore_flow.initial_pressure=0 Pa",
+                              "pore_flow.boundary.right.pressure=0 Pa",
+                              "coupling.iterations={max: 30, tolerance: 1e-6}",
+                              "pore_flow.integrator.tolerance=1e-7",
+                              "coupling.window={first: 1 ms, growth: 1.1, largest: 20 ms}"};
+  Overrides linear = squeezed;
+  linear.push_back("pore_flow.fluid.equation_of_state=linear");
+  const std::string scene = box_2d + quasi_static_2d + darcy;
+  const PoreRun compressible(scene, squeezed), incompressible(scene, linear);
+  std::printf("squeezed: Tait mass %.1e, energy %.1e; linear mass %.1e, energy %.1e\n",
+              compressible.mass_error(), compressible.energy_error(), incompressible.mass_error(),
+              incompressible.energy_error());
+  EXPECT_LT(compressible.mass_error(), 1e-12);
+  EXPECT_LT(compressible.energy_error(), 3e-3);
 }
 
 TEST(TaitFluid, IsLinearWherePressuresAreSmall) {
