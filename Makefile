@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs permeability bench clean
 
 SCENE ?= configs/mandel.yaml
 BUILD := build/release
@@ -12,6 +12,7 @@ help:
 	@echo 'make test-slow  the slow verification runs'
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
+	@echo 'make permeability  explicit against cvode, 1e-20 to 1e-8 m^2: docs/permeability.md'
 
 install:
 	@tools/install
@@ -42,6 +43,9 @@ bench: build
 
 docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md
+
+permeability: perifrac
+	tests/verification/permeability.py $(PERIFRAC) --page docs/permeability.md
 
 clean:
 	rm -rf build

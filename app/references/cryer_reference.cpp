@@ -7,7 +7,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/cryer_solution.hpp"
-#include "modules/pore_flow/pore_material.hpp"
+#include "app/references/pore_rock.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -28,7 +28,7 @@ CryerProblem read_problem(const Section& scene) {
   require_absent(scene, problem,
                  {"solid.regions", "pore_flow.regions", "solid.body_force", "gravity"});
   const auto elasticity = read_isotropic_elasticity<3>(scene.at("solid"));
-  const PoreMaterial pore = read_pore_material(scene.at("pore_flow"));
+  const PoreRock pore = read_pore_rock(scene, problem);
   return {.bulk_modulus = elasticity.lame_lambda + 2.0 / 3.0 * elasticity.shear_modulus,
           .shear_modulus = elasticity.shear_modulus,
           .biot_coefficient = pore.biot_coefficient,

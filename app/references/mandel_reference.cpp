@@ -8,7 +8,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/mandel_solution.hpp"
-#include "modules/pore_flow/pore_material.hpp"
+#include "app/references/pore_rock.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -30,7 +30,7 @@ MandelProblem read_problem(const Section& scene) {
   require_word(scene, problem, "pore_flow.boundary.right.type", {"pressure"});
   require_absent(scene, problem, {"solid.regions", "pore_flow.regions", "gravity"});
   const auto elasticity = read_isotropic_elasticity<2>(scene.at("solid"));
-  const PoreMaterial pore = read_pore_material(scene.at("pore_flow"));
+  const PoreRock pore = read_pore_rock(scene, problem);
   const std::vector<double> size = scene.numbers("body.size");
   return {elasticity.lame_lambda,
           elasticity.shear_modulus,

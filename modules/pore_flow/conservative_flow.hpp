@@ -19,6 +19,14 @@ class ConservativeFlow final : public FlowOperator<D> {
   const Family<D>& family() const override { return operator_.family(); }
   Index size() const override { return operator_.size(); }
 
+  void scale_mobility(std::span<const double> factor) override {
+    if constexpr (requires(Law law) { law.factor; }) {
+      operator_.change_law([&](Law& law) { law.factor.assign(factor.begin(), factor.end()); });
+    } else {
+      FlowOperator<D>::scale_mobility(factor);
+    }
+  }
+
   void apply(std::span<const double> p, std::span<double> outflow) override {
     operator_.apply(p, outflow);
   }

@@ -7,12 +7,20 @@
 #include "modules/pore_flow/conservative_flow.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
+#include "modules/pore_flow/linear_storage.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac::test {
 
-constexpr PoreMaterial some_rock{
+struct Rock {
+  double biot_coefficient;
+  double storage;
+  double mobility;
+  double fluid_density;
+};
+
+constexpr Rock some_rock{
     .biot_coefficient = 0.8, .storage = 0.3, .mobility = 0.7, .fluid_density = 1.5};
 
 template <int D>
@@ -25,13 +33,17 @@ LinearExactOperator<D, DarcyLaw<D>> flow_operator(const Body<D>& body,
 
 template <int D>
 DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary,
-                            const PoreMaterial& material = some_rock) {
-  auto flow = flow_operator<D>(body, boundary, material.mobility);
-  const Eigen::VectorXd pressures = boundary.face_pressures(flow.mirror());
-  Eigen::VectorXd sources;
+                            const Rock& rock = some_rock) {
+  auto flow = flow_operator<D>(body, boundary, rock.mobility);
+  const ScheduledVector pressures = boundary.face_pressures(flow.mirror());
+  ScheduledVector sources(0);
   if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
-  return {std::make_unique<ConservativeFlow<D, DarcyLaw<D>>>(std::move(flow)), material, pressures,
-          sources};
+  PoreMaterials materials{{{rock.biot_coefficient, 0.2, 0.0, rock.storage}},
+                          std::vector<std::uint8_t>(body.points().size(), 0)};
+  return {std::make_unique<ConservativeFlow<D, DarcyLaw<D>>>(std::move(flow)),
+          std::make_unique<LinearStorage>(std::move(materials)),
+          PoreFluid{.bulk_modulus = 1.0, .viscosity = 1.0, .density = rock.fluid_density},
+          pressures, sources};
 }
 
 enum class Method { forward_euler, direct, krylov };

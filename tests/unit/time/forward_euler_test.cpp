@@ -50,6 +50,29 @@ TEST(ForwardEuler, IgnoresAccumulatorsOfAnyUnitInTheLimit) {
   EXPECT_EQ(other.stable_step(), limit);
 }
 
+/// J grows in time by a factor that it tells: steps shorten with it and stay stable.
+TEST(ForwardEuler, ShortensItsStepsAsTheSystemStiffens) {
+  struct Stiffening final : LineDiffusion {
+    using LineDiffusion::LineDiffusion;
+    double jacobian_growth(double t, std::span<const double>) override { return 1.0 + t; }
+    void rhs(double t, std::span<const double> y, std::span<double> dydt) override {
+      jacobian_times(t, y, y, dydt);
+      for (double& rate : dydt) rate *= 1.0 + t;
+    }
+  } line(30);
+  ForwardEuler euler(line, 0.9);
+  std::vector<double> y = line.start();
+  euler.reset(0.0, y);
+  const double end = 200.0 * euler.stable_step();
+  const double before = line.invariant(y);
+  euler.advance(end, y);
+  EXPECT_LT(largest_content(y), 1.5);
+  EXPECT_NEAR(line.invariant(y), before, 1e-12 * std::abs(before));
+  const double least = (end + 0.5 * end * end) / (0.9 * euler.stable_step());
+  EXPECT_GE(euler.statistics().steps, least * 0.98);
+  EXPECT_LE(euler.statistics().steps, least * 1.02 + 2.0);
+}
+
 TEST(ForwardEuler, DecaysBelowTheLimitAndGrowsAboveIt) {
   LineDiffusion line(30);
   const double limit = line.stable_step();

@@ -12,6 +12,15 @@ TEST(Schedule, IsOneWhereNothingIsSaid) {
   EXPECT_EQ(Schedule().factor(-3.0), 1.0);
 }
 
+TEST(Schedule, TellsWhereItsRateChanges) {
+  EXPECT_TRUE(Schedule().break_points().empty());
+  ScheduledVector sum(1);
+  sum.add(Schedule::ramp(4.0), Eigen::VectorXd::Ones(1));
+  sum.add(Schedule::table({1.0, 4.0}, {0.0, 1.0}), Eigen::VectorXd::Ones(1));
+  EXPECT_EQ(sum.break_points(), (std::vector{0.0, 1.0, 4.0}));
+  EXPECT_EQ(sum.at(2.5)[0], 2.5 / 4.0 + 0.5);
+}
+
 TEST(Schedule, RampsFromZeroAndStays) {
   const Schedule ramp = Schedule::ramp(4.0);
   EXPECT_EQ(ramp.factor(0.0), 0.0);
