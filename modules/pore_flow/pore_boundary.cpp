@@ -105,7 +105,8 @@ KeyTable pore_boundary_keys() {
 template <int D>
 PoreBoundary<D> read_pore_boundary(const Section& section, const Body<D>& body) {
   PoreBoundary<D> boundary(body);
-  for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
+  for (const auto& [face, type, path] :
+       read_face_conditions(section, body.faces(), {"sealed", "pressure"})) {
     if (type == "pressure") boundary.pressure(face, section.number(path + ".pressure"));
     if (type == "flux") boundary.flux(face, section.number(path + ".flux"));
   }

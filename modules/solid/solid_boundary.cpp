@@ -154,7 +154,7 @@ Vector<D> read_vector(const Section& section, const std::string& path) {
 template <int D>
 SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body) {
   SolidBoundary<D> boundary(body);
-  for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
+  for (const auto& [face, type, path] : read_face_conditions(section, body.faces(), {"free"})) {
     if (type == "roller") {
       boundary.roller(face, section.number(path + ".normal_displacement"));
     } else if (type == "fixed") {
