@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/references/reference_types.hpp"
 #include "app/version.hpp"
 #include "core/state/finite_check.hpp"
 
@@ -20,10 +21,9 @@ Recorder::Recorder(const Section& scene, std::string scene_text, Simulation& sim
     : simulation_(simulation),
       scene_text_(std::move(scene_text)),
       probes_(scene.at("output"), simulation),
+      reference_(make_reference(scene, simulation)),
       history_interval_(scene.number("output.history_interval")),
-      checkpoint_interval_(scene.number("output.checkpoint_interval")) {
-  if (scene.has("reference")) reference_.emplace(scene, simulation);
-}
+      checkpoint_interval_(scene.number("output.checkpoint_interval")) {}
 
 void Recorder::walk(StateVisitor& visitor) {
   simulation_.manager->visit_state(visitor);
@@ -62,7 +62,6 @@ void Recorder::open(const OutputFolder& folder, const std::optional<Checkpoint>&
 
 void Recorder::record_window() {
   const double time = simulation_.manager->time();
-  if (reference_) reference_->record_window(time);
   if (time < next_row_) return;
   // Rows keep to multiples of the interval, whatever the windows.
   if (history_interval_ > 0.0) {
@@ -74,6 +73,7 @@ void Recorder::record_window() {
     row.push_back(column.value);
   }
   history_->append(time, simulation_.manager->step(), row);
+  if (reference_) reference_->record_history(time);
 }
 
 void Recorder::record_output() {

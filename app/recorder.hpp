@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/probes.hpp"
-#include "app/references/mandel_reference.hpp"
+#include "app/references/reference.hpp"
 #include "app/simulation.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/io/frames.hpp"
@@ -32,7 +33,7 @@ class Recorder {
   /// Begins to write. `restart` is what the run goes on from: what lies beyond it is removed.
   void open(const OutputFolder& folder, const std::optional<Checkpoint>& restart);
 
-  void record_window();  ///< a row of history.csv, when one is due
+  void record_window();  ///< a row of history.csv and of the comparison, when one is due
   void record_output();  ///< a frame and a comparison
   /// Remembers this state as one that a restart goes on from bit for bit, and lets go of
   /// everything in the running simulation that a restart would not have.
@@ -45,7 +46,7 @@ class Recorder {
   /// Throws NumericalError at the first value that is not finite.
   void check_finite();
 
-  const std::optional<MandelReference>& reference() const { return reference_; }
+  const Reference* reference() const { return reference_.get(); }  ///< null without one
 
  private:
   void walk(StateVisitor& visitor);
@@ -54,7 +55,7 @@ class Recorder {
   Simulation& simulation_;
   std::string scene_text_;
   Probes probes_;
-  std::optional<MandelReference> reference_;
+  std::unique_ptr<Reference> reference_;
   double history_interval_;
   double checkpoint_interval_;
   double next_row_ = 0.0;

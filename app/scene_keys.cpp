@@ -1,5 +1,6 @@
 #include "app/scene_keys.hpp"
 
+#include "app/references/reference_types.hpp"
 #include "app/register_modules.hpp"
 #include "coupling/coupling_keys.hpp"
 
@@ -15,6 +16,10 @@ KeyTable top_level_keys() {
        .range = "[2, 3]",
        .required = true,
        .meaning = "2: plane strain, totals per metre of thickness. 3."},
+      {.path = "gravity",
+       .type = KeyType::vector,
+       .unit = "m/s^2",
+       .meaning = "Acceleration of gravity, for all physics; none where left out."},
   };
 }
 
@@ -64,10 +69,12 @@ KeyTable output_keys() {
 }
 
 KeyTable reference_keys() {
+  std::vector<std::string> words;
+  for (const ReferenceType& type : reference_types()) words.push_back(type.name);
   return {{.path = "type",
            .type = KeyType::word,
            .required = true,
-           .words = {"mandel"},
+           .words = words,
            .meaning = "Analytic solution that the run is compared with."}};
 }
 

@@ -91,8 +91,7 @@ nlohmann::json counts(const Simulation& simulation) {
 
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const std::string& scene_text, Simulation& simulation,
-                         const std::optional<MandelReference>& reference, RunOutcome outcome,
-                         double seconds) {
+                         const Reference* reference, RunOutcome outcome, double seconds) {
   const CouplingManager& manager = *simulation.manager;
   nlohmann::json result = {
       {"scene", {{"title", scene.text("title")}, {"path", scene_file}, {"text", scene_text}}},

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/references/mandel_reference.hpp"
+#include "app/references/reference.hpp"
 #include "app/simulation.hpp"
 #include "core/config/section.hpp"
 
@@ -17,8 +16,7 @@ enum class RunOutcome { done, failed, stopped };
 /// What summary.json holds; its keys are described in app/report/README.md.
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const std::string& scene_text, Simulation& simulation,
-                         const std::optional<MandelReference>& reference, RunOutcome outcome,
-                         double seconds);
+                         const Reference* reference, RunOutcome outcome, double seconds);
 
 /// JSON as text. Bytes of a scene that are not UTF-8 are replaced: they must not cost the results.
 std::string json_text(const nlohmann::json& json);

@@ -4,26 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/references/bisection.hpp"
+#include "app/references/place_of_largest.hpp"
+
 namespace perifrac {
 
 namespace {
 
 // Terms of the series: enough for c t / a^2 >= 1e-6 to all digits that a comparison can see.
 constexpr int terms = 2000;
-
-/// The n-th positive root of tan(b) = ratio b, between n pi and (n + 1/2) pi, by bisection.
-double characteristic_root(int n, double ratio) {
-  double low = n * std::numbers::pi;
-  double high = low + 0.5 * std::numbers::pi;
-  for (int halving = 0; halving < 200 && high - low > 0.0; ++halving) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    const bool above = std::sin(middle) - ratio * middle * std::cos(middle) > 0.0;
-    // sin - ratio b cos has the sign of tan - ratio b where cos > 0, as (-1)^n.
-    ((n % 2 == 0) == above ? high : low) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 }  // namespace
 
@@ -41,7 +30,11 @@ MandelSolution::MandelSolution(const MandelProblem& problem) : problem_(problem)
   initial_pressure_ =
       skempton_ * (1.0 + undrained_poisson_ratio_) * problem.force / (3.0 * problem.half_width);
   const double ratio = (1.0 - poisson_ratio_) / (undrained_poisson_ratio_ - poisson_ratio_);
-  for (int n = 0; n < terms; ++n) root_.push_back(characteristic_root(n, ratio));
+  const auto condition = [ratio](double b) { return std::sin(b) - ratio * b * std::cos(b); };
+  for (int n = 0; n < terms; ++n) {
+    const double low = n * std::numbers::pi;
+    root_.push_back(bisect(condition, low, low + 0.5 * std::numbers::pi));
+  }
 }
 
 double MandelSolution::dimensionless_time(double t) const {
@@ -76,23 +69,9 @@ double MandelSolution::plate_displacement(double t) const {
 }
 
 double MandelSolution::peak_pressure(double x) const {
-  // Over dimensionless times 1e-5 .. 1 in logarithmic steps, then golden section about the best.
   const double second = problem_.half_width * problem_.half_width / consolidation_;
   const auto at = [&](double log_time) { return pressure(x, second * std::exp(log_time)); };
-  double best = std::log(1e-5);
-  constexpr double step = 0.05;
-  for (double s = best; s <= 0.0; s += step) {
-    if (at(s) > at(best)) best = s;
-  }
-  double low = best - step;
-  double high = best + step;
-  const double golden = 0.5 * (3.0 - std::sqrt(5.0));
-  while (high - low > 1e-7) {
-    const double left = low + golden * (high - low);
-    const double right = high - golden * (high - low);
-    (at(left) > at(right) ? high : low) = at(left) > at(right) ? right : left;
-  }
-  return std::max(initial_pressure_, at(0.5 * (low + high)));
+  return std::max(initial_pressure_, at(place_of_largest(at, std::log(1e-5), 0.0)));
 }
 
 }  // namespace perifrac

@@ -216,7 +216,7 @@ KeyTable body_keys() {
        .required = true,
        .meaning = "Distance between neighbouring points."},
       {.path = "horizon_ratio",
-       .range = "[1.5, 10]",
+       .range = "[1, 10]",
        .fallback = "2.5",
        .meaning = "Horizon over spacing."},
       {.path = "influence_function",

@@ -15,14 +15,21 @@ Schedule Schedule::table(std::vector<double> times, std::vector<double> factors)
   return schedule;
 }
 
+Schedule Schedule::growth(double rate) {
+  Schedule schedule = table({0.0}, {0.0});
+  schedule.rate_ = rate;
+  return schedule;
+}
+
 double Schedule::factor(double t) const {
   if (times_.empty()) return 1.0;
+  const double growth = rate_ * t;
   const auto later = std::ranges::upper_bound(times_, t);
-  if (later == times_.begin()) return factors_.front();
-  if (later == times_.end()) return factors_.back();
+  if (later == times_.begin()) return factors_.front() + growth;
+  if (later == times_.end()) return factors_.back() + growth;
   const std::size_t n = later - times_.begin();
   const double part = (t - times_[n - 1]) / (times_[n] - times_[n - 1]);
-  return factors_[n - 1] + part * (factors_[n] - factors_[n - 1]);
+  return factors_[n - 1] + part * (factors_[n] - factors_[n - 1]) + growth;
 }
 
 KeyTable schedule_keys(const std::string& prefix, const std::string& when) {
@@ -45,7 +52,10 @@ KeyTable schedule_keys(const std::string& prefix, const std::string& when) {
 }
 
 Schedule read_schedule(const Section& section, const std::string& path) {
-  const std::string at = path.empty() ? "schedule" : path + ".schedule";
+  return read_schedule_at(section, path.empty() ? "schedule" : path + ".schedule");
+}
+
+Schedule read_schedule_at(const Section& section, const std::string& at) {
   if (!section.has(at)) return {};
   const bool ramp = section.has(at + ".ramp");
   const bool times = section.has(at + ".times");

@@ -9,13 +9,15 @@
 namespace perifrac {
 
 /// A factor that changes with time and multiplies what a scene prescribes (a load, a pressure, a
-/// flux): constant 1, a ramp from 0, or a table, linear in between and constant beyond its ends.
+/// flux): constant 1, a ramp from 0, a table, linear in between and constant beyond its ends, or
+/// growth in proportion to time.
 class Schedule {
  public:
   Schedule() = default;
   static Schedule ramp(double duration);  ///< from 0 at t = 0 to 1 at `duration` [s]
   /// `times` [s] rise strictly; as many factors.
   static Schedule table(std::vector<double> times, std::vector<double> factors);
+  static Schedule growth(double rate);  ///< rate [1/s] times t, without end
 
   double factor(double t) const;  ///< t [s]
   bool is_constant() const { return times_.empty(); }
@@ -23,6 +25,7 @@ class Schedule {
  private:
   std::vector<double> times_;
   std::vector<double> factors_;
+  double rate_ = 0.0;  ///< growth beside the table's [1/s]
 };
 
 /// The keys of a schedule beside what it multiplies: `<prefix>schedule.ramp` and so on, where
@@ -31,5 +34,8 @@ KeyTable schedule_keys(const std::string& prefix, const std::string& when = "");
 
 /// Reads `<path>.schedule`, constant where it is left out. Throws InputError.
 Schedule read_schedule(const Section& section, const std::string& path);
+
+/// The same where the schedule's own path is `at`.
+Schedule read_schedule_at(const Section& section, const std::string& at);
 
 }  // namespace perifrac

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "core/time/schedule.hpp"
 
@@ -21,6 +22,12 @@ class ScheduledVector {
     } else {
       parts_.emplace_back(schedule, vector);
     }
+  }
+
+  /// Adds matrix * other.
+  void add(const Eigen::SparseMatrix<double>& matrix, const ScheduledVector& other) {
+    constant_ += matrix * other.constant_;
+    for (const auto& [schedule, vector] : other.parts_) add(schedule, matrix * vector);
   }
 
   bool is_constant() const { return parts_.empty(); }

@@ -12,16 +12,9 @@ namespace {
 
 const PointSet whole_body{.name = "solid"};
 
-/// The matrix that picks the unknowns that are solved for: displacements and plates.
-Eigen::SparseMatrix<double> free_part(Index unknowns, Index displacements,
-                                      std::span<const Index> plates) {
-  std::vector<Eigen::Triplet<double>> picks;
-  Index row = 0;
-  for (Index u = 0; u < displacements; ++u) picks.emplace_back(row++, u, 1.0);
-  for (const Index plate : plates) picks.emplace_back(row++, plate, 1.0);
-  Eigen::SparseMatrix<double> matrix(row, unknowns);
-  matrix.setFromTriplets(picks.begin(), picks.end());
-  return matrix;
+/// The first unknown that a free one moves.
+Index first_row(const Eigen::SparseMatrix<double>& free_unknowns, Index column) {
+  return Eigen::SparseMatrix<double>::InnerIterator(free_unknowns, column).row();
 }
 
 Eigen::Map<const Eigen::VectorXd> view(const std::vector<double>& values) {
@@ -36,37 +29,48 @@ Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
 
 template <int D>
 QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
-                                      const ElasticOperator<D>& elastic,
+                                      std::shared_ptr<ElasticOperator<D>> elastic,
                                       const SolidBoundary<D>& boundary)
     : body_(std::move(body)),
+      elastic_(std::move(elastic)),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
           {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, D},
           {"dilatation", "1", PortDirection::out},
+          {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field,
+           D * D},
           {"elastic_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_stored},
           {"external_work", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_gained},
       } {
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
-  const Index points = body_->points().size();
-  stiffness_ = elastic.assemble();
-  dilatation_of_ = elastic.dilatation_matrix();
-  for (const auto& [face, unknown] : boundary.plates(mirror)) {
+  stiffness_ = elastic_->assemble();
+  dilatation_of_ = elastic_->dilatation_matrix();
+  free_unknowns_ = boundary.free_unknowns(mirror);
+  for (const auto& [face, column] : boundary.plates(mirror)) {
     ports_.push_back({face + "_plate_displacement", "m", PortDirection::out});
-    plate_unknowns_.push_back(unknown);
+    plate_unknowns_.push_back(first_row(free_unknowns_, column));
   }
-  free_part_ = free_part(elastic.size(), D * points, plate_unknowns_);
-  prescribed_ = boundary.prescribed_values(mirror);
-  load_ =
-      free_part_ * (boundary.load(mirror, elastic.gradient_matrix()) - stiffness_ * prescribed_);
-  for (Index i = 0; i < points; ++i) slope_.push_back(1.0 / elastic.drained_bulk_modulus(i));
+  prescribed_ = boundary.prescribed(mirror);
+  const Eigen::SparseMatrix<double> equations = free_unknowns_.transpose();
+  load_ = ScheduledVector(equations.rows());
+  load_.add(equations, boundary.loads(mirror, elastic_->gradient_matrix()));
+  load_.add(-equations * stiffness_, prescribed_);
+  for (Index i = 0; i < body_->points().size(); ++i) {
+    slope_.push_back(1.0 / elastic_->drained_bulk_modulus(i));
+  }
+}
+
+template <int D>
+Eigen::SparseMatrix<double> QuasiStaticSolid<D>::free_stiffness() const {
+  return free_unknowns_.transpose() * stiffness_ * free_unknowns_;
 }
 
 template <int D>
 std::string QuasiStaticSolid<D>::free_motion() const {
-  return rigid_motion_without_energy<D>(body_->points(),
-                                        free_part_ * stiffness_ * free_part_.transpose());
+  return rigid_motion_without_energy<D>(body_->points(), free_stiffness(), free_unknowns_,
+                                        plate_unknowns_.size());
 }
 
 template <int D>
@@ -85,6 +89,10 @@ PortView QuasiStaticSolid<D>::port(PortId id) {
       return {points, std::span(unknowns_).first(D * body_->points().volume.size())};
     case dilatation:
       return {points, dilatation_, {}, slope_};
+    case effective_stress:
+      effective_stress_.resize(D * D * body_->points().volume.size());
+      elastic_->stress(unknowns_, effective_stress_);
+      return {points, effective_stress_};
     case elastic_energy:
       return {&whole_body, {&elastic_energy_, 1}};
     case external_work:
@@ -96,7 +104,7 @@ PortView QuasiStaticSolid<D>::port(PortId id) {
 
 template <int D>
 void QuasiStaticSolid<D>::initialize(double) {
-  factor_.factor(free_part_ * stiffness_ * free_part_.transpose());
+  factor_.factor(free_stiffness());
   unknowns_.assign(stiffness_.rows(), 0.0);
   force_.assign(stiffness_.rows(), 0.0);
   external_work_ = 0.0;
@@ -111,12 +119,15 @@ double QuasiStaticSolid<D>::stable_time_step() const {
 template <int D>
 double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
   const Eigen::VectorXd pore = pore_force();
-  Eigen::VectorXd solution(free_part_.rows());
-  factor_.solve(load_ + free_part_ * pore, solution);
+  Eigen::VectorXd load(free_unknowns_.cols()), solution(free_unknowns_.cols());
+  load_.at(window.end, load);
+  factor_.solve(load + free_unknowns_.transpose() * pore, solution);
 
   const Eigen::VectorXd before = view(unknowns_);
   const Eigen::VectorXd force_before = view(force_);
-  view(unknowns_) = prescribed_ + free_part_.transpose() * solution;
+  Eigen::VectorXd prescribed(before.size());
+  prescribed_.at(window.end, prescribed);
+  view(unknowns_) = prescribed + free_unknowns_ * solution;
   view(force_) = stiffness_ * view(unknowns_) - pore;
   external_work_ += 0.5 * (force_before + view(force_)).dot(view(unknowns_) - before);
   derive_from_unknowns();

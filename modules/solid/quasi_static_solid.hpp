@@ -16,16 +16,19 @@
 namespace perifrac {
 
 /// A linear elastic solid in equilibrium at the end of every window: its stiffness is factored once
-/// and each window costs one back-substitution. Small strain.
+/// and each window costs one back-substitution. Loads and prescribed displacements are those of the
+/// window's end. Small strain.
 ///
 /// Ports: in `pore_stress` [Pa]; out `displacement` [m], `dilatation` with its slope
-/// d(dilatation)/d(pore_stress), `elastic_energy`, `external_work` [J] (per metre in 2D), and for
-/// each rigid plate `<face>_plate_displacement` [m], along its axis.
+/// d(dilatation)/d(pore_stress), `effective_stress` [Pa] (D * D components, row by row, tension
+/// positive; total stress is this less the pore stress), `elastic_energy`, `external_work` [J] (per
+/// metre in 2D), and for each rigid plate `<face>_plate_displacement` [m], along its axis.
 template <int D>
 class QuasiStaticSolid final : public PhysicsModule {
  public:
-  /// `elastic` is used here only, for its matrices; its mirror condition is the boundary's.
-  QuasiStaticSolid(std::shared_ptr<const Body<D>> body, const ElasticOperator<D>& elastic,
+  /// `elastic` has the boundary's mirror condition. Its initial stress does not move the body, as
+  /// what lies behind the faces bears it; energy and work are counted from there.
+  QuasiStaticSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<ElasticOperator<D>> elastic,
                    const SolidBoundary<D>& boundary);
 
   /// A motion of the whole body that nothing resists, in words; empty where there is none. Such a
@@ -45,23 +48,26 @@ class QuasiStaticSolid final : public PhysicsModule {
     pore_stress,
     displacement,
     dilatation,
+    effective_stress,
     elastic_energy,
     external_work,
     first_plate
   };
 
+  Eigen::SparseMatrix<double> free_stiffness() const;
   Eigen::VectorXd pore_force() const;
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;
+  std::shared_ptr<ElasticOperator<D>> elastic_;
   std::vector<Port> ports_;
-  std::vector<Index> plate_unknowns_;
+  std::vector<Index> plate_unknowns_;          ///< one that each plate moves
   Eigen::SparseMatrix<double> stiffness_;      ///< of all unknowns, face values included
   Eigen::SparseMatrix<double> dilatation_of_;  ///< takes all unknowns to point dilatations
-  Eigen::SparseMatrix<double> free_part_;      ///< takes all unknowns to those solved for
-  SparseCholesky factor_;                      ///< of the stiffness of those
-  Eigen::VectorXd prescribed_;                 ///< face values that are prescribed, 0 elsewhere [m]
-  Eigen::VectorXd load_;  ///< of the unknowns solved for, prescribed ones' part taken off [N]
+  Eigen::SparseMatrix<double> free_unknowns_;  ///< takes those solved for to all unknowns
+  SparseCholesky factor_;                      ///< of the stiffness of those solved for
+  ScheduledVector prescribed_{0};  ///< displacements that are prescribed, 0 elsewhere [m]
+  ScheduledVector load_{0};        ///< of those solved for, what the prescribed ones do added [N]
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   std::vector<double> force_;     ///< external force on every unknown, reactions included [N]
@@ -70,6 +76,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   std::vector<double> pore_stress_;  ///< input; empty until somebody links it
   std::vector<double> dilatation_;
   std::vector<double> slope_;
+  std::vector<double> effective_stress_;  ///< made when it is asked for
   double elastic_energy_ = 0.0;
 };
 

@@ -10,7 +10,15 @@ namespace {
 
 constexpr std::array axis_names = {"x", "y", "z"};
 
-/// Rotation k of the plane (a, b), about the middle of the points.
+/// Displacement of all unknowns, face values at rest, by a motion of the points along an axis.
+template <int D>
+Eigen::VectorXd translation(const Points<D>& points, Eigen::Index unknowns, int a) {
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(unknowns);
+  motion.segment(a * points.size(), points.size()).setOnes();
+  return motion;
+}
+
+/// The same by a rotation in the plane (a, b), about the middle of the points.
 template <int D>
 Eigen::VectorXd rotation(const Points<D>& points, Eigen::Index unknowns, int a, int b) {
   const Index n = points.size();
@@ -22,29 +30,38 @@ Eigen::VectorXd rotation(const Points<D>& points, Eigen::Index unknowns, int a, 
   return motion;
 }
 
+/// Lets the plates go along with a motion as far as that costs nothing: their own best answer.
+void answer_of_plates(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index plates,
+                      Eigen::VectorXd& motion) {
+  if (plates == 0) return;
+  const Eigen::MatrixXd rows = stiffness.rightCols(plates);
+  motion.tail(plates) = rows.bottomRows(plates).ldlt().solve(-(rows.transpose() * motion));
+}
+
 }  // namespace
 
 template <int D>
 std::string rigid_motion_without_energy(const Points<D>& points,
-                                        const Eigen::SparseMatrix<double>& stiffness) {
-  const Index n = points.size();
-  const Eigen::Index unknowns = stiffness.rows();
-  Eigen::MatrixXd motions(unknowns, D * (D + 1) / 2);
+                                        const Eigen::SparseMatrix<double>& stiffness,
+                                        const Eigen::SparseMatrix<double>& free_unknowns,
+                                        Eigen::Index plates) {
+  const Eigen::Index all = free_unknowns.rows();
+  Eigen::MatrixXd motions(stiffness.rows(), D * (D + 1) / 2);
   std::vector<std::string> names;
   int column = 0;
-  for (int a = 0; a < D; ++a) {
-    Eigen::VectorXd motion = Eigen::VectorXd::Zero(unknowns);
-    motion.segment(a * n, n).setOnes();
-    // A plate goes along as far as that costs nothing: its own best answer to the motion.
-    for (Eigen::Index plate = D * n; plate < unknowns; ++plate) {
-      motion[plate] = -stiffness.col(plate).dot(motion) / stiffness.coeff(plate, plate);
-    }
+  const auto add = [&](const Eigen::VectorXd& motion_of_all, bool plates_follow) {
+    Eigen::VectorXd motion = free_unknowns.transpose() * motion_of_all;
+    motion.tail(plates).setZero();
+    if (plates_follow) answer_of_plates(stiffness, plates, motion);
     motions.col(column++) = motion.normalized();
+  };
+  for (int a = 0; a < D; ++a) {
+    add(translation(points, all, a), true);
     names.push_back(std::string("it can slide along ") + axis_names[a]);
   }
   for (int a = 0; a < D; ++a) {
     for (int b = a + 1; b < D; ++b) {
-      motions.col(column++) = rotation(points, unknowns, a, b).normalized();
+      add(rotation(points, all, a, b), false);
       names.push_back(std::string("it can turn in the plane of ") + axis_names[a] + " and " +
                       axis_names[b]);
     }
@@ -61,8 +78,12 @@ std::string rigid_motion_without_energy(const Points<D>& points,
 }
 
 template std::string rigid_motion_without_energy<2>(const Points<2>&,
-                                                    const Eigen::SparseMatrix<double>&);
+                                                    const Eigen::SparseMatrix<double>&,
+                                                    const Eigen::SparseMatrix<double>&,
+                                                    Eigen::Index);
 template std::string rigid_motion_without_energy<3>(const Points<3>&,
-                                                    const Eigen::SparseMatrix<double>&);
+                                                    const Eigen::SparseMatrix<double>&,
+                                                    const Eigen::SparseMatrix<double>&,
+                                                    Eigen::Index);
 
 }  // namespace perifrac

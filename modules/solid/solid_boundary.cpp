@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/geometry/face_conditions.hpp"
 #include "core/operators/face_load.hpp"
 
 namespace perifrac {
@@ -11,167 +10,264 @@ template <int D>
 SolidBoundary<D>::SolidBoundary(const Body<D>& body) : body_(&body), faces_(body.faces().size()) {}
 
 template <int D>
-void SolidBoundary<D>::roller(int face, double normal_displacement) {
-  faces_[face].hold = Hold::roller;
+void SolidBoundary<D>::roller(int face, double normal_displacement, double normal_velocity,
+                              Schedule schedule) {
+  const auto& [name, axis, direction, coordinate] = body_->faces()[face];
+  faces_[face] = {.kind = Kind::roller, .schedule = std::move(schedule)};
+  faces_[face].value[axis] = direction * normal_displacement;
+  faces_[face].velocity[axis] = direction * normal_velocity;
+}
+
+template <int D>
+void SolidBoundary<D>::fixed(int face, const Vector<D>& displacement, const Vector<D>& velocity,
+                             Schedule schedule) {
+  faces_[face] = {Kind::fixed, displacement, velocity, 0.0, std::move(schedule)};
+}
+
+template <int D>
+void SolidBoundary<D>::rigid_plate(int face, double force, Schedule schedule) {
   const Face& plane = body_->faces()[face];
-  faces_[face].displacement[plane.axis] = plane.direction * normal_displacement;
+  faces_[face] = {.kind = Kind::rigid_plate, .schedule = std::move(schedule)};
+  faces_[face].value[plane.axis] = -plane.direction * force;
 }
 
 template <int D>
-void SolidBoundary<D>::fixed(int face, const Vector<D>& displacement) {
-  faces_[face].hold = Hold::fixed;
-  faces_[face].displacement = displacement;
+void SolidBoundary<D>::traction(int face, const Vector<D>& traction, Schedule schedule) {
+  faces_[face] = {.kind = Kind::traction, .value = traction, .schedule = std::move(schedule)};
 }
 
 template <int D>
-void SolidBoundary<D>::rigid_plate(int face, double force) {
-  faces_[face].hold = Hold::rigid_plate;
-  faces_[face].plate_force = -body_->faces()[face].direction * force;
+void SolidBoundary<D>::pressure(int face, double pressure, Schedule schedule) {
+  const Face& plane = body_->faces()[face];
+  if (plane.curved()) {
+    faces_[face] = {.kind = Kind::pressure, .pressure = pressure, .schedule = std::move(schedule)};
+  } else {
+    Vector<D> normal{};
+    normal[plane.axis] = -plane.direction * pressure;
+    traction(face, normal, std::move(schedule));
+  }
 }
 
 template <int D>
-void SolidBoundary<D>::traction(int face, const Vector<D>& traction) {
-  faces_[face].traction = traction;
-  faces_[face].loaded = true;
+void SolidBoundary<D>::body_force(const Vector<D>& force, Schedule schedule) {
+  body_forces_.push_back({force, std::move(schedule)});
+}
+
+template <int D>
+void SolidBoundary<D>::gravity(double density, const Vector<D>& gravity) {
+  Vector<D> weight;
+  for (int a = 0; a < D; ++a) weight[a] = density * gravity[a];
+  body_force(weight);
 }
 
 template <int D>
 FaceSet SolidBoundary<D>::mirrored() const {
   FaceSet set = 0;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].hold != Hold::free) set |= face_bit(f);
+    if (faces_[f].holds() && !has_layer(f)) set |= face_bit(f);
   }
   return set;
+}
+
+/// The face's condition prescribes a component of the displacement, or makes it a plate's.
+template <int D>
+bool SolidBoundary<D>::holds(int face, int component) const {
+  const Kind kind = faces_[face].kind;
+  return kind == Kind::fixed || (faces_[face].holds() && component == body_->faces()[face].axis);
 }
 
 template <int D>
 MirrorCondition<D, D> SolidBoundary<D>::mirror_condition(const Family<D>& family) const {
   MirrorCondition<D, D> mirror(family);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (int a = 0; a < D; ++a) {
-      const bool normal = a == body_->faces()[f].axis;
-      if (faces_[f].hold == Hold::fixed || (faces_[f].hold != Hold::free && normal)) {
-        mirror.set_odd(f, a);
-      }
+    for (int a = 0; a < D && !has_layer(f); ++a) {
+      if (holds(f, a)) mirror.set_odd(f, a);
     }
   }
   return mirror;
+}
+
+/// For every point displacement the face through whose layer it is held, -1 where it is free.
+template <int D>
+std::vector<int> SolidBoundary<D>::layer_holders() const {
+  const Index points = body_->points().size();
+  std::vector<int> holders(D * points, -1);
+  for (const bool plates : {false, true}) {
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      if (plates != (faces_[f].kind == Kind::rigid_plate)) continue;
+      for (int a = 0; a < D; ++a) {
+        if (!holds(f, a)) continue;
+        for (const Index i : body_->layer(f)) {
+          int& holder = holders[a * points + i];
+          if (holder < 0) holder = f;
+        }
+      }
+    }
+  }
+  return holders;
+}
+
+/// The unknowns that are component `component` of a face that holds it: points of its layer, or its
+/// face value.
+template <int D>
+std::vector<Index> SolidBoundary<D>::held(int face, int component,
+                                          const MirrorCondition<D, D>& mirror,
+                                          const std::vector<int>& holders) const {
+  const Index points = body_->points().size();
+  if (!has_layer(face)) return {D * points + mirror.face_value(face, component)};
+  std::vector<Index> unknowns;
+  for (const Index i : body_->layer(face)) {
+    const Index u = component * points + i;
+    if (holders[u] == face) unknowns.push_back(u);
+  }
+  return unknowns;
 }
 
 template <int D>
 auto SolidBoundary<D>::plates(const MirrorCondition<D, D>& mirror) const -> std::vector<Plate> {
   std::vector<Plate> plates;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].hold != Hold::rigid_plate) continue;
-    const Face& face = body_->faces()[f];
-    plates.push_back({face.name, D * body_->points().size() + mirror.face_value(f, face.axis)});
+    if (faces_[f].kind == Kind::rigid_plate) plates.push_back({body_->faces()[f].name, 0});
   }
+  Index column = free_unknowns(mirror).cols() - plates.size();
+  for (Plate& plate : plates) plate.column = column++;
   return plates;
 }
 
 template <int D>
-Eigen::VectorXd SolidBoundary<D>::prescribed_values(const MirrorCondition<D, D>& mirror) const {
-  const Index points = D * body_->points().size();
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(points + mirror.face_value_count());
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (int a = 0; a < D; ++a) {
-      const int value = mirror.face_value(f, a);
-      if (value >= 0) values[points + value] = faces_[f].displacement[a];
-    }
+Eigen::SparseMatrix<double> SolidBoundary<D>::free_unknowns(
+    const MirrorCondition<D, D>& mirror) const {
+  const Index displacements = D * body_->points().size();
+  const std::vector<int> holders = layer_holders();
+  std::vector<Eigen::Triplet<double>> entries;
+  Index column = 0;
+  for (Index u = 0; u < displacements; ++u) {
+    if (holders[u] < 0) entries.emplace_back(u, column++, 1.0);
   }
-  return values;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].kind != Kind::rigid_plate) continue;
+    for (const Index u : held(f, body_->faces()[f].axis, mirror, holders)) {
+      entries.emplace_back(u, column, 1.0);
+    }
+    ++column;
+  }
+  Eigen::SparseMatrix<double> matrix(displacements + mirror.face_value_count(), column);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
 template <int D>
-Eigen::VectorXd SolidBoundary<D>::load(const MirrorCondition<D, D>& mirror,
-                                       const Eigen::SparseMatrix<double>& gradient) const {
-  const Index points = body_->points().size();
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points + mirror.face_value_count());
+ScheduledVector SolidBoundary<D>::prescribed(const MirrorCondition<D, D>& mirror) const {
+  const Index unknowns = D * body_->points().size() + mirror.face_value_count();
+  const std::vector<int> holders = layer_holders();
+  ScheduledVector sum(unknowns);
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Condition& condition = faces_[f];
+    if (!condition.prescribes()) continue;
+    Eigen::VectorXd displacement = Eigen::VectorXd::Zero(unknowns);
+    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(unknowns);
+    for (int a = 0; a < D; ++a) {
+      if (!holds(f, a)) continue;
+      for (const Index u : held(f, a, mirror, holders)) {
+        displacement[u] = condition.value[a];
+        velocity[u] = condition.velocity[a];
+      }
+    }
+    sum.add(condition.schedule, displacement);
+    if (condition.velocity != Vector<D>{}) sum.add(Schedule::growth(1.0), velocity);
+  }
+  return sum;
+}
+
+/// A force [N] as a body force, in proportion to volume, on the layer behind a face.
+template <int D>
+void SolidBoundary<D>::spread_over_layer(int face, const Vector<D>& force,
+                                         Eigen::VectorXd& load) const {
+  const auto& volume = body_->points().volume;
+  double total = 0.0;
+  for (const Index i : body_->layer(face)) total += volume[i];
   for (int a = 0; a < D; ++a) {
-    for (Index i = 0; i < points; ++i) {
-      load[a * points + i] = body_force_[a] * body_->points().volume[i];
+    for (const Index i : body_->layer(face)) {
+      load[a * body_->points().size() + i] += force[a] * volume[i] / total;
     }
   }
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].hold == Hold::rigid_plate) {
-      const int plate = mirror.face_value(f, body_->faces()[f].axis);
-      load[D * points + plate] = faces_[f].plate_force;
+}
+
+template <int D>
+double SolidBoundary<D>::nominal_area(int face) const {
+  const auto& faces = body_->faces();
+  double area = 1.0;
+  for (int a = 0; a < D; ++a) {
+    if (a != faces[face].axis) area *= faces[2 * a + 1].coordinate - faces[2 * a].coordinate;
+  }
+  return area;
+}
+
+/// What a face's condition does to every unknown at factor 1 of its schedule [N].
+template <int D>
+Eigen::VectorXd SolidBoundary<D>::face_force(int face, const MirrorCondition<D, D>& mirror,
+                                             const Eigen::SparseMatrix<double>& gradient) const {
+  const Index points = body_->points().size();
+  const Condition& condition = faces_[face];
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points + mirror.face_value_count());
+  if (condition.kind == Kind::pressure) {
+    // The whole body's: parts of it on plane faces cancel against those of their ghosts.
+    Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
+    for (int a = 0; a < D; ++a) {
+      for (Index i = 0; i < points; ++i) {
+        stress[(a * D + a) * points + i] = -condition.pressure * body_->points().volume[i];
+      }
     }
-    for (int a = 0; a < D && faces_[f].loaded; ++a) {
+    load.head(D * points) = (gradient.transpose() * stress).head(D * points);
+  } else if (has_layer(face)) {
+    Vector<D> force = condition.value;
+    const bool plate = condition.kind == Kind::rigid_plate;
+    for (double& f : force) f *= plate ? 1.0 : nominal_area(face);
+    spread_over_layer(face, force, load);
+  } else if (condition.kind == Kind::rigid_plate) {
+    const int axis = body_->faces()[face].axis;
+    load[D * points + mirror.face_value(face, axis)] = condition.value[axis];
+  } else {
+    for (int a = 0; a < D; ++a) {
+      if (condition.value[a] == 0.0) continue;
       load.segment(a * points, points) +=
-          faces_[f].traction[a] * face_load<D, D>(*body_, gradient, mirrored(), f, a);
+          condition.value[a] * face_load<D, D>(*body_, gradient, mirrored(), face, a);
     }
   }
   return load;
 }
 
-KeyTable solid_boundary_keys() {
-  return {
-      {.path = "boundary.*.type",
-       .type = KeyType::word,
-       .required = true,
-       .words = {"free", "traction", "roller", "fixed", "rigid_plate"},
-       .meaning = "Condition of a face; a face that is not named is free."},
-      {.path = "boundary.*.traction",
-       .type = KeyType::vector,
-       .unit = "Pa",
-       .required = true,
-       .when = "type=traction",
-       .meaning = "Force per area on the face."},
-      {.path = "boundary.*.normal_displacement",
-       .unit = "m",
-       .fallback = "0 m",
-       .when = "type=roller",
-       .meaning = "Displacement of the face along its outward normal."},
-      {.path = "boundary.*.displacement",
-       .type = KeyType::vector,
-       .unit = "m",
-       .when = "type=fixed",
-       .meaning = "Displacement of the face; 0 where left out."},
-      {.path = "boundary.*.force",
-       .unit = "N/m|N",
-       .required = true,
-       .when = "type=rigid_plate",
-       .meaning = "Force that presses the plate on the body."},
-      {.path = "body_force",
-       .type = KeyType::vector,
-       .unit = "N/m^3",
-       .meaning = "Force per volume; 0 where left out."},
-  };
-}
-
-namespace {
-
 template <int D>
-Vector<D> read_vector(const Section& section, const std::string& path) {
-  Vector<D> result{};
-  if (section.has(path)) std::ranges::copy(section.numbers(path), result.begin());
-  return result;
-}
-
-}  // namespace
-
-template <int D>
-SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body) {
-  SolidBoundary<D> boundary(body);
-  for (const auto& [face, type, path] : read_face_conditions(section, body.faces(), {"free"})) {
-    if (type == "roller") {
-      boundary.roller(face, section.number(path + ".normal_displacement"));
-    } else if (type == "fixed") {
-      boundary.fixed(face, read_vector<D>(section, path + ".displacement"));
-    } else if (type == "rigid_plate") {
-      boundary.rigid_plate(face, section.number(path + ".force"));
-    } else if (type == "traction") {
-      boundary.traction(face, read_vector<D>(section, path + ".traction"));
+ScheduledVector SolidBoundary<D>::loads(const MirrorCondition<D, D>& mirror,
+                                        const Eigen::SparseMatrix<double>& gradient) const {
+  const Index points = body_->points().size();
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points + mirror.face_value_count());
+  ScheduledVector sum(load.size());
+  for (const auto& [force, schedule] : body_forces_) {
+    for (int a = 0; a < D; ++a) {
+      for (Index i = 0; i < points; ++i) {
+        load[a * points + i] = force[a] * body_->points().volume[i];
+      }
     }
+    sum.add(schedule, load);
   }
-  boundary.body_force(read_vector<D>(section, "body_force"));
-  return boundary;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].loads()) sum.add(faces_[f].schedule, face_force(f, mirror, gradient));
+  }
+  return sum;
+}
+
+template <int D>
+bool SolidBoundary<D>::is_constant() const {
+  return std::ranges::all_of(faces_,
+                             [](const Condition& c) {
+                               return c.schedule.is_constant() && c.velocity == Vector<D>{};
+                             }) &&
+         std::ranges::all_of(body_forces_,
+                             [](const BodyForce& b) { return b.schedule.is_constant(); });
 }
 
 template class SolidBoundary<2>;
 template class SolidBoundary<3>;
-template SolidBoundary<2> read_solid_boundary<2>(const Section&, const Body<2>&);
-template SolidBoundary<3> read_solid_boundary<3>(const Section&, const Body<3>&);
 
 }  // namespace perifrac

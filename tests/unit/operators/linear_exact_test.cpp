@@ -232,6 +232,12 @@ void expect_same_bits(const std::array<int, D>& counts) {
   EXPECT_EQ(forces[0], forces[2]);
 }
 
+TEST(LinearExactOperator, TakesNoAddedStressBesideCurvedGhosts) {
+  auto op = Setting<2, 2>{test::ball_body<2>(4.0, 1.0), 0b1}.make();
+  std::vector<double> u(op.size()), force(op.size());
+  EXPECT_THROW(op.apply(u, force, [](Index, const auto&, auto&) {}), std::logic_error);
+}
+
 TEST(LinearExactOperator, GivesTheSameBitsAtAnyThreadCount) {
   expect_same_bits<2, 1>({95, 90});
   expect_same_bits<2, 2>({95, 90});

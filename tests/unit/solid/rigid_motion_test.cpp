@@ -15,7 +15,7 @@ struct Held {
   SolidBoundary<D> boundary{*body};
 
   std::string free_motion() const {
-    return QuasiStaticSolid<D>(body, elastic<D>(*body, boundary, {1e9, 1e9}), boundary)
+    return QuasiStaticSolid<D>(body, test::elastic<D>(*body, boundary, {1e9, 1e9}), boundary)
         .free_motion();
   }
 };
@@ -61,7 +61,9 @@ TEST(RigidMotion, FindsARotation) {
   mean.setZero();
   mean.tail(n).setOnes();
   dense += mean * mean.transpose();
-  EXPECT_EQ(rigid_motion_without_energy<2>(body->points(), dense.sparseView()),
+  Eigen::SparseMatrix<double> all(2 * n, 2 * n);
+  all.setIdentity();
+  EXPECT_EQ(rigid_motion_without_energy<2>(body->points(), dense.sparseView(), all, 0),
             "it can turn in the plane of x and y");
 }
 

@@ -28,6 +28,15 @@ TEST(Schedule, IsLinearBetweenTheTimesOfATableAndConstantBeyond) {
   EXPECT_EQ(table.factor(8.0), 0.0);
 }
 
+TEST(Schedule, GrowsWithoutEnd) {
+  const Schedule growth = Schedule::growth(3.0);
+  EXPECT_FALSE(growth.is_constant());
+  EXPECT_EQ(growth.factor(0.0), 0.0);
+  EXPECT_EQ(growth.factor(0.5), 1.5);
+  EXPECT_EQ(growth.factor(1e6), 3e6);
+  EXPECT_EQ(Schedule::growth(0.0).factor(2.0), 0.0);
+}
+
 TEST(ScheduledVector, AddsWhatEachScheduleAllows) {
   ScheduledVector sum(2);
   sum.add({}, Eigen::Vector2d(1.0, 0.0));
@@ -37,6 +46,21 @@ TEST(ScheduledVector, AddsWhatEachScheduleAllows) {
   Eigen::VectorXd value(2);
   sum.at(0.5, value);
   EXPECT_EQ(value, Eigen::Vector2d(1.0, 2.0));
+}
+
+TEST(ScheduledVector, AddsAMatrixTimesAnother) {
+  ScheduledVector other(2);
+  other.add({}, Eigen::Vector2d(1.0, 2.0));
+  other.add(Schedule::ramp(2.0), Eigen::Vector2d(4.0, 0.0));
+  Eigen::SparseMatrix<double> matrix(3, 2);
+  matrix.insert(0, 1) = 10.0;
+  matrix.insert(2, 0) = 1.0;
+  ScheduledVector sum(3);
+  sum.add({}, Eigen::Vector3d(0.0, 7.0, 0.0));
+  sum.add(matrix, other);
+  Eigen::VectorXd value(3);
+  sum.at(1.0, value);
+  EXPECT_EQ(value, Eigen::Vector3d(20.0, 7.0, 3.0));
 }
 
 }  // namespace

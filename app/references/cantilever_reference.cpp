@@ -1,0 +1,84 @@
+#include "app/references/cantilever_reference.hpp"
+
+#include <cmath>
+
+#include "app/references/cantilever_solution.hpp"
+#include "app/references/comparison.hpp"
+#include "app/references/oscillation.hpp"
+#include "modules/solid/isotropic_elasticity.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const std::string problem = "a cantilever under a sudden load";
+
+CantileverProblem read_problem(const Section& scene) {
+  if (scene.integer("dimension") != 2) {
+    scene.fail("reference.type", "the beam is plane", "dimension: 2");
+  }
+  require_word(scene, problem, "body.shape", {"box"});
+  require_word(scene, problem, "solid.type", {"dynamic"});
+  require_word(scene, problem, "solid.boundary.left.type", {"fixed"});
+  require_absent(scene, problem, {"pore_flow", "solid.regions", "gravity", "solid.damping"});
+  if (!writes(scene, "solid.body_force")) {
+    scene.fail("reference.type", "this scene is not " + problem, "solid.body_force");
+  }
+  const auto elasticity = read_isotropic_elasticity<3>(scene.at("solid"));
+  const double lambda = elasticity.lame_lambda;
+  const double mu = elasticity.shear_modulus;
+  const std::vector<double> size = scene.numbers("body.size");
+  return {.youngs_modulus = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu),
+          .poisson_ratio = 0.5 * lambda / (lambda + mu),
+          .density = scene.number("solid.density"),
+          .length = size[0] + outside(scene, "left"),
+          .height = size[1],
+          .load = scene.numbers("solid.body_force")[1]};
+}
+
+}  // namespace
+
+std::unique_ptr<Reference> make_cantilever_reference(const Section& scene,
+                                                     const Simulation& simulation) {
+  const CantileverProblem problem = read_problem(scene);
+  const CantileverSolution solution(problem);
+  const PointSet& points = simulation.points();
+  const std::vector<Index> row = points_along(scene, points, 0, {0.0, 0.5 * problem.height});
+  auto reference =
+      std::make_unique<Reference>("cantilever", "Timoshenko's beam, first mode", solution.period());
+  reference->add(
+      Reference::History{"deflection at the tip", "m",
+                         value_at(field_named(*simulation.manager, "displacement"), row.back(), 1),
+                         [=](double t) { return solution.deflection(t); }});
+  const double level = solution.static_deflection();
+  const auto measured = [=](auto times, auto values) {
+    // Upwards whatever the sign of the load.
+    std::vector<double> deflection(values.begin(), values.end());
+    for (double& value : deflection) value /= level;
+    return oscillation(times, deflection, 1.0, 0.5);
+  };
+  reference->add(
+      Reference::Figure{.name = "period of the tip",
+                        .unit = "s",
+                        .exact = solution.period(),
+                        .scale = solution.period(),
+                        .history = 0,
+                        .computed = [=](auto times, auto values) -> std::optional<double> {
+                          if (const auto found = measured(times, values)) return found->period;
+                          return {};
+                        }});
+  reference->add(
+      Reference::Figure{.name = "mean deflection of the tip",
+                        .unit = "m",
+                        .exact = level,
+                        .scale = std::abs(level),
+                        .history = 0,
+                        .computed = [=](auto times, auto values) -> std::optional<double> {
+                          if (const auto found = measured(times, values))
+                            return found->mean * level;
+                          return {};
+                        }});
+  return reference;
+}
+
+}  // namespace perifrac

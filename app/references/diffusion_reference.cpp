@@ -1,0 +1,99 @@
+#include "app/references/diffusion_reference.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/references/comparison.hpp"
+#include "app/references/slab_drainage.hpp"
+#include "modules/pore_flow/pore_material.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const std::string problem = "diffusion from one face";
+
+/// A slab between a face at a pressure and a sealed one.
+struct Slab {
+  int axis;
+  double sealed;    ///< coordinate of the sealed end [m]
+  double drained;   ///< coordinate of the other [m]
+  double initial;   ///< pressure [Pa]
+  double pressure;  ///< from t = 0 on at the drained end [Pa]
+  double diffusivity;
+
+  double length() const { return std::abs(drained - sealed); }
+  double time_scale() const { return length() * length() / diffusivity; }
+  double at(double x, double t) const {
+    return pressure + (initial - pressure) *
+                          slab_drainage::value(std::abs(x - sealed) / length(), t / time_scale());
+  }
+};
+
+Slab read_slab(const Section& scene) {
+  require_word(scene, problem, "body.shape", {"box"});
+  require_word(scene, problem, "pore_flow.type", {"darcy"});
+  require_absent(scene, problem, {"solid.regions", "pore_flow.regions", "gravity"});
+  if (scene.has("solid") && scene.word("solid.type") != "rigid") {
+    scene.fail("reference.type", "this scene is not " + problem, "no solid, or solid.type: rigid");
+  }
+  const Section flow = scene.at("pore_flow");
+  std::vector<std::string> faces = flow.names("boundary");
+  std::erase_if(faces, [&](const std::string& face) {
+    return flow.word(fmt::format("boundary.{}.type", face)) == "sealed";
+  });
+  if (faces.size() != 1) {
+    scene.fail("reference.type", "this scene is not " + problem,
+               "one face with type: pressure under pore_flow.boundary, the others sealed");
+  }
+  const std::string face = "boundary." + faces[0];
+  require_word(scene, problem, "pore_flow." + face + ".type", {"pressure"});
+  const bool low = faces[0] == "left" || faces[0] == "front" || faces[0] == "bottom";
+  const bool sideways = faces[0] == "left" || faces[0] == "right";
+  const bool vertical = faces[0] == "bottom" || faces[0] == "top";
+  const int axis = sideways ? 0 : vertical ? scene.integer("dimension") - 1 : 1;
+  const double size = scene.numbers("body.size")[axis];
+  const double beyond = outside(scene, faces[0]);
+  const PoreMaterial pore = read_pore_material(flow);
+  if (flow.number("initial_pressure") == flow.number(face + ".pressure")) {
+    scene.fail("pore_flow.initial_pressure", "nothing would flow", "not the pressure on the face");
+  }
+  return {.axis = axis,
+          .sealed = low ? size : 0.0,
+          .drained = low ? -beyond : size + beyond,
+          .initial = flow.number("initial_pressure"),
+          .pressure = flow.number(face + ".pressure"),
+          .diffusivity = pore.mobility / pore.storage};
+}
+
+}  // namespace
+
+std::unique_ptr<Reference> make_diffusion_reference(const Section& scene,
+                                                    const Simulation& simulation) {
+  const Slab slab = read_slab(scene);
+  const PointSet& points = simulation.points();
+  const std::span<const double> x = points.position[slab.axis];
+  const Field pressure = field_named(*simulation.manager, "pore_pressure");
+  const auto exact = [=](double at, double t) { return slab.at(at, t); };
+  auto reference =
+      std::make_unique<Reference>("diffusion", "Diffusion from one face", slab.time_scale());
+  reference->add(Reference::Error{
+      "pressure_error", largest_error(pressure, 0, points_inside(scene, points),
+                                      std::abs(slab.initial - slab.pressure),
+                                      [=](Index i, double t) { return exact(x[i], t); })});
+  const std::vector<Index> row =
+      points_along(scene, points, slab.axis, std::vector(points.dimension, 0.0));
+  for (const double part : {0.25, 0.5, 0.75, 1.0}) {
+    const double place = slab.drained + part * (slab.sealed - slab.drained);
+    const Index point = nearest_in(row, points, slab.axis, place);
+    reference->add(Reference::History{part == 1.0 ? "pore pressure at the sealed end"
+                                                  : fmt::format("pore pressure at {} L", part),
+                                      "Pa", value_at(pressure, point),
+                                      [=, at = x[point]](double t) { return exact(at, t); }});
+  }
+  reference->add(profile_along(row, points, slab.axis, "pore pressure", "Pa", pressure, exact));
+  return reference;
+}
+
+}  // namespace perifrac

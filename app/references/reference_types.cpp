@@ -1,0 +1,34 @@
+#include "app/references/reference_types.hpp"
+
+#include <algorithm>
+
+#include "app/references/cantilever_reference.hpp"
+#include "app/references/column_reference.hpp"
+#include "app/references/cryer_reference.hpp"
+#include "app/references/diffusion_reference.hpp"
+#include "app/references/drained_plate_reference.hpp"
+#include "app/references/mandel_reference.hpp"
+
+namespace perifrac {
+
+const std::vector<ReferenceType>& reference_types() {
+  static const std::vector<ReferenceType> types = {
+      {"mandel", make_mandel_reference},
+      {"terzaghi", make_terzaghi_reference},
+      {"layered_column", make_layered_column_reference},
+      {"cryer", make_cryer_reference},
+      {"diffusion", make_diffusion_reference},
+      {"drained_plate", make_drained_plate_reference},
+      {"cantilever", make_cantilever_reference},
+  };
+  return types;
+}
+
+std::unique_ptr<Reference> make_reference(const Section& scene, const Simulation& simulation) {
+  if (!scene.has("reference")) return nullptr;
+  const auto type =
+      std::ranges::find(reference_types(), scene.word("reference.type"), &ReferenceType::name);
+  return type->make(scene, simulation);
+}
+
+}  // namespace perifrac

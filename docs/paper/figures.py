@@ -1,0 +1,385 @@
+#!/usr/bin/python3
+"""Draws the paper's figures anew: its scheme as printed beside perifrac's own, both against the exact solution.
+
+usage: figures.py PERIFRAC [--runs DIR] [--images DIR] [--only NAME ...]
+
+Runs the scenes that a figure needs (once; a finished run in DIR is used again), draws figNN.png and writes
+errors.csv: for every figure and scheme the largest and the root-mean-square error.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from solutions import Mandel, Terzaghi
+
+HERE = Path(__file__).resolve().parent
+CONFIGS = HERE.parent.parent / "configs"
+
+COLUMN = Terzaghi(height=50.0, stiffness=5e9 + 4 / 3 * 4e9, storage=0.306 / 2.2e9, biot=1.0,
+                  mobility=1.02e-11 / 1e-3, load=14.62e6)  # fmt: skip
+SLAB = Mandel(lame_lambda=4e8, shear_modulus=4e8, storage=0.3 / 2e9 + 0.7 / 1e10, biot=1.0,
+              mobility=1.019368e-11 / 1e-3, width=40.0, force=1e4)  # fmt: skip
+SLAB_HEIGHT = 20.0
+PROFILE_TIMES = [1.0, 5.0, 10.0, 20.0, 40.0]
+MARKS = ["o", "s", "^", "D", "v", "P"]
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """One way to simulate a case: a scene, what is replaced in it, and when its load is all there."""
+
+    label: str
+    scene: str
+    replace: list[str] = field(default_factory=list)
+    loaded_at: float = 0.0  # [s]; times of figures count from here
+
+
+PAPER_RAMP = 0.1  # [s] of the load in configs/paper
+SCHEMES = {
+    "terzaghi": Scheme("perifrac", "terzaghi.yaml"),
+    "terzaghi_paper": Scheme("the paper's scheme", "paper/terzaghi.yaml", loaded_at=PAPER_RAMP / 2),
+    "mandel": Scheme("perifrac", "mandel.yaml"),
+    "mandel_paper": Scheme("the paper's scheme", "paper/mandel.yaml", loaded_at=PAPER_RAMP / 2),
+}
+for _dx in (2.0, 1.0, 0.5):
+    _common = [f"body.spacing={_dx} m"]
+    SCHEMES[f"delta_{_dx}"] = Scheme(f"horizon {2 * _dx:g} m", "convergence_delta.yaml", _common)
+    SCHEMES[f"m_{_dx}"] = Scheme(f"m = {2 / _dx:g}", "convergence_m.yaml", [*_common, f"body.horizon_ratio={2 / _dx}"])
+    for _name, _ratio in (("delta", 2.0), ("m", 2 / _dx)):
+        SCHEMES[f"{_name}_paper_{_dx}"] = Scheme(
+            f"horizon {2 * _dx:g} m" if _name == "delta" else f"m = {2 / _dx:g}",
+            "paper/mandel.yaml", [*_common, f"body.horizon_ratio={_ratio}"], PAPER_RAMP / 2)  # fmt: skip
+
+
+@dataclass
+class Frame:
+    time: float
+    points: np.ndarray
+    fields: dict[str, np.ndarray]
+
+
+class Runs:
+    """Runs scenes on demand and reads what they left."""
+
+    def __init__(self, perifrac: Path, folder: Path):
+        self.perifrac, self.folder = perifrac, folder
+
+    def of(self, name: str) -> Path:
+        scheme, folder = SCHEMES[name], self.folder / name
+        command = [str(self.perifrac), "run", str(CONFIGS / scheme.scene), "--no-report", "--output", str(folder)]
+        for assignment in scheme.replace:
+            command += ["--set", assignment]
+        stamp = folder / "command.txt"
+        if stamp.exists() and stamp.read_text(encoding="utf-8") == " ".join(command):
+            return folder
+        begin = time.monotonic()
+        done = subprocess.run(command, capture_output=True, text=True)
+        print(f"{name}: exit {done.returncode}, {time.monotonic() - begin:.1f} s", flush=True)
+        if done.returncode == 2:
+            sys.exit(done.stderr)
+        if done.returncode != 0:
+            print(done.stderr.strip().splitlines()[-1], flush=True)  # a figure shows how far it came
+        stamp.write_text(" ".join(command), encoding="utf-8")
+        return folder
+
+    def history(self, name: str) -> dict[str, np.ndarray]:
+        with (self.of(name) / "history.csv").open(newline="", encoding="utf-8") as stream:
+            header, *rows = list(csv.reader(stream))
+        table = np.array([[float(c or "nan") for c in row] for row in rows if len(row) == len(header)])
+        columns = {cell.split(" [")[0]: values for cell, values in zip(header, table.T)}
+        columns["time"] = columns["time"] - SCHEMES[name].loaded_at
+        return columns
+
+    def frames(self, name: str) -> list[Frame]:
+        frames = []
+        series = json.loads((self.of(name) / "frames/body.hdf.series").read_text(encoding="utf-8"))
+        for entry in series["files"]:
+            with h5py.File(self.folder / name / "frames" / entry["name"]) as file:
+                group = file["VTKHDF"]
+                fields = {k: v[()] for k, v in group["PointData"].items()}
+                frames.append(Frame(entry["time"] - SCHEMES[name].loaded_at, group["Points"][()], fields))
+        return frames
+
+    def frame_at(self, name: str, when: float) -> Frame | None:
+        """The frame within 2 % (or 20 ms) of a time, if the run came that far."""
+        nearest = min(self.frames(name), key=lambda frame: abs(frame.time - when))
+        return nearest if abs(nearest.time - when) <= max(0.02 * when, 0.02) else None
+
+
+class Errors:
+    """What errors.csv will hold."""
+
+    def __init__(self):
+        self.rows: list[list[str]] = []
+
+    def add(self, figure: str, scheme: str, case: str, computed: np.ndarray, exact: np.ndarray) -> None:
+        off = np.abs(np.asarray(computed) - np.asarray(exact)).ravel()
+        off = off[np.isfinite(off)]
+        if off.size:
+            self.rows.append([figure, scheme, case, f"{off.max():.2e}", f"{np.sqrt((off**2).mean()):.2e}"])
+
+    def write(self, path: Path) -> None:
+        with path.open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(["figure", "scheme", "case", "largest error", "root mean square"])
+            writer.writerows(self.rows)
+
+
+def panels(count: int, title: str, height: float = 4.2, **keywords):
+    figure, axes = plt.subplots(1, count, figsize=(5.2 * count, height), squeeze=False, **keywords)
+    figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    for axis in axes[0]:
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.grid(color="#e3e7eb", linewidth=0.7)
+    return figure, list(axes[0])
+
+
+def save(figure, images: Path, name: str) -> None:
+    figure.tight_layout()
+    figure.savefig(images / f"{name}.png", dpi=130)
+    plt.close(figure)
+    print(images / f"{name}.png")
+
+
+def column_profile(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
+    """Depth below the column's top and pressure over p0, along its middle."""
+    x, y = frame.points[:, 0], frame.points[:, 1]
+    middle = x[np.argmin(np.abs(x - 0.5 * (x.min() + x.max())))]
+    row = np.flatnonzero((np.abs(x - middle) < 1e-6) & (y > 0) & (y < COLUMN.height))
+    row = row[np.argsort(y[row])]
+    return COLUMN.height - y[row], frame.fields["pore_pressure"][row] / COLUMN.initial_pressure
+
+
+def fig05(runs: Runs, images: Path, errors: Errors) -> None:
+    """Excess pore pressure over the column at 0, 1, 5, 10, 20, 40 s."""
+    figure, axes = panels(2, "Fig 5: excess pore pressure in the column [MPa], 0 1 5 10 20 40 s")
+    for axis, name in zip(axes, ["terzaghi_paper", "terzaghi"]):
+        axis.set_title(SCHEMES[name].label, fontsize=9)
+        axis.grid(False)
+        offset, image = 0.0, None
+        for when in [0.0, *PROFILE_TIMES]:
+            frame = runs.frame_at(name, when)
+            if frame is not None:
+                x, y = frame.points[:, 0], frame.points[:, 1]
+                image = axis.scatter(x - x.min() + offset, y, c=frame.fields["pore_pressure"] / 1e6, s=5, marker="s",
+                                     cmap="viridis", vmin=0.0, vmax=6.2, linewidths=0)  # fmt: skip
+                axis.text(offset, y.max() + 1.5, f"{when:g} s", fontsize=8)
+                offset += np.ptp(x) + 4.0
+        axis.set_aspect("equal")
+        axis.set_xticks([])
+        axis.set_ylabel("height [m]")
+        if image is not None:
+            figure.colorbar(image, ax=axis, shrink=0.8)
+    save(figure, images, "fig05")
+
+
+def fig06(runs: Runs, images: Path, errors: Errors) -> None:
+    """Profiles of p/p0 along the column."""
+    figure, axes = panels(2, "Fig 6: excess pore pressure along the column", sharey=True)
+    fine = np.linspace(0.0, COLUMN.height, 400)
+    for axis, name in zip(axes, ["terzaghi_paper", "terzaghi"]):
+        axis.set_title(SCHEMES[name].label, fontsize=9)
+        for k, when in enumerate(PROFILE_TIMES):
+            axis.plot(COLUMN.pressure(fine, when) / COLUMN.initial_pressure, fine / COLUMN.height, color=f"C{k}", lw=1.2)
+            frame = runs.frame_at(name, when)
+            if frame is None:
+                continue
+            depth, pressure = column_profile(frame)
+            axis.plot(pressure, depth / COLUMN.height, MARKS[k], color=f"C{k}", ms=3.5, mfc="white", label=f"{when:g} s")
+            exact = COLUMN.pressure(depth, frame.time) / COLUMN.initial_pressure
+            errors.add("6", SCHEMES[name].label, f"p/p0 at {when:g} s", pressure, exact)
+        axis.set_xlabel("p / p0")
+        axis.set_xlim(-0.05, 1.15)
+        axis.legend(fontsize=8, frameon=False)
+    axes[0].set_ylabel("depth / H")
+    axes[0].invert_yaxis()
+    save(figure, images, "fig06")
+
+
+def settlement(runs: Runs, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Times and degree of consolidation, from the top's settlement in the frames.
+
+    The undrained settlement is taken off, as the paper does, by the analytic value."""
+    times, degrees = [], []
+    undrained = -(COLUMN.load - COLUMN.biot * COLUMN.initial_pressure) / COLUMN.stiffness
+    final = -COLUMN.load / COLUMN.stiffness
+    for frame in runs.frames(name):
+        if frame.time < 0.0:
+            continue
+        y = frame.points[:, 1]
+        top = np.flatnonzero((y < COLUMN.height) & (y > COLUMN.height - 1.2))
+        strain = frame.fields["displacement"][top, 1] / y[top]
+        # Within the last point's height the strain is that of the drained top: shift to the face.
+        times.append(frame.time)
+        degrees.append((strain.mean() * np.mean(y[top]) / COLUMN.height - undrained) / (final - undrained))
+    return np.array(times), np.array(degrees)
+
+
+def fig07(runs: Runs, images: Path, errors: Errors) -> None:
+    """Degree of consolidation over time."""
+    figure, axes = panels(1, "Fig 7: degree of consolidation")
+    fine = np.linspace(0.0, 50.0, 300)
+    axes[0].plot(fine, COLUMN.consolidation(fine), "k-", lw=1.2, label="exact")
+    for k, name in enumerate(["terzaghi_paper", "terzaghi"]):
+        times, degrees = settlement(runs, name)
+        axes[0].plot(times, degrees, MARKS[k], ms=4, mfc="white", color=f"C{k}", label=SCHEMES[name].label)
+        errors.add("7", SCHEMES[name].label, "degree of consolidation", degrees, COLUMN.consolidation(times))
+    axes[0].set_xlabel("time [s]")
+    axes[0].set_ylabel("U")
+    axes[0].legend(fontsize=8, frameon=False)
+    save(figure, images, "fig07")
+
+
+def probe(history: dict[str, np.ndarray], place: str) -> np.ndarray:
+    return history[f"pore_pressure at {place}"]
+
+
+def nearest(frame: Frame, x: float) -> float:
+    """x of the point that a probe at (x, 0) reads: among equally near ones the first."""
+    distance = np.hypot(frame.points[:, 0] - x, frame.points[:, 1])
+    return float(frame.points[np.argmin(distance > distance.min() * (1 + 1e-9)), 0])
+
+
+def fig09(runs: Runs, images: Path, errors: Errors) -> None:
+    """Pressure over time at four places of Mandel's slab."""
+    figure, axes = panels(2, "Fig 9: pore pressure in Mandel's problem", sharey=True)
+    fine = np.geomspace(0.05, 170.0, 300)
+    for axis, name in zip(axes, ["mandel_paper", "mandel"]):
+        axis.set_title(SCHEMES[name].label, fontsize=9)
+        history = runs.history(name)
+        last = runs.frames(name)[-1]
+        for k, (place, part) in enumerate([("a/4", 0.25), ("a/2", 0.5), ("3a/4", 0.75)]):
+            x = nearest(last, part * SLAB.width)
+            axis.plot(fine, SLAB.pressure([x], fine)[:, 0] / SLAB.initial_pressure, color=f"C{k}", lw=1.2)
+            when, value = history["time"], probe(history, place) / SLAB.initial_pressure
+            use = when > 0.5
+            shown = np.unique(np.searchsorted(when[use], np.geomspace(0.5, when.max() * 0.999, 40)))
+            axis.plot(when[use][shown], value[use][shown], MARKS[k], ms=3.5, mfc="white", color=f"C{k}", label=f"x = {place}")
+            exact = SLAB.pressure([x], when[use])[:, 0] / SLAB.initial_pressure
+            errors.add("9", SCHEMES[name].label, f"p/p0 at {place}, t > 0.5 s", value[use], exact)
+        axis.set_xlabel("time [s]")
+        axis.legend(fontsize=8, frameon=False)
+    axes[0].set_ylabel("p / p0")
+    save(figure, images, "fig09")
+
+
+def slab_profile(frame: Frame, axis: int) -> np.ndarray:
+    """Points of the slab proper (no layer) nearest to the middle, along `axis`."""
+    x, y = frame.points[:, 0], frame.points[:, 1]
+    inside = (x > 0) & (x < SLAB.width) & (y > 0) & (y < SLAB_HEIGHT)
+    across = frame.points[:, 1 - axis]
+    row = np.flatnonzero(inside & (np.abs(across - across[inside].min()) < 1e-6))
+    return row[np.argsort(frame.points[row, axis])]
+
+
+def fig10(runs: Runs, images: Path, errors: Errors) -> None:
+    """Pressure along x at several times."""
+    figure, axes = panels(2, "Fig 10: pore pressure along x in Mandel's problem", sharey=True)
+    fine = np.linspace(0.0, SLAB.width, 300)
+    for axis, name in zip(axes, ["mandel_paper", "mandel"]):
+        axis.set_title(SCHEMES[name].label, fontsize=9)
+        wanted = [f.time for f in runs.frames("mandel") if f.time > 1.0][:5]
+        for k, when in enumerate(wanted):
+            frame = runs.frame_at(name, when)
+            axis.plot(fine / SLAB.width, SLAB.pressure(fine, [when])[0] / SLAB.initial_pressure, color=f"C{k}", lw=1.2)
+            if frame is None:
+                continue
+            row = slab_profile(frame, 0)
+            x, value = frame.points[row, 0], frame.fields["pore_pressure"][row] / SLAB.initial_pressure
+            axis.plot(x / SLAB.width, value, MARKS[k], ms=3.5, mfc="white", color=f"C{k}", label=f"{when:.3g} s")
+            exact = SLAB.pressure(x, [frame.time])[0] / SLAB.initial_pressure
+            errors.add("10", SCHEMES[name].label, f"p/p0 at {when:.3g} s", value, exact)
+        axis.set_xlabel("x / a")
+        axis.legend(fontsize=8, frameon=False)
+    axes[0].set_ylabel("p / p0")
+    save(figure, images, "fig10")
+
+
+def fig11(runs: Runs, images: Path, errors: Errors) -> None:
+    """Vertical displacement at b/4, b/2, 3b/4 and b."""
+    figure, axes = panels(2, "Fig 11: vertical displacement in Mandel's problem", sharey=True)
+    fine = np.linspace(0.0, 170.0, 300)
+    for axis, name in zip(axes, ["mandel_paper", "mandel"]):
+        axis.set_title(SCHEMES[name].label, fontsize=9)
+        frames = [f for f in runs.frames(name) if f.time > 0.5]
+        for k, part in enumerate([0.25, 0.5, 0.75, 1.0]):
+            rows = [slab_profile(f, 1) for f in frames]
+            at = [r[np.argmin(np.abs(f.points[r, 1] - part * SLAB_HEIGHT))] for f, r in zip(frames, rows)]
+            y = frames[0].points[at[0], 1]
+            times = np.array([f.time for f in frames])
+            value = np.array([f.fields["displacement"][i, 1] for f, i in zip(frames, at)])
+            axis.plot(fine, 1e6 * SLAB.vertical_displacement([y], fine)[:, 0], color=f"C{k}", lw=1.2)
+            axis.plot(times, 1e6 * value, MARKS[k], ms=4, mfc="white", color=f"C{k}", label=f"y = {part:g} b")
+            exact = SLAB.vertical_displacement([y], times)[:, 0]
+            scale = np.abs(SLAB.vertical_displacement([y], [1e6])[0, 0])
+            errors.add("11", SCHEMES[name].label, f"u_y at {part:g} b over its final value", value / scale, exact / scale)
+        axis.set_xlabel("time [s]")
+        axis.legend(fontsize=8, frameon=False)
+    axes[0].set_ylabel("u_y [um]")
+    save(figure, images, "fig11")
+
+
+def convergence(runs: Runs, images: Path, errors: Errors, figure_name: str, kind: str, title: str) -> None:
+    figure, axes = panels(2, title, sharey=True)
+    fine = np.geomspace(0.2, 100.0, 300)
+    for axis, infix, label in zip(axes, ["paper_", ""], ["the paper's scheme", "perifrac"]):
+        axis.set_title(label, fontsize=9)
+        axis.semilogx(fine, SLAB.pressure([10.0], fine)[:, 0] / SLAB.initial_pressure, "k-", lw=1.2, label="exact")
+        for k, dx in enumerate([2.0, 1.0, 0.5]):
+            name = f"{kind}_{infix}{dx}"
+            history = runs.history(name)
+            when, value = history["time"], probe(history, "a/4") / SLAB.initial_pressure
+            use = (when > 0.3) & (when < 100.0)
+            axis.semilogx(when[use], value[use], color=f"C{k}", lw=1.0, label=SCHEMES[name].label)
+            x = nearest(runs.frames(name)[-1], SLAB.width / 4)
+            exact = SLAB.pressure([x], when[use])[:, 0] / SLAB.initial_pressure
+            errors.add(figure_name, label, f"p/p0 at a/4, dx = {dx:g} m", value[use], exact)
+        axis.set_xlabel("time [s]")
+        axis.legend(fontsize=8, frameon=False)
+    axes[0].set_ylabel("p / p0 at x = a/4")
+    save(figure, images, f"fig{figure_name}")
+
+
+def fig12(runs: Runs, images: Path, errors: Errors) -> None:
+    convergence(runs, images, errors, "12", "delta", "Fig 12: horizon and spacing reduced together, m = 2")
+
+
+def fig13(runs: Runs, images: Path, errors: Errors) -> None:
+    convergence(runs, images, errors, "13", "m", "Fig 13: spacing reduced within a horizon of 2 m")
+
+
+FIGURES = {f.__name__: f for f in (fig05, fig06, fig07, fig09, fig10, fig11, fig12, fig13)}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("perifrac", type=Path)
+    parser.add_argument("--runs", type=Path, default=Path("runs/paper"))
+    parser.add_argument("--images", type=Path, default=HERE / "images")
+    parser.add_argument("--only", nargs="*", choices=FIGURES, default=list(FIGURES))
+    chosen = parser.parse_args()
+    chosen.images.mkdir(parents=True, exist_ok=True)
+    runs, errors = Runs(chosen.perifrac, chosen.runs), Errors()
+    for name in chosen.only:
+        FIGURES[name](runs, chosen.images, errors)
+    if set(chosen.only) == set(FIGURES):
+        errors.write(HERE / "errors.csv")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,162 @@
+#include "modules/solid/solid_boundary_keys.hpp"
+
+#include <algorithm>
+
+#include "core/geometry/face_conditions.hpp"
+#include "core/time/schedule.hpp"
+
+namespace perifrac {
+
+KeyTable solid_boundary_keys() {
+  KeyTable keys = {
+      {.path = "boundary.*.type",
+       .type = KeyType::word,
+       .required = true,
+       .words = {"free", "traction", "pressure", "roller", "fixed", "rigid_plate"},
+       .meaning = "Condition of a face, on the points of its layer where the body has one; a face "
+                  "that is not named is free."},
+      {.path = "boundary.*.traction",
+       .type = KeyType::vector,
+       .unit = "Pa",
+       .required = true,
+       .when = "type=traction",
+       .meaning = "Force per area on the face."},
+      {.path = "boundary.*.pressure",
+       .unit = "Pa",
+       .required = true,
+       .when = "type=pressure",
+       .meaning = "Pressure that presses on the face, plane or sphere."},
+      {.path = "boundary.*.normal_displacement",
+       .unit = "m",
+       .fallback = "0 m",
+       .when = "type=roller",
+       .meaning = "Displacement of the face along its outward normal."},
+      {.path = "boundary.*.normal_velocity",
+       .unit = "m/s",
+       .fallback = "0 m/s",
+       .when = "type=roller",
+       .meaning = "What normal_displacement grows by, without end; the schedule leaves it alone."},
+      {.path = "boundary.*.displacement",
+       .type = KeyType::vector,
+       .unit = "m",
+       .when = "type=fixed",
+       .meaning = "Displacement of the face; 0 where left out."},
+      {.path = "boundary.*.velocity",
+       .type = KeyType::vector,
+       .unit = "m/s",
+       .when = "type=fixed",
+       .meaning = "What displacement grows by, without end; the schedule leaves it alone."},
+      {.path = "boundary.*.force",
+       .unit = "N/m|N",
+       .required = true,
+       .when = "type=rigid_plate",
+       .meaning = "Force that presses the plate on the body."},
+      {.path = "body_force",
+       .type = KeyType::vector,
+       .unit = "N/m^3",
+       .meaning = "Force per volume, beside gravity; 0 where left out."},
+      {.path = "density",
+       .unit = "kg/m^3",
+       .range = "(0, inf)",
+       .meaning = "Bulk density of the saturated rock; gravity needs it."},
+  };
+  for (const KeyTable& part : {schedule_keys("boundary.*."), schedule_keys("body_force_")}) {
+    keys.insert(keys.end(), part.begin(), part.end());
+  }
+  return keys;
+}
+
+namespace {
+
+template <int D>
+Vector<D> read_vector(const Section& section, const std::string& path) {
+  Vector<D> result{};
+  if (section.has(path)) std::ranges::copy(section.numbers(path), result.begin());
+  return result;
+}
+
+/// The schedule at a path, which must have something to multiply.
+Schedule read_schedule_of(const Section& section, const std::string& at, bool zero) {
+  Schedule schedule = read_schedule_at(section, at);
+  if (zero && !schedule.is_constant()) {
+    section.fail(at, "nothing that it could multiply", "a schedule beside a value other than 0");
+  }
+  return schedule;
+}
+
+template <int D>
+void read_face(const Section& section, const FaceCondition& condition, SolidBoundary<D>& boundary) {
+  const auto& [face, type, path] = condition;
+  const auto number = [&](const char* key) { return section.number(path + key); };
+  const auto vector = [&](const char* key) { return read_vector<D>(section, path + key); };
+  const auto schedule = [&](const auto& value) {
+    return read_schedule_of(section, path + ".schedule", value == std::decay_t<decltype(value)>{});
+  };
+  if (type == "roller") {
+    const double displacement = number(".normal_displacement");
+    boundary.roller(face, displacement, number(".normal_velocity"), schedule(displacement));
+  } else if (type == "fixed") {
+    const Vector<D> displacement = vector(".displacement");
+    boundary.fixed(face, displacement, vector(".velocity"), schedule(displacement));
+  } else if (type == "rigid_plate") {
+    const double force = number(".force");
+    boundary.rigid_plate(face, force, schedule(force));
+  } else if (type == "traction") {
+    const Vector<D> traction = vector(".traction");
+    boundary.traction(face, traction, schedule(traction));
+  } else if (type == "pressure") {
+    const double pressure = number(".pressure");
+    boundary.pressure(face, pressure, schedule(pressure));
+  } else {
+    schedule(0.0);
+  }
+}
+
+/// What pressure does on a sphere is known only where the plane faces beside it are mirrored.
+void check_sphere_pressure(const Section& section, const FaceCondition& condition,
+                           const std::vector<Face>& faces, FaceSet mirrored) {
+  if (!faces[condition.face].curved() || condition.type != "pressure") return;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f].curved() || contains(mirrored, f)) continue;
+    section.fail(condition.path, "pressure beside the free face '" + faces[f].name + "'",
+                 "roller, fixed or rigid_plate on all plane faces of the ball");
+  }
+}
+
+template <int D>
+void read_body_force(const Section& section, SolidBoundary<D>& boundary) {
+  const auto force = read_vector<D>(section, "body_force");
+  const Schedule schedule = read_schedule_of(section, "body_force_schedule", force == Vector<D>{});
+  if (force != Vector<D>{}) boundary.body_force(force, schedule);
+}
+
+template <int D>
+void read_gravity(const Section& section, SolidBoundary<D>& boundary) {
+  if (!section.scene().has("gravity")) return;
+  if (!section.has("density")) {
+    section.fail("density", "missing, and gravity is on", "the bulk density of the rock");
+  }
+  boundary.gravity(section.number("density"), read_vector<D>(section.scene(), "gravity"));
+}
+
+}  // namespace
+
+template <int D>
+SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body) {
+  SolidBoundary<D> boundary(body);
+  const auto conditions = read_face_conditions(section, body.faces(), {"free", "pressure"});
+  for (const FaceCondition& condition : conditions) {
+    read_face(section, condition, boundary);
+  }
+  for (const FaceCondition& condition : conditions) {
+    check_sphere_pressure(section, condition, body.faces(), boundary.mirrored());
+  }
+  read_body_force(section, boundary);
+  read_gravity(section, boundary);
+  return boundary;
+}
+
+template SolidBoundary<2> read_solid_boundary<2>(const Section&, const Body<2>&);
+template SolidBoundary<3> read_solid_boundary<3>(const Section&, const Body<3>&);
+
+}  // namespace perifrac
