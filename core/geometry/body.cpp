@@ -1,5 +1,6 @@
 #include "core/geometry/body.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -60,8 +61,9 @@ std::shared_ptr<Body<D>> make_ball(const Section& section, double spacing, doubl
   if (section.has("boundary")) {
     section.fail("boundary", "a ball has no layers", "a body of shape box, or this left out");
   }
-  return std::make_shared<Body<D>>(ball_lattice<D>(radius, spacing), std::vector<Face>{}, spacing,
-                                   horizon, influence);
+  const bool octant = section.word("part") == "octant";
+  return std::make_shared<Body<D>>(ball_lattice<D>(radius, spacing, octant),
+                                   ball_faces<D>(radius, octant), spacing, horizon, influence);
 }
 
 template <int D>
@@ -94,13 +96,22 @@ Body<D>::Body(Points<D> points, std::vector<Face> faces, double spacing, double 
 }
 
 template <int D>
-double Body<D>::thickness(int axis, FaceSet without_layers) const {
+int Body<D>::opposite(int face) const {
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const bool across = faces_[f].axis == faces_[face].axis && static_cast<int>(f) != face;
+    if (across || faces_[f].curved()) return static_cast<int>(f);
+  }
+  throw std::logic_error("a body with one side");
+}
+
+template <int D>
+double Body<D>::thickness(int face, FaceSet without_layers) const {
   double sum = 0.0;
-  for (int f : {2 * axis, 2 * axis + 1}) {
-    const Face& face = faces_[f];
-    double reach = face.direction * face.coordinate;
+  for (const int f : {face, opposite(face)}) {
+    const auto& [name, axis, direction, coordinate] = faces_[f];
+    double reach = direction * coordinate;
     for (const Index i : contains(without_layers, f) ? std::span<const Index>{} : layer(f)) {
-      reach = std::max(reach, face.direction * points_.position[axis][i] + 0.5 * spacing_);
+      reach = std::max(reach, direction * points_.position[axis][i] + 0.5 * spacing_);
     }
     sum += reach;
   }
@@ -153,11 +164,11 @@ void Body<D>::check_mirrored_faces(FaceSet mirrored, FaceSet without_layers) con
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (!contains(mirrored, f)) continue;
     if (!layers_[f].empty()) throw std::logic_error("a mirrored face has a layer");
-    const double across = thickness(faces_[f].axis, without_layers);
+    const double across = thickness(static_cast<int>(f), without_layers);
     if (across < horizon_) {
-      const auto low = f & ~std::size_t{1};
+      const auto [low, high] = std::minmax({static_cast<int>(f), opposite(static_cast<int>(f))});
       throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is less than the horizon",
-                                  across, faces_[low].name, faces_[low + 1].name),
+                                  across, faces_[low].name, faces_[high].name),
                       fmt::format("at least {:g} m where a face is mirrored", horizon_));
     }
   }
@@ -192,6 +203,13 @@ KeyTable body_keys() {
        .required = true,
        .when = "shape=ball",
        .meaning = "Radius of the ball."},
+      {.path = "part",
+       .type = KeyType::word,
+       .fallback = "whole",
+       .words = {"whole", "octant"},
+       .when = "shape=ball",
+       .meaning = "The whole ball, with the face `surface`; or its octant (in 2D its quadrant) at "
+                  "positive coordinates, with faces `left`, `front` (3D) and `bottom` besides."},
       {.path = "spacing",
        .unit = "m",
        .range = "(0, inf)",

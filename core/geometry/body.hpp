@@ -35,9 +35,11 @@ class Body {
   /// has none. A point behind two layered faces belongs to both layers.
   std::span<const Index> layer(int face) const { return layers_[face]; }
   void set_layers(std::vector<std::vector<Index>> layers) { layers_ = std::move(layers); }
-  /// Between the two faces across an axis, layers included except those behind faces in
+  /// The face across the body: the other one normal to the same axis, or else the curved one.
+  int opposite(int face) const;
+  /// From a face to the opposite one, layers included except those behind faces in
   /// `without_layers` [m].
-  double thickness(int axis, FaceSet without_layers = 0) const;
+  double thickness(int face, FaceSet without_layers = 0) const;
   /// The nearest point of the body proper, layers left out.
   Index nearest_point(const Vector<D>& x) const;
 

@@ -2,21 +2,28 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace perifrac {
 
-std::vector<FaceCondition> read_face_conditions(const Section& section,
-                                                std::span<const Face> faces) {
+std::vector<FaceCondition> read_face_conditions(const Section& section, std::span<const Face> faces,
+                                                const std::vector<std::string>& curved_types) {
   std::vector<FaceCondition> conditions;
   if (!section.has("boundary")) return conditions;
-  if (faces.empty()) section.fail("boundary", "a ball has no faces", "a body of shape box");
   std::vector<std::string> known;
   for (const Face& face : faces) known.push_back(face.name);
   for (const std::string& name : section.names("boundary")) {
     const std::string path = "boundary." + name;
     const auto found = std::ranges::find(known, name);
     if (found == known.end()) section.fail_unknown(path, name, known);
-    conditions.push_back(
-        {static_cast<int>(found - known.begin()), section.word(path + ".type"), path});
+    const int face = static_cast<int>(found - known.begin());
+    const std::string type = section.word(path + ".type");
+    if (faces[face].curved() && std::ranges::find(curved_types, type) == curved_types.end()) {
+      section.fail(path + ".type", fmt::format("'{}' on a curved face", type),
+                   fmt::format("one of: {}", fmt::join(curved_types, ", ")));
+    }
+    conditions.push_back({face, type, path});
   }
   return conditions;
 }

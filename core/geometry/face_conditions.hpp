@@ -17,8 +17,8 @@ struct FaceCondition {
 };
 
 /// The conditions under `boundary`, in the file's order. Throws InputError for a face the body does
-/// not have.
-std::vector<FaceCondition> read_face_conditions(const Section& section,
-                                                std::span<const Face> faces);
+/// not have, and for a type on a curved face that is none of `curved_types`.
+std::vector<FaceCondition> read_face_conditions(const Section& section, std::span<const Face> faces,
+                                                const std::vector<std::string>& curved_types);
 
 }  // namespace perifrac

@@ -17,26 +17,38 @@ double squared_distance(const Family<D>& family, Index i, Index j) {
   return r2;
 }
 
+template <int D>
+double radius(const Family<D>& family, Index i) {
+  double r2 = 0.0;
+  for (int a = 0; a < D; ++a) r2 += family.position[a][i] * family.position[a][i];
+  return std::sqrt(r2);
+}
+
 /// Mirrors every node, ghosts of earlier faces included, that lies within the horizon of a face:
-/// corners come out right, each image once.
+/// edges and corners come out right, each image once.
 template <int D>
 void add_ghosts(Family<D>& family, const Face& face, int number, double horizon,
                 const std::vector<bool>& bondless) {
-  const auto& coordinate = family.position[face.axis];
   const Index nodes = family.node_count();
   for (Index i = 0; i < nodes; ++i) {
-    const double depth = face.direction * (face.coordinate - coordinate[i]);
+    const double place = face.curved() ? radius(family, i) : family.position[face.axis][i];
+    const double depth = face.direction * (face.coordinate - place);
     if (depth > horizon || depth < 0.0) continue;
     if (i < family.point_count && bondless[i]) continue;
+    const double image = 2.0 * face.coordinate - place;
+    const double stretch = face.curved() ? image / place : 1.0;
     for (int a = 0; a < D; ++a) {
       const double x = family.position[a][i];
-      family.position[a].push_back(a == face.axis ? 2.0 * face.coordinate - x : x);
+      family.position[a].push_back(a == face.axis ? image : x * stretch);
     }
-    family.volume.push_back(family.volume[i]);
+    family.volume.push_back(family.volume[i] * std::pow(stretch, D - 1));
     const bool real = i < family.point_count;
     const Index ghost = i - family.point_count;
     family.ghost_source.push_back(real ? i : family.ghost_source[ghost]);
     family.ghost_faces.push_back((real ? 0u : family.ghost_faces[ghost]) | face_bit(number));
+    family.ghost_axes.push_back((real ? 0u : family.ghost_axes[ghost]) ^
+                                (face.curved() ? 0u : 1u << face.axis));
+    family.curved = family.curved || face.curved();
   }
 }
 
@@ -104,8 +116,8 @@ struct CellGrid {
 template <int D>
 std::size_t Family<D>::bytes() const {
   return sizeof(double) * (D + 1) * volume.size() + sizeof(Index) * ghost_source.size() +
-         sizeof(FaceSet) * ghost_faces.size() + sizeof(Index) * (offset.size() + other.size()) +
-         sizeof(double) * weight.size();
+         (sizeof(FaceSet) + 1) * ghost_faces.size() +
+         sizeof(Index) * (offset.size() + other.size()) + sizeof(double) * weight.size();
 }
 
 template <int D>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace perifrac {
 /// A mirrored face adds ghosts: images of the points near it. Ghosts are numbered after the real
 /// points; a ghost's value follows from its source and the face's condition (mirror_condition.hpp).
 /// Only real points have bonds; the image of a bond is not stored.
+/// The image at a sphere of radius R lies on the same ray at r' = 2 R - r, with the volume times
+/// (r' / r)^(D-1); unlike that at planes it keeps no distances.
 template <int D>
 struct Family {
   Index point_count = 0;                        ///< real points
@@ -21,6 +24,8 @@ struct Family {
   std::vector<double> volume;                   ///< real points, then ghosts
   std::vector<Index> ghost_source;              ///< real point that a ghost is the image of
   std::vector<FaceSet> ghost_faces;             ///< the faces that it was mirrored at
+  std::vector<std::uint8_t> ghost_axes;         ///< bit a: its coordinate a is reversed
+  bool curved = false;                          ///< some ghosts are images at a sphere
   std::vector<Index> offset;                    ///< bonds of i: offset[i] .. offset[i + 1]
   std::vector<Index> other;                     ///< the bond's other end
   std::vector<double> weight;                   ///< omega(|xi|) V_other

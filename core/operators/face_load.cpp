@@ -10,13 +10,18 @@ template <int D, int R>
 Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
                           FaceSet mirrored, int face, int component, FaceSet without_layers) {
   const Face& loaded = body.faces()[face];
-  const Face& opposite = body.faces()[face ^ 1];
+  const int across = body.opposite(face);
+  const Face& opposite = body.faces()[across];
+  if (loaded.curved() || opposite.curved()) {
+    throw BodyError(fmt::format("a load on face '{}' of a ball", loaded.name),
+                    "a box, or another condition of this face");
+  }
   const Index points = body.points().size();
   // Families within a horizon of the face are cut; their members lie within two. So it is at the
   // opposite face, or, where that one is mirrored, the stress jumps there and one horizon feels it.
   const double reach = 2.0 * body.horizon();
-  const double needed = reach + (contains(mirrored, face ^ 1) ? body.horizon() : reach);
-  const double thickness = body.thickness(loaded.axis, without_layers);
+  const double needed = reach + (contains(mirrored, across) ? body.horizon() : reach);
+  const double thickness = body.thickness(face, without_layers);
   if (thickness < needed * (1.0 - 1e-9)) {
     throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is too thin for a load on one",
                                 thickness, loaded.name, opposite.name),

@@ -2,7 +2,9 @@
 
 #include <cassert>
 #include <memory>
+#include <optional>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -30,6 +32,10 @@ namespace perifrac {
 ///
 /// An unknown vector holds R blocks of point values and then the face values of the
 /// MirrorCondition; rows of face values are the reactions of the faces.
+///
+/// What pulls at a ghost pulls at its source. Images at planes keep distances, so that the bond
+/// forces of a ghost are images of its source's. Those at a sphere do not: there A is assembled,
+/// for its matrix holds for ghosts of any kind, and applied as such.
 template <int D, class Law>
 class LinearExactOperator {
  public:
@@ -48,6 +54,7 @@ class LinearExactOperator {
     for (Index i = 0; i < family_->point_count; ++i) {
       if (touches_odd_face(i)) face_points_.push_back(i);
     }
+    if (family_->curved) matrix_.emplace(assemble());
   }
 
   const Family<D>& family() const { return *family_; }
@@ -58,6 +65,7 @@ class LinearExactOperator {
   void change_law(Change&& change) {
     change(law_);
     find_bond_stiffness();
+    if (matrix_) matrix_.emplace(assemble());
   }
   double weighted_volume(Index i) const { return moments_.weighted_volume[i]; }
   Index point_unknowns() const { return R * family_->point_count; }
@@ -65,13 +73,25 @@ class LinearExactOperator {
 
   /// result = A u = dE/du without forming A; both of size().
   void apply(std::span<const double> u, std::span<double> result) {
-    apply(u, result, [](Index, const Tensor<R, D>&, Tensor<R, D>&) {});
+    if (matrix_) {
+      for_each_point(size(), [&](Index row) {
+        double sum = 0.0;
+        for (typename Matrix::InnerIterator entry(*matrix_, row); entry; ++entry) {
+          sum += entry.value() * u[entry.col()];
+        }
+        result[row] = sum;
+      });
+    } else {
+      apply(u, result, [](Index, const Tensor<R, D>&, Tensor<R, D>&) {});
+    }
   }
 
-  /// The same with the stress that add(i, gradient, stress) makes of the law's at every point.
+  /// The same with the stress that add(i, gradient, stress) makes of the law's at every point; not
+  /// for curved ghosts.
   template <class AddStress>
   void apply(std::span<const double> u, std::span<double> result, AddStress&& add) {
     assert(static_cast<Index>(u.size()) == size() && u.size() == result.size());
+    if (matrix_) throw std::logic_error("an added stress beside curved ghosts");
     mirror_.spread(u, field_);
     for_each_point(family_->point_count, [&](Index i) { store_state(i, add); });
     mirror_.fill_conjugate(state_);
@@ -107,6 +127,8 @@ class LinearExactOperator {
   }
 
  private:
+  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
   void find_bond_stiffness() {
     const Index points = family_->point_count;
     for_each_point(points, [&](Index i) {
@@ -261,6 +283,7 @@ class LinearExactOperator {
   std::vector<double> state_;           ///< store_state() on real points and ghosts
   std::vector<double> bond_stiffness_;  ///< s_i on real points and ghosts
   std::vector<Index> face_points_;      ///< points with a bond to an odd ghost
+  std::optional<Matrix> matrix_;        ///< A, where ghosts are curved
 };
 
 }  // namespace perifrac

@@ -62,11 +62,10 @@ template <int D, int R>
 void MirrorCondition<D, R>::fill_conjugate(std::vector<double>& nodes) const {
   const Index count = family_->node_count();
   for (Index g = 0; g < family_->ghost_count(); ++g) {
-    const FaceSet faces = family_->ghost_faces[g];
     for (int r = 0; r < R; ++r) {
-      const double sign = image(faces, r).sign;
+      const double sign = image(family_->ghost_faces[g], r).sign;
       for (int b = 0; b < D; ++b) {
-        const bool reflected = contains(faces, 2 * b) != contains(faces, 2 * b + 1);
+        const bool reflected = (family_->ghost_axes[g] >> b) & 1;
         double* const block = nodes.data() + static_cast<std::size_t>(r * D + b) * count;
         block[family_->point_count + g] =
             (reflected ? -sign : sign) * block[family_->ghost_source[g]];

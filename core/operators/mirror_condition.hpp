@@ -33,7 +33,7 @@ class MirrorCondition {
       int face_value;
       double coefficient;
     };
-    std::array<Term, D> terms{};
+    std::array<Term, D + 1> terms{};  // a face an axis, and a sphere
     int term_count = 0;
   };
   Image image(FaceSet faces, int component) const;
@@ -44,7 +44,8 @@ class MirrorCondition {
   /// Writes the ghosts' values after the real points' in `nodes` (R blocks of node_count).
   void fill(std::vector<double>& nodes, const double* face_values) const;
 
-  /// Writes ghosts of a flux state A (R * D blocks of node_count) conjugate to the field.
+  /// Writes ghosts of a flux state A (R * D blocks of node_count) conjugate to the field, which
+  /// there is where no ghost is curved.
   void fill_conjugate(std::vector<double>& nodes) const;
 
  private:

@@ -124,7 +124,8 @@ template <int D>
 PoreBoundary<D> read_pore_boundary(const Section& section, const Body<D>& body) {
   PoreBoundary<D> boundary(body);
   const PoreGravity<D> gravity(body, read_gravity<D>(section), 1.0);
-  for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
+  for (const auto& [face, type, path] :
+       read_face_conditions(section, body.faces(), {"sealed", "pressure"})) {
     const Schedule schedule = read_schedule(section, path);
     if (type == "sealed" && !schedule.is_constant()) {
       section.fail(path + ".schedule", "nothing to multiply on a sealed face",
@@ -132,6 +133,10 @@ PoreBoundary<D> read_pore_boundary(const Section& section, const Body<D>& body) 
     }
     if (type == "flux") boundary.flux(face, section.number(path + ".flux"), schedule);
     if (type != "pressure") continue;
+    if (body.faces()[face].curved() && section.scene().has("gravity")) {
+      section.fail(path, "a prescribed pressure on a curved face under gravity",
+                   "a body of shape box");
+    }
     boundary.pressure(face, section.number(path + ".pressure"), schedule);
     if (!section.boolean(path + ".hydrostatic") && !gravity.crosses(face)) {
       section.fail(path, "a uniform pressure on a face along which gravity runs",

@@ -13,6 +13,7 @@ PoreGravity<D>::PoreGravity(const Body<D>& body, const Vector<D>& gravity, doubl
     top_[a] = gravity[a] > 0.0 ? low : high;
   }
   for (const Face& face : body.faces()) {
+    if (face.curved()) continue;
     if ((face.direction < 0) == (weight_[face.axis] > 0.0)) top_[face.axis] = face.coordinate;
   }
 }

@@ -39,7 +39,7 @@ void SolidBoundary<D>::traction(int face, const Vector<D>& traction, Schedule sc
 template <int D>
 void SolidBoundary<D>::pressure(int face, double pressure, Schedule schedule) {
   const Face& plane = body_->faces()[face];
-  if (plane.axis < 0) {
+  if (plane.curved()) {
     faces_[face] = {.kind = Kind::pressure, .pressure = pressure, .schedule = std::move(schedule)};
   } else {
     Vector<D> normal{};

@@ -112,20 +112,12 @@ void read_face(const Section& section, const FaceCondition& condition, SolidBoun
   }
 }
 
-/// A sphere has neither ghosts nor one normal.
-void check_sphere_type(const Section& section, const FaceCondition& condition,
-                       const std::vector<Face>& faces) {
-  const auto& [face, type, path] = condition;
-  if (faces[face].axis >= 0 || type == "free" || type == "pressure") return;
-  section.fail(path + ".type", "no " + type + " on the surface of a ball", "free or pressure");
-}
-
 /// What pressure does on a sphere is known only where the plane faces beside it are mirrored.
 void check_sphere_pressure(const Section& section, const FaceCondition& condition,
                            const std::vector<Face>& faces, FaceSet mirrored) {
-  if (faces[condition.face].axis >= 0 || condition.type != "pressure") return;
+  if (!faces[condition.face].curved() || condition.type != "pressure") return;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (faces[f].axis < 0 || contains(mirrored, f)) continue;
+    if (faces[f].curved() || contains(mirrored, f)) continue;
     section.fail(condition.path, "pressure beside the free face '" + faces[f].name + "'",
                  "roller, fixed or rigid_plate on all plane faces of the ball");
   }
@@ -152,9 +144,8 @@ void read_gravity(const Section& section, SolidBoundary<D>& boundary) {
 template <int D>
 SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body) {
   SolidBoundary<D> boundary(body);
-  const auto conditions = read_face_conditions(section, body.faces());
+  const auto conditions = read_face_conditions(section, body.faces(), {"free", "pressure"});
   for (const FaceCondition& condition : conditions) {
-    check_sphere_type(section, condition, body.faces());
     read_face(section, condition, boundary);
   }
   for (const FaceCondition& condition : conditions) {

@@ -50,9 +50,9 @@ void expect_rows_behind_the_faces(const std::array<int, D>& counts) {
   }
   EXPECT_EQ(places(rest), places(proper->points()));
   for (int f = 1; f < 2 * D - 1; ++f) EXPECT_TRUE(body->layer(f).empty());
-  EXPECT_EQ(body->thickness(0), counts[0] + 3.0);
-  EXPECT_EQ(body->thickness(0, face_bit(low)), counts[0]);
-  EXPECT_EQ(body->thickness(D - 1), counts[D - 1] + 3.0);
+  EXPECT_EQ(body->thickness(low), counts[0] + 3.0);
+  EXPECT_EQ(body->thickness(low, face_bit(low)), counts[0]);
+  EXPECT_EQ(body->thickness(high), counts[D - 1] + 3.0);
 }
 
 TEST(BondedLayer, FillsRowsBehindItsFacesCornersIncluded) {

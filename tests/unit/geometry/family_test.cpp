@@ -26,10 +26,8 @@ double omega(InfluenceFunction function, double r, double horizon) {
 using Bond = std::tuple<Index, FaceSet>;
 
 template <int D>
-void expect_all_bonds(const std::array<int, D>& counts, double spacing, double horizon,
-                      FaceSet mirrored, Cloud cloud, InfluenceFunction influence) {
-  const Points<D> points = test::box_points<D>(counts, spacing, cloud);
-  const std::vector<Face> faces = test::box_faces<D>(counts, spacing);
+void expect_all_bonds(const Points<D>& points, const std::vector<Face>& faces, double horizon,
+                      FaceSet mirrored, InfluenceFunction influence) {
   const Family<D> family = build_family<D>(points, faces, mirrored, horizon, influence);
   const auto nodes = test::all_images<D>(points, faces, mirrored);
   ASSERT_EQ(family.point_count, points.size());
@@ -56,8 +54,8 @@ void expect_all_bonds(const std::array<int, D>& counts, double spacing, double h
       const auto& node = *expected[k].second;
       const Index b = found[k].second;
       const double r = test::distance<D>(points.at(i), node.x);
-      EXPECT_NEAR(family.weight[b], omega(influence, r, horizon) * points.volume[node.source],
-                  1e-12 * points.volume[node.source]);
+      EXPECT_NEAR(family.weight[b], omega(influence, r, horizon) * node.volume,
+                  1e-12 * node.volume);
       for (int a = 0; a < D; ++a) {
         EXPECT_NEAR(family.position[a][family.other[b]], node.x[a], 1e-12);
       }
@@ -65,6 +63,13 @@ void expect_all_bonds(const std::array<int, D>& counts, double spacing, double h
     EXPECT_TRUE(std::is_sorted(family.other.begin() + family.offset[i],
                                family.other.begin() + family.offset[i + 1]));
   }
+}
+
+template <int D>
+void expect_all_bonds(const std::array<int, D>& counts, double spacing, double horizon,
+                      FaceSet mirrored, Cloud cloud, InfluenceFunction influence) {
+  expect_all_bonds<D>(test::box_points<D>(counts, spacing, cloud),
+                      test::box_faces<D>(counts, spacing), horizon, mirrored, influence);
 }
 
 TEST(Family, HoldsExactlyTheBondsWithinTheHorizon) {
@@ -82,6 +87,21 @@ TEST(Family, MirrorsPointsAtFacesEdgesAndCorners) {
     expect_all_bonds<3>({4, 3, 4}, 0.1, 0.25, 0b111111, cloud, InfluenceFunction::gaussian);
     expect_all_bonds<3>({4, 3, 4}, 0.1, 0.25, 0b100110, cloud, InfluenceFunction::gaussian);
   }
+}
+
+// Behind a sphere, and behind a sphere and planes, every image is there once.
+TEST(Family, MirrorsPointsAtASphere) {
+  const auto gaussian = InfluenceFunction::gaussian;
+  for (const FaceSet mirrored : {0b100u, 0b101u, 0b111u}) {
+    expect_all_bonds<2>(ball_lattice<2>(0.8, 0.1, true), ball_faces<2>(0.8, true), 0.25, mirrored,
+                        gaussian);
+  }
+  for (const FaceSet mirrored : {0b1000u, 0b1100u, 0b1111u}) {
+    expect_all_bonds<3>(ball_lattice<3>(0.5, 0.1, true), ball_faces<3>(0.5, true), 0.25, mirrored,
+                        gaussian);
+  }
+  expect_all_bonds<2>(ball_lattice<2>(0.7, 0.1), ball_faces<2>(0.7, false), 0.25, 0b1, gaussian);
+  expect_all_bonds<3>(ball_lattice<3>(0.4, 0.1), ball_faces<3>(0.4, false), 0.25, 0b1, gaussian);
 }
 
 // A lattice distance that equals the horizon is a bond at every spacing, whatever rounding does.

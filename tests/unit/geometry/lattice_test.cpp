@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -60,6 +61,40 @@ void expect_ball(double radius, double spacing, double volume) {
     double r2 = 0.0;
     for (const double x : points.at(i)) r2 += x * x;
     EXPECT_LT(r2, radius * radius);
+  }
+}
+
+/// The second moment of the volumes: that of a ball, to the accuracy of the sampled surface.
+template <int D>
+double moment_error(double cells) {
+  const Points<D> points = ball_lattice<D>(1.0, 1.0 / cells);
+  double sum = 0.0;
+  for (Index i = 0; i < points.size(); ++i) {
+    for (const double x : points.at(i))
+      sum += points.volume[i] * (x * x + 1.0 / (12 * cells * cells));
+  }
+  const double exact = D == 2 ? std::numbers::pi / 2.0 : 0.8 * std::numbers::pi;
+  return std::abs(sum / exact - 1.0);
+}
+
+TEST(BallLattice, FollowsTheSurfaceWithItsVolumes) {
+  for (const double cells : {8.0, 12.0, 16.0, 24.0}) {
+    EXPECT_LT(moment_error<2>(cells), 0.5 / (cells * cells));
+    EXPECT_LT(moment_error<3>(cells), 0.5 / (cells * cells));
+  }
+}
+
+TEST(BallLattice, IsTheSameInEveryOctant) {
+  const Points<3> whole = ball_lattice<3>(1.0, 0.13), octant = ball_lattice<3>(1.0, 0.13, true);
+  std::map<Vector<3>, double> volume;
+  for (Index i = 0; i < octant.size(); ++i) volume[octant.at(i)] = octant.volume[i];
+  ASSERT_EQ(whole.size(), 8 * octant.size());
+  for (Index i = 0; i < whole.size(); ++i) {
+    Vector<3> x = whole.at(i);
+    for (double& component : x) component = std::abs(component);
+    EXPECT_EQ(whole.volume[i], volume.at(x));
+    std::swap(x[0], x[2]);
+    EXPECT_NEAR(whole.volume[i], volume.at(x), 1e-12 * whole.volume[i]);
   }
 }
 

@@ -13,25 +13,35 @@
 namespace perifrac::test {
 
 /// A point or one of its images, found without the library: every point is mirrored at every
-/// combination of mirrored faces, one an axis.
+/// combination of mirrored faces, one an axis, and at the sphere.
 template <int D>
 struct Node {
   Vector<D> x;
   Index source;
   FaceSet faces;
+  double volume;
 };
 
 template <int D>
 std::vector<Node<D>> all_images(const Points<D>& points, std::span<const Face> faces,
                                 FaceSet mirrored) {
   std::vector<Node<D>> nodes;
-  for (Index i = 0; i < points.size(); ++i) nodes.push_back({points.at(i), i, 0});
-  for (int a = 0; a < D && !faces.empty(); ++a) {
+  for (Index i = 0; i < points.size(); ++i) {
+    nodes.push_back({points.at(i), i, 0, points.volume[i]});
+  }
+  for (int a = -1; a < D; ++a) {
     const std::vector<Node<D>> before = nodes;
-    for (int f : {2 * a, 2 * a + 1}) {
-      if (!contains(mirrored, f)) continue;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (faces[f].axis != a || !contains(mirrored, f)) continue;
       for (Node<D> node : before) {
-        node.x[a] = 2.0 * faces[f].coordinate - node.x[a];
+        if (a >= 0) {
+          node.x[a] = 2.0 * faces[f].coordinate - node.x[a];
+        } else {
+          const double r = Eigen::Map<const Eigen::Matrix<double, D, 1>>(node.x.data()).norm();
+          const double stretch = 2.0 * faces[f].coordinate / r - 1.0;
+          for (double& x : node.x) x *= stretch;
+          node.volume *= std::pow(stretch, D - 1);
+        }
         node.faces |= face_bit(f);
         nodes.push_back(node);
       }
@@ -104,7 +114,7 @@ double brute_force_energy(const Points<D>& points, const std::vector<Node<D>>& n
                                u[static_cast<std::size_t>(c) * points.size() + i];
       }
       const double s = r / (0.4 * horizon);
-      member.weight = std::exp(-s * s) * points.volume[node.source];
+      member.weight = std::exp(-s * s) * node.volume;
       family.push_back(member);
     }
     Shape shape = Shape::Zero();

@@ -28,7 +28,7 @@ struct Setting {
   }
 };
 
-/// Free faces; every kind of mirrored face; corners of two and of three odd faces.
+/// Free faces; every kind of mirrored face; corners of two and of three odd faces; balls.
 template <int D, int R>
 std::vector<Setting<D, R>> settings(int count, Cloud cloud) {
   const auto body = test::box_body<D>(test::cube<D>(count), 0.8, cloud);
@@ -39,7 +39,14 @@ std::vector<Setting<D, R>> settings(int count, Cloud cloud) {
     for (int r = 0; r < R; ++r) held.odd.pairs.push_back({face, r});
   }
   held.odd.pairs.push_back({2 * D - 1, R - 1});
-  return {free, sealed, mixed, held};
+  // Sphere and planes, in every mixture of even and odd; a ball shorter than the box is fast.
+  const auto octant = test::ball_body<D>(0.7 * count, 0.8, true);
+  const FaceSet with_planes = face_bit(D + 1) - 1;
+  Setting<D, R> drained{octant, with_planes}, cut{octant, with_planes};
+  Setting<D, R> whole{test::ball_body<D>(2.2, 0.8), 0b1};
+  drained.odd.pairs = {{D, 0}};
+  cut.odd.pairs = {{0, 0}, {D, 0}, {1, R - 1}};
+  return {free, sealed, mixed, held, drained, cut, whole};
 }
 
 template <int D, int R>
@@ -223,6 +230,12 @@ void expect_same_bits(const std::array<int, D>& counts) {
   omp_set_num_threads(threads);
   EXPECT_EQ(forces[0], forces[1]);
   EXPECT_EQ(forces[0], forces[2]);
+}
+
+TEST(LinearExactOperator, TakesNoAddedStressBesideCurvedGhosts) {
+  auto op = Setting<2, 2>{test::ball_body<2>(4.0, 1.0), 0b1}.make();
+  std::vector<double> u(op.size()), force(op.size());
+  EXPECT_THROW(op.apply(u, force, [](Index, const auto&, auto&) {}), std::logic_error);
 }
 
 TEST(LinearExactOperator, GivesTheSameBitsAtAnyThreadCount) {

@@ -38,7 +38,18 @@ TEST(MirrorCondition, MeetsAtCornersOfOddFaces) {
   const auto corner = mirror.image(0b010101, 0);
   EXPECT_EQ(corner.sign, -1.0);
   ASSERT_EQ(corner.term_count, 3);
-  for (const auto& term : corner.terms) EXPECT_DOUBLE_EQ(term.coefficient, 2.0 / 3.0);
+  for (int k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(corner.terms[k].coefficient, 2.0 / 3.0);
+}
+
+// An octant has one face more than axes.
+TEST(MirrorCondition, HoldsAllFacesOfAnOctant) {
+  const auto body = test::ball_body<2>(4.0, 1.0, true);
+  MirrorCondition<2, 1> mirror(*body->family(0b111));
+  for (const int face : {0, 1, 2}) mirror.set_odd(face, 0);
+  const auto corner = mirror.image(0b111, 0);
+  EXPECT_EQ(corner.sign, -1.0);
+  ASSERT_EQ(corner.term_count, 3);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(corner.terms[k].face_value, k);
 }
 
 }  // namespace

@@ -69,11 +69,11 @@ std::shared_ptr<const Body<D>> layered_body(const std::array<int, D>& counts, do
   return body;
 }
 
-/// A ball without faces.
 template <int D>
-std::shared_ptr<const Body<D>> ball_body(double radius, double spacing) {
-  return std::make_shared<const Body<D>>(ball_lattice<D>(radius, spacing), std::vector<Face>{},
-                                         spacing, 2.5 * spacing, InfluenceFunction::gaussian);
+std::shared_ptr<const Body<D>> ball_body(double radius, double spacing, bool octant = false) {
+  return std::make_shared<const Body<D>>(ball_lattice<D>(radius, spacing, octant),
+                                         ball_faces<D>(radius, octant), spacing, 2.5 * spacing,
+                                         InfluenceFunction::gaussian);
 }
 
 /// The same count along every axis.

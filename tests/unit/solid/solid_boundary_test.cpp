@@ -147,28 +147,6 @@ TEST(SolidBoundary, WeighsTheRock) {
   }
 }
 
-/// Points of a ball about the origin, of which the planes through it keep one part: `cut` axes.
-template <int D>
-std::shared_ptr<const Body<D>> part_of_ball(double radius, int cut) {
-  Points<D> whole = ball_lattice<D>(radius, 1.0), part;
-  std::vector<Face> faces;
-  const auto names = face_names<D>();
-  for (int a = 0; a < cut; ++a) {
-    faces.push_back({names[2 * a], a, -1, 0.0});
-    faces.push_back({names[2 * a + 1], a, +1, radius});
-  }
-  faces.push_back({"surface", -1, 0, radius});
-  for (Index i = 0; i < whole.size(); ++i) {
-    bool inside = true;
-    for (int a = 0; a < cut; ++a) inside = inside && whole.position[a][i] > 0.0;
-    if (!inside) continue;
-    for (int a = 0; a < D; ++a) part.position[a].push_back(whole.position[a][i]);
-    part.volume.push_back(whole.volume[i]);
-  }
-  return std::make_shared<const Body<D>>(std::move(part), std::move(faces), 1.0, 2.5,
-                                         InfluenceFunction::gaussian);
-}
-
 /// Under pressure a ball shrinks uniformly: held by its planes, as a module; whole, its load
 /// balances the inner force of that state.
 template <int D>
@@ -177,9 +155,9 @@ void expect_ball_shrinks_uniformly(double radius) {
   Vector<D> slope;
   slope.fill(-pressure / (D * (lambda + 2.0 * mu / D)));
 
-  Solid<D> part(part_of_ball<D>(radius, D));
-  for (int a = 0; a < D; ++a) part.boundary.roller(2 * a, 0.0);
-  part.boundary.pressure(2 * D, pressure, Schedule::ramp(2.0));
+  Solid<D> part(test::ball_body<D>(radius, 1.0, true));
+  for (int a = 0; a < D; ++a) part.boundary.roller(a, 0.0);
+  part.boundary.pressure(D, pressure, Schedule::ramp(2.0));
   part.start();
   part.step();
   part.step();
@@ -187,7 +165,7 @@ void expect_ball_shrinks_uniformly(double radius) {
   const double energy = part.energy_of(slope);
   EXPECT_NEAR(part.port("external_work").value[0], energy, 1e-12 * energy);
 
-  const auto whole = part_of_ball<D>(radius, 0);
+  const auto whole = test::ball_body<D>(radius, 1.0);
   SolidBoundary<D> boundary(*whole);
   boundary.pressure(0, pressure);
   const auto elastic = test::elastic<D>(*whole, boundary, {lambda, mu});
