@@ -45,14 +45,13 @@ MandelProblem read_problem(const Section& scene) {
           scene.number("solid.boundary.top.force")};
 }
 
-/// Points whose coordinate along `axis` is the smallest, sorted along the other axis.
-std::vector<Index> lowest_layer(const Points<2>& points, int axis) {
+/// Points within a spacing of the lowest face of `axis`, sorted along the other axis.
+std::vector<Index> lowest_layer(const Points<2>& points, int axis, double spacing) {
   const std::vector<double>& across = points.position[axis];
   const std::vector<double>& along = points.position[1 - axis];
-  const double least = *std::ranges::min_element(across);
   std::vector<Index> layer;
   for (Index i = 0; i < points.size(); ++i) {
-    if (across[i] < least * (1.0 + 1e-9)) layer.push_back(i);
+    if (across[i] < spacing) layer.push_back(i);
   }
   std::ranges::sort(layer, {}, [&](Index i) { return along[i]; });
   return layer;
@@ -65,7 +64,7 @@ MandelReference::MandelReference(const Section& scene, const Simulation& simulat
       pressure_(field_named(*simulation.manager, "pore_pressure")),
       plate_(field_named(*simulation.manager, "top_plate_displacement")),
       points_(&std::get<std::shared_ptr<const Body<2>>>(simulation.body)->points()),
-      row_(lowest_layer(*points_, 1)) {
+      row_(lowest_layer(*points_, 1, scene.number("body.spacing"))) {
   const double width = scene.numbers("body.size")[0];
   for (const double part : {0.0, 0.25, 0.5, 0.75}) {
     const auto nearest = std::ranges::min_element(row_, {}, [&](Index i) {

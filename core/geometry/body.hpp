@@ -31,6 +31,9 @@ class Body {
   const PointSet& point_set() const { return point_set_; }
   const std::vector<Region<D>>& regions() const { return regions_; }
   void set_regions(std::vector<Region<D>> regions) { regions_ = std::move(regions); }
+  /// The points are no lattice; families get projected weights (projected_weights.hpp) or not.
+  bool irregular() const { return irregular_; }
+  void set_irregular(bool projected_weights);
   /// Points of the bonded layer behind a face, which stand in for its ghosts; empty where the face
   /// is mirrored.
   std::span<const Index> layer(int face) const { return layers_[face]; }
@@ -49,6 +52,8 @@ class Body {
   std::vector<Region<D>> regions_;
   double spacing_;
   double horizon_;
+  bool irregular_ = false;
+  bool projected_weights_ = false;
   InfluenceFunction influence_;
   PointSet point_set_;
   mutable std::vector<std::pair<FaceSet, std::weak_ptr<const Family<D>>>> families_;
