@@ -161,10 +161,19 @@ std::shared_ptr<const Family<D>> Body<D>::family(FaceSet mirrored, FaceSet) cons
   for (const auto& [faces, shared] : families_) {
     if (auto family = shared.lock(); family && faces == mirrored) return family;
   }
-  auto family =
-      std::make_shared<Family<D>>(build_family<D>(points_, faces_, mirrored, horizon_, influence_));
-  if (projected_weights_) project_weights<D>(*family, faces_, mirrored, horizon_);
+  auto family = std::make_shared<const Family<D>>(make_family(mirrored));
   families_.emplace_back(mirrored, family);
+  return family;
+}
+
+template <int D>
+Family<D> Body<D>::make_family(FaceSet mirrored) const {
+  const FaceSet all = face_bit(static_cast<int>(faces_.size())) - 1;
+  if (projected_weights_ && mirrored != all) {
+    return without_other_ghosts(*this->family(all), mirrored);
+  }
+  Family<D> family = build_family<D>(points_, faces_, mirrored, horizon_, influence_);
+  if (projected_weights_) project_weights<D>(family, faces_, mirrored, horizon_);
   return family;
 }
 

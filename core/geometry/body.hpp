@@ -46,6 +46,10 @@ class Body {
   std::vector<std::shared_ptr<const Family<D>>> families() const;
 
  private:
+  /// Projected weights come from the family with all faces mirrored, so that a free surface cuts a
+  /// cloud that is as good as a lattice, and all families have the same.
+  Family<D> make_family(FaceSet mirrored) const;
+
   Points<D> points_;
   std::vector<Face> faces_;
   std::vector<std::vector<Index>> layers_;  ///< by face

@@ -38,4 +38,9 @@ template <int D>
 Family<D> build_family(const Points<D>& points, std::span<const Face> faces, FaceSet mirrored,
                        double horizon, InfluenceFunction influence);
 
+/// The part of a family that has ghosts behind the faces in `mirrored` alone: what build_family
+/// gives for them, with the weights that the bonds have here.
+template <int D>
+Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored);
+
 }  // namespace perifrac
