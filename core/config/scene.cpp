@@ -1,5 +1,7 @@
 #include "core/config/scene.hpp"
 
+#include <filesystem>
+
 #include "core/config/override.hpp"
 #include "core/config/scene_tree.hpp"
 #include "core/config/scene_validator.hpp"
@@ -12,6 +14,7 @@ Section read_scene(const std::string& path, const std::vector<std::string>& over
   YamlNode written = parse_yaml_file(path);
   for (const std::string& assignment : overrides) apply_override(written, assignment);
   auto scene = std::make_shared<SceneTree>(SceneTree{.keys = build_key_tree(catalogue)});
+  scene->folder = std::filesystem::path(path).parent_path().string();
   validate_scene(written, *scene);
   return {scene, ""};
 }

@@ -18,6 +18,7 @@ struct SceneTree {
   };
 
   KeyNode keys;
+  std::string folder{};  ///< of the scene's file; files that it names are beside it
   std::map<std::string, Entry, std::less<>> entries{};  ///< by full path; the root's is empty
 };
 

@@ -1,5 +1,6 @@
 #include "core/config/section.hpp"
 
+#include <filesystem>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -43,6 +44,9 @@ std::string Section::word(std::string_view path) const {
 }
 std::string Section::text(std::string_view path) const {
   return value<std::string>(path, "a text");
+}
+std::string Section::file(std::string_view path) const {
+  return (std::filesystem::path(tree_->folder) / text(path)).string();
 }
 std::vector<double> Section::numbers(std::string_view path) const {
   return value<std::vector<double>>(path, "a list of numbers");

@@ -24,6 +24,8 @@ class Section {
   bool boolean(std::string_view path) const;
   std::string word(std::string_view path) const;
   std::string text(std::string_view path) const;
+  /// A text that names a file, taken from the folder of the scene.
+  std::string file(std::string_view path) const;
   std::vector<double> numbers(std::string_view path) const;     ///< vector and numbers
   std::vector<std::string> names(std::string_view path) const;  ///< children, in the file's order
   std::size_t count(std::string_view path) const;               ///< items of a list; 0 if absent

@@ -31,6 +31,9 @@ class Body {
   const PointSet& point_set() const { return point_set_; }
   const std::vector<Region<D>>& regions() const { return regions_; }
   void set_regions(std::vector<Region<D>> regions) { regions_ = std::move(regions); }
+  /// The points are no lattice; families get projected weights (projected_weights.hpp) or not.
+  bool irregular() const { return irregular_; }
+  void set_irregular(bool projected_weights);
   /// Points of the bonded layer behind a face, which stand in for its ghosts; empty where the face
   /// has none. A point behind two layered faces belongs to both layers.
   std::span<const Index> layer(int face) const { return layers_[face]; }
@@ -51,12 +54,18 @@ class Body {
   std::vector<std::shared_ptr<const Family<D>>> families() const;
 
  private:
+  /// Projected weights come from the family with all faces mirrored, so that a free surface cuts a
+  /// cloud that is as good as a lattice, and all families have the same.
+  Family<D> make_family(FaceSet mirrored, FaceSet without_layers) const;
+
   Points<D> points_;
   std::vector<Face> faces_;
   std::vector<std::vector<Index>> layers_;  ///< by face
   std::vector<Region<D>> regions_;
   double spacing_;
   double horizon_;
+  bool irregular_ = false;
+  bool projected_weights_ = false;
   InfluenceFunction influence_;
   PointSet point_set_;
 

@@ -175,11 +175,40 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
   return family;
 }
 
+template <int D>
+Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored) {
+  Family<D> part;
+  part.point_count = family.point_count;
+  std::vector<Index> number(family.node_count(), -1);  // of a node in the part, -1 if it goes
+  for (Index node = 0; node < family.node_count(); ++node) {
+    const Index ghost = node - family.point_count;
+    if (ghost >= 0 && (family.ghost_faces[ghost] & ~mirrored) != 0) continue;
+    number[node] = static_cast<Index>(part.volume.size());
+    for (int a = 0; a < D; ++a) part.position[a].push_back(family.position[a][node]);
+    part.volume.push_back(family.volume[node]);
+    if (ghost < 0) continue;
+    part.ghost_source.push_back(family.ghost_source[ghost]);
+    part.ghost_faces.push_back(family.ghost_faces[ghost]);
+  }
+  part.offset.push_back(0);
+  for (Index i = 0; i < family.point_count; ++i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      if (number[family.other[bond]] < 0) continue;
+      part.other.push_back(number[family.other[bond]]);
+      part.weight.push_back(family.weight[bond]);
+    }
+    part.offset.push_back(static_cast<Index>(part.other.size()));
+  }
+  return part;
+}
+
 template struct Family<2>;
 template struct Family<3>;
 template Family<2> build_family<2>(const Points<2>&, std::span<const Face>, FaceSet, double,
                                    InfluenceFunction, std::vector<bool>);
 template Family<3> build_family<3>(const Points<3>&, std::span<const Face>, FaceSet, double,
                                    InfluenceFunction, std::vector<bool>);
+template Family<2> without_other_ghosts<2>(const Family<2>&, FaceSet);
+template Family<3> without_other_ghosts<3>(const Family<3>&, FaceSet);
 
 }  // namespace perifrac

@@ -44,4 +44,9 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
                        double horizon, InfluenceFunction influence,
                        std::vector<bool> bondless = {});
 
+/// The part of a family that has ghosts behind the faces in `mirrored` alone: what build_family
+/// gives for them, with the weights that the bonds have here.
+template <int D>
+Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored);
+
 }  // namespace perifrac

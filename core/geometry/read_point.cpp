@@ -15,9 +15,10 @@ Index read_point(const Section& section, const std::string& path, const Body<D>&
   const Vector<D> nearest = body.points().at(point);
   double r2 = 0.0;
   for (int a = 0; a < D; ++a) r2 += std::pow(nearest[a] - x[a], 2);
-  // A corner of the body is half a spacing along every axis from its point.
-  const double half_cell = 0.5 * std::sqrt(double{D}) * body.spacing();
-  if (std::sqrt(r2) > half_cell * (1.0 + 1e-9)) {
+  // A corner of the body is half a spacing along every axis from its point, or, where points are
+  // no lattice, about one.
+  const double cell = (body.irregular() ? 1.0 : 0.5) * std::sqrt(double{D}) * body.spacing();
+  if (std::sqrt(r2) > cell * (1.0 + 1e-9)) {
     section.fail(path,
                  fmt::format("lies {:.3g} m from the nearest point of the body", std::sqrt(r2)),
                  "a place inside the body");

@@ -7,7 +7,7 @@ The case begins with comments:
   # expect: MESSAGE     the one line that must come on stderr, with {file} for the scene's name
   # args: ARGUMENTS     further arguments, if any
   # scene: NAME         the scene to ask for, if not the case itself
-Exit code 2, nothing on stdout and no file written are expected of both verbs.
+Files that cases name are in `clouds`. Exit code 2, nothing on stdout and no file written are expected of both verbs.
 """
 import os
 import shlex
@@ -31,6 +31,7 @@ def read_header(case):
 def complaints(perifrac, verb, case, header):
     with tempfile.TemporaryDirectory() as folder:
         shutil.copy(case, folder)
+        shutil.copytree(os.path.join(os.path.dirname(case), "clouds"), os.path.join(folder, "clouds"))
         before = sorted(os.walk(folder))
         scene = header.get("scene", os.path.basename(case))
         command = [perifrac, verb, scene] + shlex.split(header.get("args", ""))

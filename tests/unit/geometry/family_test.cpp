@@ -114,6 +114,26 @@ TEST(Family, CountsLatticeBondsAtTheHorizonAlike) {
   }
 }
 
+// A part of a family is the one that would have been built.
+TEST(Family, IsTheSameAsAPartOfOneWithMoreGhosts) {
+  const auto points = test::box_points<3>({5, 4, 5}, 1.0, Cloud::jittered);
+  const auto faces = test::box_faces<3>({5, 4, 5}, 1.0);
+  const auto build = [&](FaceSet mirrored) {
+    return build_family<3>(points, faces, mirrored, 2.5, InfluenceFunction::gaussian);
+  };
+  for (const FaceSet mirrored : {0b000000u, 0b100110u, 0b111111u}) {
+    const Family<3> built = build(mirrored);
+    const Family<3> part = without_other_ghosts(build(0b111111), mirrored);
+    EXPECT_EQ(part.position, built.position);
+    EXPECT_EQ(part.volume, built.volume);
+    EXPECT_EQ(part.ghost_source, built.ghost_source);
+    EXPECT_EQ(part.ghost_faces, built.ghost_faces);
+    EXPECT_EQ(part.offset, built.offset);
+    EXPECT_EQ(part.other, built.other);
+    EXPECT_EQ(part.weight, built.weight);
+  }
+}
+
 TEST(Family, RefusesABodyThinnerThanTheHorizonBetweenMirroredFaces) {
   const auto body = test::box_body<2>({8, 2}, 1.0);
   EXPECT_NO_THROW(body->family(0b0011));

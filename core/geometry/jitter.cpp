@@ -1,0 +1,52 @@
+#include "core/geometry/jitter.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// The n-th number of the splitmix64 sequence of a seed (Steele, Lea and Flood 2014).
+std::uint64_t random_bits(std::uint64_t seed, std::uint64_t n) {
+  std::uint64_t z = seed + (n + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+/// Uniform in (-1, 1), ends excluded.
+double uniform(std::uint64_t bits) { return ((bits >> 11) + 0.5) * 0x1p-52 - 1.0; }
+
+template <int D, class Keep>
+void jitter_where(Points<D>& points, double distance, std::uint64_t seed, Keep&& keep) {
+  const std::uint64_t start = random_bits(seed, 0);  // so that the next seed is not one number on
+  for (Index i = 0; i < points.size(); ++i) {
+    Vector<D> x = points.at(i);
+    for (int a = 0; a < D; ++a) {
+      x[a] += distance * uniform(random_bits(start, std::uint64_t{D} * i + a));
+    }
+    if (!keep(x)) continue;
+    for (int a = 0; a < D; ++a) points.position[a][i] = x[a];
+  }
+}
+
+}  // namespace
+
+template <int D>
+void jitter_points(Points<D>& points, double distance, std::uint64_t seed) {
+  jitter_where(points, distance, seed, [](const Vector<D>&) { return true; });
+}
+
+template <int D>
+void jitter_points_in_ball(Points<D>& points, double distance, std::uint64_t seed, double radius) {
+  jitter_where(points, distance, seed, [&](const Vector<D>& x) {
+    double r2 = 0.0;
+    for (const double coordinate : x) r2 += coordinate * coordinate;
+    return r2 < radius * radius;
+  });
+}
+
+template void jitter_points<2>(Points<2>&, double, std::uint64_t);
+template void jitter_points<3>(Points<3>&, double, std::uint64_t);
+template void jitter_points_in_ball<2>(Points<2>&, double, std::uint64_t, double);
+template void jitter_points_in_ball<3>(Points<3>&, double, std::uint64_t, double);
+
+}  // namespace perifrac
