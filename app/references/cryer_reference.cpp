@@ -21,7 +21,7 @@ CryerProblem read_problem(const Section& scene) {
     scene.fail("reference.type", "Cryer's problem is a ball", "dimension: 3");
   }
   require_word(scene, problem, "body.shape", {"ball"});
-  require_word(scene, problem, "solid.type", {"quasi_static"});
+  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
   require_word(scene, problem, "pore_flow.type", {"darcy"});
   require_word(scene, problem, "solid.boundary.surface.type", {"pressure"});
   require_word(scene, problem, "pore_flow.boundary.surface.type", {"pressure"});

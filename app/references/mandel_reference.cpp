@@ -22,7 +22,7 @@ MandelProblem read_problem(const Section& scene) {
     scene.fail("reference.type", "Mandel's problem is plane", "dimension: 2");
   }
   require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "solid.type", {"quasi_static"});
+  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
   require_word(scene, problem, "pore_flow.type", {"darcy"});
   require_word(scene, problem, "solid.boundary.left.type", {"roller"});
   require_word(scene, problem, "solid.boundary.bottom.type", {"roller"});
