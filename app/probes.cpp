@@ -8,7 +8,14 @@ namespace perifrac {
 
 namespace {
 
-constexpr std::array axis_suffix = {"_x", "_y", "_z"};
+/// `_x` of a vector's components, `_xy` of a tensor's, row by row.
+std::string component_suffix(int component, int components) {
+  constexpr std::string_view axes = "xyz";
+  if (components == 1) return "";
+  if (components <= 3) return {'_', axes[component]};
+  const int dimension = components == 4 ? 2 : 3;
+  return {'_', axes[component / dimension], axes[component % dimension]};
+}
 
 bool has_place(const Field& field) { return field.points().dimension > 0; }
 
@@ -45,8 +52,8 @@ Probes::Probes(const Section& output, const Simulation& simulation) {
 void Probes::add(const Field& field, Index point, std::size_t count, const std::string& suffix) {
   for (int c = 0; c < field.port.components; ++c) {
     probes_.push_back({field, c * count + point});
-    const char* const axis = field.port.components > 1 ? axis_suffix[c] : "";
-    columns_.push_back({field.port.name + axis + suffix, field.port.unit});
+    const std::string name = field.port.name + component_suffix(c, field.port.components);
+    columns_.push_back({name + suffix, field.port.unit});
   }
 }
 

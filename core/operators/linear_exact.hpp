@@ -72,7 +72,7 @@ class LinearExactOperator {
   template <class AddStress>
   void apply(std::span<const double> u, std::span<double> result, AddStress&& add) {
     assert(static_cast<Index>(u.size()) == size() && u.size() == result.size());
-    fill_field(u);
+    mirror_.spread(u, field_);
     for_each_point(family_->point_count, [&](Index i) { store_state(i, add); });
     mirror_.fill_conjugate(state_);
     const Index points = family_->point_count;
@@ -85,7 +85,7 @@ class LinearExactOperator {
 
   /// Gradient of the field at every point: R * D blocks of point_count, block r * D + b.
   void gradient(std::span<const double> u, std::span<double> result) {
-    fill_field(u);
+    mirror_.spread(u, field_);
     const Index points = family_->point_count;
     for_each_point(points, [&](Index i) {
       const Tensor<R, D> f = gradient_at(i);
@@ -107,16 +107,6 @@ class LinearExactOperator {
   }
 
  private:
-  void fill_field(std::span<const double> u) {
-    const Index points = family_->point_count;
-    const Index nodes = family_->node_count();
-    for (int r = 0; r < R; ++r) {
-      const double* const from = u.data() + static_cast<std::size_t>(r) * points;
-      std::copy(from, from + points, field_.data() + static_cast<std::size_t>(r) * nodes);
-    }
-    mirror_.fill(field_, u.data() + point_unknowns());
-  }
-
   const double* field(int r) const {
     return field_.data() + static_cast<std::size_t>(r) * family_->node_count();
   }

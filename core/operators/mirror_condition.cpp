@@ -1,5 +1,7 @@
 #include "core/operators/mirror_condition.hpp"
 
+#include <algorithm>
+
 namespace perifrac {
 
 template <int D, int R>
@@ -26,6 +28,18 @@ auto MirrorCondition<D, R>::image(FaceSet faces, int component) const -> Image {
   if (image.sign > 0.0) image.term_count = 0;
   for (int k = 0; k < image.term_count; ++k) image.terms[k].coefficient = 2.0 / image.term_count;
   return image;
+}
+
+template <int D, int R>
+void MirrorCondition<D, R>::spread(std::span<const double> unknowns,
+                                   std::vector<double>& nodes) const {
+  const Index points = family_->point_count;
+  const Index count = family_->node_count();
+  for (int r = 0; r < R; ++r) {
+    const double* const from = unknowns.data() + static_cast<std::size_t>(r) * points;
+    std::copy(from, from + points, nodes.data() + static_cast<std::size_t>(r) * count);
+  }
+  fill(nodes, unknowns.data() + static_cast<std::size_t>(R) * points);
 }
 
 template <int D, int R>

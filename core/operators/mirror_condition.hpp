@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/geometry/family.hpp"
@@ -36,6 +37,9 @@ class MirrorCondition {
     int term_count = 0;
   };
   Image image(FaceSet faces, int component) const;
+
+  /// Writes an unknown vector on the nodes: R blocks of node_count, real points and then ghosts.
+  void spread(std::span<const double> unknowns, std::vector<double>& nodes) const;
 
   /// Writes the ghosts' values after the real points' in `nodes` (R blocks of node_count).
   void fill(std::vector<double>& nodes, const double* face_values) const;

@@ -1,40 +1,12 @@
 #include "core/operators/nonlocal_gradient.hpp"
 
-#include "core/operators/bond_traversal.hpp"
+#include "core/operators/node_unknowns.hpp"
 
 namespace perifrac {
 
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
-
-/// One component of a node as a combination of unknowns.
-struct Combination {
-  struct Term {
-    Index unknown;
-    double coefficient;
-  };
-  std::array<Term, 5> terms;  // source, a face an axis, and the own value
-  int count = 0;
-  void add(Index unknown, double coefficient) { terms[count++] = {unknown, coefficient}; }
-};
-
-template <int D, int R>
-Combination unknowns_of(const Family<D>& family, const MirrorCondition<D, R>& mirror, Index node,
-                        int component) {
-  const Index points = family.point_count;
-  Combination result;
-  if (node < points) {
-    result.add(component * points + node, 1.0);
-    return result;
-  }
-  const auto image = mirror.image(family.ghost_faces[node - points], component);
-  result.add(component * points + family.ghost_source[node - points], image.sign);
-  for (int k = 0; k < image.term_count; ++k) {
-    result.add(R * points + image.terms[k].face_value, image.terms[k].coefficient);
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -57,7 +29,7 @@ Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
         entry *= family.weight[bond];
         for (int r = 0; r < R; ++r) {
           const Index row = (r * D + b) * points + i;
-          const Combination end = unknowns_of(family, mirror, j, r);
+          const Combination end = node_unknowns(family, mirror, j, r);
           for (int k = 0; k < end.count; ++k) {
             triplets.emplace_back(row, end.terms[k].unknown, entry * end.terms[k].coefficient);
           }
@@ -85,7 +57,7 @@ Eigen::SparseMatrix<double> bond_matrix(const Family<D>& family,
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       const double stiffness = family.volume[i] * bond_stiffness[i] * family.weight[bond];
       for (int r = 0; r < R; ++r) {
-        Combination difference = unknowns_of(family, mirror, family.other[bond], r);
+        Combination difference = node_unknowns(family, mirror, family.other[bond], r);
         difference.add(r * points + i, -1.0);
         for (int k = 0; k < difference.count; ++k) {
           for (int l = 0; l < difference.count; ++l) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <Eigen/SparseCore>
 
@@ -14,6 +15,21 @@ struct PoreStress {
   std::span<const double> value{};
   std::span<const double> slope{};
 };
+
+/// Calls use(at), at(i, dilatation) being the pore stress of point i, so that its kind is asked for
+/// once and not at every point.
+template <class Use>
+void with_pore_stress(const PoreStress& pore, Use&& use) {
+  const double* const value = pore.value.data();
+  const double* const slope = pore.slope.data();
+  if (value == nullptr) {
+    use([](Index, double) { return 0.0; });
+  } else if (slope == nullptr) {
+    use([=](Index i, double) { return value[i]; });
+  } else {
+    use([=](Index i, double dilatation) { return value[i] + slope[i] * dilatation; });
+  }
+}
 
 /// An elastic material on a body's bonds: all that a solid needs to know of it. Displacements are a
 /// vector of size(): D blocks of point displacements, then face values (MirrorCondition) [m].
@@ -29,11 +45,19 @@ class ElasticOperator {
   virtual void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
                      std::span<double> dilatation) = 0;
 
-  /// Stress in the solid without pore stress (effective), tension positive: D * D blocks of points
-  /// [Pa].
+  /// Inner force at u = 0 [N]: that of the initial stress. What lies behind the faces of the intact
+  /// body bears it, so that a solid counts it, once, among its external forces.
+  std::vector<double> initial_force() {
+    std::vector<double> rest(size(), 0.0), force(size()), dilatation(size());
+    apply(rest, {}, force, dilatation);
+    return force;
+  }
+
+  /// Stress in the solid without pore stress (effective), initial stress included, tension
+  /// positive: D * D blocks of points [Pa].
   virtual void stress(std::span<const double> u, std::span<double> stress) = 0;
 
-  /// The stiffness: apply without pore stress as a matrix.
+  /// The stiffness: apply without pore stress and initial stress as a matrix.
   virtual Eigen::SparseMatrix<double> assemble() const = 0;
 
   /// Takes displacements to point dilatations; volume-weighted, its transpose makes force of pore

@@ -70,27 +70,27 @@ KeyTable elastic_constant_keys() {
 }
 
 template <int D>
-IsotropicElasticity<D> read_isotropic_elasticity(const Section& section) {
+IsotropicElasticity<D> read_isotropic_elasticity(const Section& section, const std::string& path) {
   std::vector<std::optional<double>> value;
   std::vector<std::string> given;
   for (const std::string& name : constant_names) {
-    const std::string path = "material." + name;
-    value.push_back(section.has(path) ? std::optional(section.number(path)) : std::nullopt);
+    const std::string key = path + "." + name;
+    value.push_back(section.has(key) ? std::optional(section.number(key)) : std::nullopt);
     if (value.back()) given.push_back(name);
   }
   const std::string expected = fmt::format("exactly two of {}", fmt::join(constant_names, ", "));
   if (given.size() != 2) {
-    section.fail("material", fmt::format("elastic constants given: {}", given.size()), expected);
+    section.fail(path, fmt::format("elastic constants given: {}", given.size()), expected);
   }
   const auto [lambda, mu] = lame_constants(value[0], value[1], value[2], value[3], value[4]);
   if (!(mu > 0.0) || !(lambda + 2.0 / 3.0 * mu > 0.0) || !std::isfinite(lambda)) {
-    section.fail("material", fmt::format("{} and {} leave no stable solid", given[0], given[1]),
+    section.fail(path, fmt::format("{} and {} leave no stable solid", given[0], given[1]),
                  "constants with positive shear and bulk modulus");
   }
   return {lambda, mu};
 }
 
-template IsotropicElasticity<2> read_isotropic_elasticity<2>(const Section&);
-template IsotropicElasticity<3> read_isotropic_elasticity<3>(const Section&);
+template IsotropicElasticity<2> read_isotropic_elasticity<2>(const Section&, const std::string&);
+template IsotropicElasticity<3> read_isotropic_elasticity<3>(const Section&, const std::string&);
 
 }  // namespace perifrac

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/operators/small_tensor.hpp"
@@ -39,8 +41,9 @@ struct IsotropicElasticity {
 /// The keys of `material` for an isotropic elastic solid, of which two elastic constants are given.
 KeyTable elastic_constant_keys();
 
-/// Reads the two constants under `material`; throws InputError.
+/// Reads the two constants under `path`; throws InputError.
 template <int D>
-IsotropicElasticity<D> read_isotropic_elasticity(const Section& section);
+IsotropicElasticity<D> read_isotropic_elasticity(const Section& section,
+                                                 const std::string& path = "material");
 
 }  // namespace perifrac

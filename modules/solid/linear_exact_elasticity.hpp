@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "core/operators/linear_exact.hpp"
@@ -11,22 +12,22 @@ namespace perifrac {
 template <int D, class Law>
 class LinearExactElasticity final : public ElasticOperator<D> {
  public:
-  explicit LinearExactElasticity(LinearExactOperator<D, Law> op) : operator_(std::move(op)) {}
+  /// `initial_stress`: normal stresses of the body at rest, tension positive [Pa].
+  explicit LinearExactElasticity(LinearExactOperator<D, Law> op,
+                                 std::optional<Vector<D>> initial_stress = {})
+      : operator_(std::move(op)), initial_stress_(initial_stress) {}
 
   Index size() const override { return operator_.size(); }
 
   void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
              std::span<double> dilatation) override {
-    const double* const value = pore.value.data();
-    const double* const slope = pore.slope.data();
-    if (value == nullptr) {
-      apply_with(u, force, dilatation, [](Index, double) { return 0.0; });
-    } else if (slope == nullptr) {
-      apply_with(u, force, dilatation, [=](Index i, double) { return value[i]; });
-    } else {
-      apply_with(u, force, dilatation,
-                 [=](Index i, double theta) { return value[i] + slope[i] * theta; });
-    }
+    with_pore_stress(pore, [&](auto pore_stress) {
+      if (initial_stress_) {
+        apply_with(u, force, dilatation, pore_stress, [&](auto& stress) { add_initial(stress); });
+      } else {
+        apply_with(u, force, dilatation, pore_stress, [](auto&) {});
+      }
+    });
   }
 
   void stress(std::span<const double> u, std::span<double> stress) override {
@@ -36,7 +37,8 @@ class LinearExactElasticity final : public ElasticOperator<D> {
       Tensor<D, D> gradient;
       for (int k = 0; k < D * D; ++k)
         gradient[k] = stress[static_cast<std::size_t>(k) * points + i];
-      const Tensor<D, D> result = law_at(operator_.law(), i).stress(gradient);
+      Tensor<D, D> result = law_at(operator_.law(), i).stress(gradient);
+      if (initial_stress_) add_initial(result);
       for (int k = 0; k < D * D; ++k) stress[static_cast<std::size_t>(k) * points + i] = result[k];
     });
   }
@@ -62,19 +64,25 @@ class LinearExactElasticity final : public ElasticOperator<D> {
   }
 
  private:
-  template <class PoreStressAt>
+  void add_initial(Tensor<D, D>& stress) const {
+    for (int a = 0; a < D; ++a) stress[a * D + a] += (*initial_stress_)[a];
+  }
+
+  template <class PoreStressAt, class AddInitial>
   void apply_with(std::span<const double> u, std::span<double> force, std::span<double> dilatation,
-                  PoreStressAt&& pore_stress) {
+                  PoreStressAt&& pore_stress, AddInitial&& add_initial) {
     operator_.apply(u, force, [&](Index i, const Tensor<D, D>& gradient, Tensor<D, D>& stress) {
       double theta = 0.0;
       for (int a = 0; a < D; ++a) theta += gradient[a * D + a];
       dilatation[i] = theta;
       const double pressure = pore_stress(i, theta);
       for (int a = 0; a < D; ++a) stress[a * D + a] -= pressure;
+      add_initial(stress);
     });
   }
 
   LinearExactOperator<D, Law> operator_;
+  std::optional<Vector<D>> initial_stress_;
 };
 
 }  // namespace perifrac

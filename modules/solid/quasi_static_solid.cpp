@@ -29,21 +29,24 @@ Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
 
 template <int D>
 QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
-                                      const ElasticOperator<D>& elastic,
+                                      std::shared_ptr<ElasticOperator<D>> elastic,
                                       const SolidBoundary<D>& boundary)
     : body_(std::move(body)),
+      elastic_(std::move(elastic)),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
           {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, D},
           {"dilatation", "1", PortDirection::out},
+          {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field,
+           D * D},
           {"elastic_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_stored},
           {"external_work", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_gained},
       } {
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
-  stiffness_ = elastic.assemble();
-  dilatation_of_ = elastic.dilatation_matrix();
+  stiffness_ = elastic_->assemble();
+  dilatation_of_ = elastic_->dilatation_matrix();
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
     ports_.push_back({face + "_plate_displacement", "m", PortDirection::out});
@@ -52,10 +55,10 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
   prescribed_ = boundary.prescribed(mirror);
   const Eigen::SparseMatrix<double> equations = free_unknowns_.transpose();
   load_ = ScheduledVector(equations.rows());
-  load_.add(equations, boundary.loads(mirror, elastic.gradient_matrix()));
+  load_.add(equations, boundary.loads(mirror, elastic_->gradient_matrix()));
   load_.add(-equations * stiffness_, prescribed_);
   for (Index i = 0; i < body_->points().size(); ++i) {
-    slope_.push_back(1.0 / elastic.drained_bulk_modulus(i));
+    slope_.push_back(1.0 / elastic_->drained_bulk_modulus(i));
   }
 }
 
@@ -86,6 +89,10 @@ PortView QuasiStaticSolid<D>::port(PortId id) {
       return {points, std::span(unknowns_).first(D * body_->points().volume.size())};
     case dilatation:
       return {points, dilatation_, {}, slope_};
+    case effective_stress:
+      effective_stress_.resize(D * D * body_->points().volume.size());
+      elastic_->stress(unknowns_, effective_stress_);
+      return {points, effective_stress_};
     case elastic_energy:
       return {&whole_body, {&elastic_energy_, 1}};
     case external_work:

@@ -20,13 +20,15 @@ namespace perifrac {
 /// window's end. Small strain.
 ///
 /// Ports: in `pore_stress` [Pa]; out `displacement` [m], `dilatation` with its slope
-/// d(dilatation)/d(pore_stress), `elastic_energy`, `external_work` [J] (per metre in 2D), and for
-/// each rigid plate `<face>_plate_displacement` [m], along its axis.
+/// d(dilatation)/d(pore_stress), `effective_stress` [Pa] (D * D components, row by row, tension
+/// positive; total stress is this less the pore stress), `elastic_energy`, `external_work` [J] (per
+/// metre in 2D), and for each rigid plate `<face>_plate_displacement` [m], along its axis.
 template <int D>
 class QuasiStaticSolid final : public PhysicsModule {
  public:
-  /// `elastic` is used here only, for its matrices; its mirror condition is the boundary's.
-  QuasiStaticSolid(std::shared_ptr<const Body<D>> body, const ElasticOperator<D>& elastic,
+  /// `elastic` has the boundary's mirror condition. Its initial stress does not move the body, as
+  /// what lies behind the faces bears it; energy and work are counted from there.
+  QuasiStaticSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<ElasticOperator<D>> elastic,
                    const SolidBoundary<D>& boundary);
 
   /// A motion of the whole body that nothing resists, in words; empty where there is none. Such a
@@ -46,6 +48,7 @@ class QuasiStaticSolid final : public PhysicsModule {
     pore_stress,
     displacement,
     dilatation,
+    effective_stress,
     elastic_energy,
     external_work,
     first_plate
@@ -56,6 +59,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;
+  std::shared_ptr<ElasticOperator<D>> elastic_;
   std::vector<Port> ports_;
   std::vector<Index> plate_unknowns_;          ///< one that each plate moves
   Eigen::SparseMatrix<double> stiffness_;      ///< of all unknowns, face values included
@@ -72,6 +76,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   std::vector<double> pore_stress_;  ///< input; empty until somebody links it
   std::vector<double> dilatation_;
   std::vector<double> slope_;
+  std::vector<double> effective_stress_;  ///< made when it is asked for
   double elastic_energy_ = 0.0;
 };
 

@@ -1,7 +1,6 @@
 #include "modules/solid/solid_types.hpp"
 
-#include "modules/solid/isotropic_elasticity.hpp"
-#include "modules/solid/linear_exact_elasticity.hpp"
+#include "modules/solid/material.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
 #include "modules/solid/rigid_solid.hpp"
 #include "modules/solid/solid_boundary_keys.hpp"
@@ -10,23 +9,12 @@ namespace perifrac {
 
 namespace {
 
-/// The material on the families that the boundary asks for.
-template <int D>
-std::unique_ptr<ElasticOperator<D>> read_elastic_operator(const Section& section,
-                                                          const Body<D>& body,
-                                                          const SolidBoundary<D>& boundary) {
-  using Law = IsotropicElasticity<D>;
-  const auto family = body.family(boundary.mirrored());
-  return std::make_unique<LinearExactElasticity<D, Law>>(LinearExactOperator<D, Law>(
-      family, boundary.mirror_condition(*family), read_isotropic_elasticity<D>(section)));
-}
-
 template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
-  const auto elastic = read_elastic_operator<D>(section, *body, boundary);
-  auto solid = std::make_unique<QuasiStaticSolid<D>>(body, *elastic, boundary);
+  std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
+  auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary);
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -35,14 +23,9 @@ std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
 }
 
 KeyTable quasi_static_keys() {
-  KeyTable keys = {{.path = "material.type",
-                    .type = KeyType::word,
-                    .fallback = "linear_exact",
-                    .words = {"linear_exact"},
-                    .meaning = "linear_exact: isotropic, exact for linear fields on any points."}};
-  for (const KeyTable& part : {elastic_constant_keys(), solid_boundary_keys()}) {
-    keys.insert(keys.end(), part.begin(), part.end());
-  }
+  KeyTable keys = material_keys();
+  const KeyTable boundary = solid_boundary_keys();
+  keys.insert(keys.end(), boundary.begin(), boundary.end());
   return keys;
 }
 

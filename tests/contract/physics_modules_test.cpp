@@ -43,6 +43,12 @@ const std::vector<Variant>& variants() {
       variant("quasi_static_scheduled", "solid/quasi_static", box_2d + quasi_static_2d,
               {"solid.boundary.top.schedule={ramp: 0.02 s}", "gravity=[0 m/s^2, -9.81 m/s^2]",
                "solid.boundary.bottom.normal_velocity=1 mm/s", "solid.density=2300 kg/m^3"}),
+      variant("quasi_static_lps_2d", "solid/quasi_static", box_2d + quasi_static_2d,
+              {"solid.material.type=lps"}),
+      variant("quasi_static_lps_3d", "solid/quasi_static", box_3d + quasi_static_3d,
+              {"solid.material.type=lps"}),
+      variant("quasi_static_confined", "solid/quasi_static", box_2d + quasi_static_2d,
+              {"solid.confining_stress=[2 MPa, 3 MPa]"}),
       variant("rigid", "solid/rigid", box_2d + rigid),
       variant("darcy_cvode_2d", "pore_flow/darcy", box_2d + darcy),
       variant("darcy_cvode_3d", "pore_flow/darcy", box_3d + darcy),
@@ -75,7 +81,9 @@ TEST(ModuleContract, CoversEveryRegisteredModule) {
 /// Every solid beside every pore flow, each also alone: it runs, with finite results, and only what
 /// is named exists.
 TEST(SwapMatrix, EveryCombinationRuns) {
-  const std::vector<std::string> solids = {"", rigid, quasi_static_2d};
+  const std::string lps =
+      std::string(quasi_static_2d).replace(quasi_static_2d.find("{bulk"), 1, "{type: lps, ");
+  const std::vector<std::string> solids = {"", rigid, quasi_static_2d, lps};
   const std::vector<std::vector<std::string>> flows = {
       {},
       {"pore_flow.integrator.type=explicit"},
@@ -92,7 +100,7 @@ TEST(SwapMatrix, EveryCombinationRuns) {
       manager.settle();
       for (int window = 0; window < 3; ++window) manager.advance(1.0);
       EXPECT_EQ(manager.modules().size(), (solid.empty() ? 0u : 1u) + (flow.empty() ? 0u : 1u));
-      EXPECT_EQ(manager.links().size(), solid == quasi_static_2d && !flow.empty() ? 2u : 0u);
+      EXPECT_EQ(manager.links().size(), solid.size() > rigid.size() && !flow.empty() ? 2u : 0u);
       for (const Field& field : fields_of(manager)) {
         for (const double value : field.values()) ASSERT_TRUE(std::isfinite(value));
       }

@@ -151,8 +151,15 @@ TEST(LayeredSolid, LeavesAPlatesLayerFreeToSlide) {
   solid.start();
   solid.step();
   const auto u = solid.port("displacement").value;
-  EXPECT_GT(u[solid.body->nearest_point({4.0, 7.0})], 0.01);
-  EXPECT_NE(u[solid.body->nearest_point({4.0, 7.0})], u[solid.body->nearest_point({4.0, 6.1})]);
+  const auto& points = solid.body->points();
+  double least = INFINITY, most = -INFINITY;
+  for (const Index i : solid.body->layer(3)) {
+    if (points.position[0][i] < 3.7) continue;
+    least = std::min(least, u[i]);
+    most = std::max(most, u[i]);
+  }
+  EXPECT_GT(least, 0.01);
+  EXPECT_GT(most, 1.01 * least);
 }
 
 TEST(LayeredSolid, MovesALayerOnARollerByItsDisplacementAndVelocity) {

@@ -58,8 +58,8 @@ TEST(SolidBoundaryKeys, SayWhatTheBuildersSay) {
   ASSERT_EQ(from_scene.mirrored(), built.mirrored());
   const auto mirror = built.mirror_condition(*body->family(built.mirrored()));
   const auto elastic = test::elastic<2>(*body, built, {1.0, 1.0});
-  const auto gradient = elastic.gradient_matrix();
-  Eigen::VectorXd expected(elastic.size()), read_back(elastic.size());
+  const auto gradient = elastic->gradient_matrix();
+  Eigen::VectorXd expected(elastic->size()), read_back(elastic->size());
   for (const double t : {0.0, 1.5, 30.0}) {
     built.prescribed(mirror).at(t, expected);
     from_scene.prescribed(mirror).at(t, read_back);

@@ -124,9 +124,9 @@ TEST(SolidBoundary, WeighsTheRock) {
     solid.step();
     const Index n = solid.points();
     const auto u = solid.port("displacement").value;
-    std::vector<double> all(elastic.size(), 0.0), sigma(4 * n);
+    std::vector<double> all(elastic->size(), 0.0), sigma(4 * n);
     std::ranges::copy(u, all.begin());  // its face values are 0
-    elastic.stress(all, sigma);
+    elastic->stress(all, sigma);
     settlement.push_back(0.0);
     stress.push_back(0.0);
     for (Index i = 0; i < n; ++i) {
@@ -192,13 +192,13 @@ void expect_ball_shrinks_uniformly(double radius) {
   boundary.pressure(0, pressure);
   const auto elastic = test::elastic<D>(*whole, boundary, {lambda, mu});
   const auto mirror = boundary.mirror_condition(*whole->family(0));
-  Eigen::VectorXd load(elastic.size()), shrunk(elastic.size());
-  boundary.loads(mirror, elastic.gradient_matrix()).at(0.0, load);
+  Eigen::VectorXd load(elastic->size()), shrunk(elastic->size());
+  boundary.loads(mirror, elastic->gradient_matrix()).at(0.0, load);
   const Index n = whole->points().size();
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < n; ++i) shrunk[a * n + i] = slope[a] * whole->points().position[a][i];
   }
-  EXPECT_LT(test::largest(elastic.assemble() * shrunk - load), 1e-12 * test::largest(load));
+  EXPECT_LT(test::largest(elastic->assemble() * shrunk - load), 1e-12 * test::largest(load));
 }
 
 TEST(SolidBoundary, PressesOnABall) {
@@ -212,8 +212,8 @@ TEST(SolidBoundary, PressesOnAPlaneAgainstItsNormal) {
     SolidBoundary<2> boundary(*body);
     change(boundary);
     const auto elastic = test::elastic<2>(*body, boundary, {lambda, mu});
-    Eigen::VectorXd load(elastic.size());
-    boundary.loads(boundary.mirror_condition(*body->family(0)), elastic.gradient_matrix())
+    Eigen::VectorXd load(elastic->size());
+    boundary.loads(boundary.mirror_condition(*body->family(0)), elastic->gradient_matrix())
         .at(0.0, load);
     return load;
   };

@@ -1,0 +1,85 @@
+#include "modules/solid/material.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/geometry/region.hpp"
+#include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/solid/linear_exact_elasticity.hpp"
+#include "modules/solid/lps_elasticity.hpp"
+
+namespace perifrac {
+
+KeyTable material_keys() {
+  KeyTable keys = {
+      {.path = "material.type",
+       .type = KeyType::word,
+       .fallback = "linear_exact",
+       .words = {"linear_exact", "lps"},
+       .meaning = "linear_exact: isotropic, exact for linear fields on any points; lps: the linear "
+                  "peridynamic solid, whose moduli on a lattice are off (docs/materials.md)."},
+      {.path = "confining_stress",
+       .type = KeyType::vector,
+       .unit = "Pa",
+       .meaning = "Normal stress of the body at rest along every axis, compressive positive, "
+                  "without pore pressure; what lies behind the faces bears it."}};
+  for (Key key : elastic_constant_keys()) {
+    keys.push_back(key);
+    key.path = "regions.*." + key.path;
+    key.meaning = "The same in a region of the body, where two constants take the others' place.";
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+namespace {
+
+template <int D>
+LawByRegion<IsotropicElasticity<D>> read_laws(const Section& section, const Body<D>& body) {
+  LawByRegion<IsotropicElasticity<D>> law{
+      {read_isotropic_elasticity<D>(section, "material")},
+      region_of_points<D>(section, body.regions(), body.points())};
+  if (!section.has("regions")) return law;
+  for (const std::string& name : section.names("regions")) {
+    const std::string path = "regions." + name + ".material";
+    law.laws.push_back(section.has(path) ? read_isotropic_elasticity<D>(section, path)
+                                         : law.laws.front());
+  }
+  return law;
+}
+
+/// Tension positive.
+template <int D>
+std::optional<Vector<D>> read_initial_stress(const Section& section) {
+  if (!section.has("confining_stress")) return {};
+  Vector<D> stress;
+  std::ranges::transform(section.numbers("confining_stress"), stress.begin(), std::negate());
+  return stress;
+}
+
+}  // namespace
+
+template <int D>
+std::unique_ptr<ElasticOperator<D>> read_material(const Section& section, const Body<D>& body,
+                                                  const SolidBoundary<D>& boundary) {
+  const auto family = body.family(boundary.mirrored());
+  const auto mirror = boundary.mirror_condition(*family);
+  const auto initial_stress = read_initial_stress<D>(section);
+  LawByRegion<IsotropicElasticity<D>> law = read_laws<D>(section, body);
+  if (section.word("material.type") == "lps") {
+    return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law), initial_stress);
+  }
+  const auto linear_exact = [&](auto law) -> std::unique_ptr<ElasticOperator<D>> {
+    using Law = decltype(law);
+    return std::make_unique<LinearExactElasticity<D, Law>>(
+        LinearExactOperator<D, Law>(family, mirror, std::move(law)), initial_stress);
+  };
+  return law.laws.size() == 1 ? linear_exact(law.laws.front()) : linear_exact(std::move(law));
+}
+
+template std::unique_ptr<ElasticOperator<2>> read_material<2>(const Section&, const Body<2>&,
+                                                              const SolidBoundary<2>&);
+template std::unique_ptr<ElasticOperator<3>> read_material<3>(const Section&, const Body<3>&,
+                                                              const SolidBoundary<3>&);
+
+}  // namespace perifrac
