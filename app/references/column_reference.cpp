@@ -6,9 +6,8 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/layered_column_solution.hpp"
+#include "app/references/rock.hpp"
 #include "app/references/terzaghi_solution.hpp"
-#include "modules/pore_flow/pore_material.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
 
@@ -44,19 +43,13 @@ Column read_column(const Section& scene, const std::string& problem) {
 
 /// The material of the column, or of a region in it, as a layer of this thickness [m].
 ColumnLayer read_layer(const Section& scene, double thickness, const std::string& region = "") {
-  const std::string solid = "solid.regions." + region;
-  const std::string flow = "pore_flow.regions." + region;
-  const auto elasticity =
-      read_isotropic_elasticity<3>(scene.at(writes(scene, solid) ? solid : "solid"));
-  const PoreMaterial pore = read_pore_material(scene.at("pore_flow"));
-  const double permeability = scene.number("pore_flow.permeability");
-  const double here =
-      writes(scene, flow + ".permeability") ? scene.number(flow + ".permeability") : permeability;
+  const ElasticRock elasticity = read_elastic_rock(scene, region);
+  const PorousRock pore = read_porous_rock(scene, region);
   return {.thickness = thickness,
-          .uniaxial_modulus = elasticity.lame_lambda + 2.0 * elasticity.shear_modulus,
+          .uniaxial_modulus = elasticity.uniaxial_modulus(),
           .biot_coefficient = pore.biot_coefficient,
           .storage = pore.storage,
-          .mobility = pore.mobility * here / permeability};
+          .mobility = pore.mobility};
 }
 
 /// The one region of the scene, which must be the column from some height up.

@@ -7,8 +7,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/cryer_solution.hpp"
-#include "modules/pore_flow/pore_material.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "app/references/rock.hpp"
 
 namespace perifrac {
 
@@ -27,9 +26,9 @@ CryerProblem read_problem(const Section& scene) {
   require_word(scene, problem, "pore_flow.boundary.surface.type", {"pressure"});
   require_absent(scene, problem,
                  {"solid.regions", "pore_flow.regions", "solid.body_force", "gravity"});
-  const auto elasticity = read_isotropic_elasticity<3>(scene.at("solid"));
-  const PoreMaterial pore = read_pore_material(scene.at("pore_flow"));
-  return {.bulk_modulus = elasticity.lame_lambda + 2.0 / 3.0 * elasticity.shear_modulus,
+  const ElasticRock elasticity = read_elastic_rock(scene);
+  const PorousRock pore = read_porous_rock(scene);
+  return {.bulk_modulus = elasticity.bulk_modulus(),
           .shear_modulus = elasticity.shear_modulus,
           .biot_coefficient = pore.biot_coefficient,
           .storage = pore.storage,

@@ -8,8 +8,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/mandel_solution.hpp"
-#include "modules/pore_flow/pore_material.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "app/references/rock.hpp"
 
 namespace perifrac {
 
@@ -29,8 +28,8 @@ MandelProblem read_problem(const Section& scene) {
   require_word(scene, problem, "solid.boundary.top.type", {"rigid_plate"});
   require_word(scene, problem, "pore_flow.boundary.right.type", {"pressure"});
   require_absent(scene, problem, {"solid.regions", "pore_flow.regions", "gravity"});
-  const auto elasticity = read_isotropic_elasticity<2>(scene.at("solid"));
-  const PoreMaterial pore = read_pore_material(scene.at("pore_flow"));
+  const ElasticRock elasticity = read_elastic_rock(scene);
+  const PorousRock pore = read_porous_rock(scene);
   const std::vector<double> size = scene.numbers("body.size");
   return {elasticity.lame_lambda,
           elasticity.shear_modulus,
