@@ -5,7 +5,7 @@
 #include "app/references/cantilever_solution.hpp"
 #include "app/references/comparison.hpp"
 #include "app/references/oscillation.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "app/references/rock.hpp"
 
 namespace perifrac {
 
@@ -24,12 +24,10 @@ CantileverProblem read_problem(const Section& scene) {
   if (!writes(scene, "solid.body_force")) {
     scene.fail("reference.type", "this scene is not " + problem, "solid.body_force");
   }
-  const auto elasticity = read_isotropic_elasticity<3>(scene.at("solid"));
-  const double lambda = elasticity.lame_lambda;
-  const double mu = elasticity.shear_modulus;
+  const ElasticRock elasticity = read_elastic_rock(scene);
   const std::vector<double> size = scene.numbers("body.size");
-  return {.youngs_modulus = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu),
-          .poisson_ratio = 0.5 * lambda / (lambda + mu),
+  return {.youngs_modulus = elasticity.youngs_modulus(),
+          .poisson_ratio = elasticity.poisson_ratio(),
           .density = scene.number("solid.density"),
           .length = size[0] + outside(scene, "left"),
           .height = size[1],

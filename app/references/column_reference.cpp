@@ -6,9 +6,8 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/layered_column_solution.hpp"
-#include "app/references/pore_rock.hpp"
+#include "app/references/rock.hpp"
 #include "app/references/terzaghi_solution.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
 
@@ -25,7 +24,7 @@ struct Column {
 Column read_column(const Section& scene, const std::string& problem) {
   const int vertical = scene.integer("dimension") - 1;
   require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "solid.type", {"quasi_static"});
+  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
   require_word(scene, problem, "pore_flow.type", {"darcy"});
   for (const char* const side : {"left", "right", "front", "back"}) {
     if (vertical == 1 && side[0] == 'f') break;
@@ -43,14 +42,11 @@ Column read_column(const Section& scene, const std::string& problem) {
 }
 
 /// The material of the column, or of a region in it, as a layer of this thickness [m].
-ColumnLayer read_layer(const Section& scene, const std::string& problem, double thickness,
-                       const std::string& region = "") {
-  const std::string solid = "solid.regions." + region;
-  const auto elasticity =
-      read_isotropic_elasticity<3>(scene.at(writes(scene, solid) ? solid : "solid"));
-  const PoreRock pore = read_pore_rock(scene, problem, region);
+ColumnLayer read_layer(const Section& scene, double thickness, const std::string& region = "") {
+  const ElasticRock elasticity = read_elastic_rock(scene, region);
+  const PorousRock pore = read_porous_rock(scene, region);
   return {.thickness = thickness,
-          .uniaxial_modulus = elasticity.lame_lambda + 2.0 * elasticity.shear_modulus,
+          .uniaxial_modulus = elasticity.uniaxial_modulus(),
           .biot_coefficient = pore.biot_coefficient,
           .storage = pore.storage,
           .mobility = pore.mobility};
@@ -115,7 +111,7 @@ std::unique_ptr<Reference> make_terzaghi_reference(const Section& scene,
   const std::string problem = "Terzaghi's problem";
   const Column column = read_column(scene, problem);
   require_absent(scene, problem, {"solid.regions", "pore_flow.regions"});
-  const ColumnLayer layer = read_layer(scene, problem, column.height);
+  const ColumnLayer layer = read_layer(scene, column.height);
   const TerzaghiSolution solution({layer.uniaxial_modulus, layer.biot_coefficient, layer.storage,
                                    layer.mobility, layer.thickness, column.load});
   return compare(scene, simulation, column,
@@ -130,8 +126,8 @@ std::unique_ptr<Reference> make_layered_column_reference(const Section& scene,
   const Column column = read_column(scene, problem);
   const std::string upper = upper_region(scene, column, problem);
   const double interface = scene.numbers("body.regions." + upper + ".from")[column.vertical];
-  const LayeredColumnSolution solution(read_layer(scene, problem, interface),
-                                       read_layer(scene, problem, column.height - interface, upper),
+  const LayeredColumnSolution solution(read_layer(scene, interface),
+                                       read_layer(scene, column.height - interface, upper),
                                        column.load);
   return compare(scene, simulation, column,
                  std::make_unique<Reference>("layered_column", "Consolidation of two layers",

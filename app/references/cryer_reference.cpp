@@ -7,8 +7,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/cryer_solution.hpp"
-#include "app/references/pore_rock.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "app/references/rock.hpp"
 
 namespace perifrac {
 
@@ -21,15 +20,15 @@ CryerProblem read_problem(const Section& scene) {
     scene.fail("reference.type", "Cryer's problem is a ball", "dimension: 3");
   }
   require_word(scene, problem, "body.shape", {"ball"});
-  require_word(scene, problem, "solid.type", {"quasi_static"});
+  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
   require_word(scene, problem, "pore_flow.type", {"darcy"});
   require_word(scene, problem, "solid.boundary.surface.type", {"pressure"});
   require_word(scene, problem, "pore_flow.boundary.surface.type", {"pressure"});
   require_absent(scene, problem,
                  {"solid.regions", "pore_flow.regions", "solid.body_force", "gravity"});
-  const auto elasticity = read_isotropic_elasticity<3>(scene.at("solid"));
-  const PoreRock pore = read_pore_rock(scene, problem);
-  return {.bulk_modulus = elasticity.lame_lambda + 2.0 / 3.0 * elasticity.shear_modulus,
+  const ElasticRock elasticity = read_elastic_rock(scene);
+  const PorousRock pore = read_porous_rock(scene);
+  return {.bulk_modulus = elasticity.bulk_modulus(),
           .shear_modulus = elasticity.shear_modulus,
           .biot_coefficient = pore.biot_coefficient,
           .storage = pore.storage,

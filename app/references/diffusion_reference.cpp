@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
-#include "app/references/pore_rock.hpp"
+#include "app/references/rock.hpp"
 #include "app/references/slab_drainage.hpp"
 
 namespace perifrac {
@@ -55,7 +55,7 @@ Slab read_slab(const Section& scene) {
   const int axis = sideways ? 0 : vertical ? scene.integer("dimension") - 1 : 1;
   const double size = scene.numbers("body.size")[axis];
   const double beyond = outside(scene, faces[0]);
-  const PoreRock pore = read_pore_rock(scene, problem);
+  const PorousRock pore = read_porous_rock(scene);
   if (flow.number("initial_pressure") == flow.number(face + ".pressure")) {
     scene.fail("pore_flow.initial_pressure", "nothing would flow", "not the pressure on the face");
   }

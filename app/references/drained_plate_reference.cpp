@@ -6,8 +6,8 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/plate_solution.hpp"
+#include "app/references/rock.hpp"
 #include "core/geometry/faces.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
 
@@ -19,7 +19,9 @@ std::array<double, 3> read_strain(const Section& scene) {
   const int dimension = scene.integer("dimension");
   require_word(scene, problem, "body.shape", {"box"});
   require_word(scene, problem, "solid.type", {"quasi_static"});
-  require_absent(scene, problem, {"pore_flow", "solid.regions", "solid.body_force", "gravity"});
+  require_absent(
+      scene, problem,
+      {"pore_flow", "solid.regions", "solid.body_force", "solid.confining_stress", "gravity"});
   const auto names = dimension == 2 ? face_names<2>() : face_names<3>();
   std::array<double, 3> stress{};
   for (int axis = 0; axis < dimension; ++axis) {
@@ -32,11 +34,8 @@ std::array<double, 3> read_strain(const Section& scene) {
       stress[axis] = scene.numbers(high + ".traction")[axis];
     }
   }
-  const auto elasticity = read_isotropic_elasticity<3>(scene.at("solid"));
-  const double lambda = elasticity.lame_lambda;
-  const double mu = elasticity.shear_modulus;
-  return uniform_strain(mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu),
-                        0.5 * lambda / (lambda + mu), stress, dimension);
+  const ElasticRock elasticity = read_elastic_rock(scene);
+  return uniform_strain(elasticity.youngs_modulus(), elasticity.poisson_ratio(), stress, dimension);
 }
 
 }  // namespace

@@ -8,8 +8,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/mandel_solution.hpp"
-#include "app/references/pore_rock.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "app/references/rock.hpp"
 
 namespace perifrac {
 
@@ -22,15 +21,15 @@ MandelProblem read_problem(const Section& scene) {
     scene.fail("reference.type", "Mandel's problem is plane", "dimension: 2");
   }
   require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "solid.type", {"quasi_static"});
+  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
   require_word(scene, problem, "pore_flow.type", {"darcy"});
   require_word(scene, problem, "solid.boundary.left.type", {"roller"});
   require_word(scene, problem, "solid.boundary.bottom.type", {"roller"});
   require_word(scene, problem, "solid.boundary.top.type", {"rigid_plate"});
   require_word(scene, problem, "pore_flow.boundary.right.type", {"pressure"});
   require_absent(scene, problem, {"solid.regions", "pore_flow.regions", "gravity"});
-  const auto elasticity = read_isotropic_elasticity<2>(scene.at("solid"));
-  const PoreRock pore = read_pore_rock(scene, problem);
+  const ElasticRock elasticity = read_elastic_rock(scene);
+  const PorousRock pore = read_porous_rock(scene);
   const std::vector<double> size = scene.numbers("body.size");
   return {elasticity.lame_lambda,
           elasticity.shear_modulus,

@@ -10,6 +10,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from quantities import quantity
+
 # A page of some 20 MB still opens at once: 4 bytes a value, 4/3 for base64.
 LARGEST_VALUES = 4_000_000
 MOST_FRAMES = 120
@@ -25,8 +27,24 @@ class Field:
 @dataclass(frozen=True)
 class Frame:
     time: float  # [s]
-    points: np.ndarray  # (count, 2) [m]: x and y
+    points: np.ndarray  # (count, 2) [m], along the two axes that are drawn
     fields: list[Field]
+
+
+@dataclass(frozen=True)
+class Slice:
+    """The layer of points that a body is drawn by: all of them in 2D, else one across its shortest edge."""
+
+    axes: tuple[int, int]  # across and up
+    normal: int
+    at: float | None  # [m]; None in 2D
+
+    @property
+    def names(self) -> tuple[str, str]:
+        return "xyz"[self.axes[0]], "xyz"[self.axes[1]]
+
+    def note(self, digits: int = 4) -> str:
+        return "" if self.at is None else f"slice at {'xyz'[self.normal]} = {quantity(self.at, 'm', digits)}"
 
 
 @dataclass(frozen=True)
@@ -34,7 +52,7 @@ class FrameSeries:
     name: str
     frames: list[Frame]  # in the order of time, the last one always among them
     available: int  # how many the run has written
-    slice_at: float | None  # z of the slice that a 3D body is shown by [m]
+    cut: Slice
 
 
 def spacing(points: np.ndarray) -> float:
@@ -55,14 +73,20 @@ def spacing(points: np.ndarray) -> float:
     return high
 
 
-def middle_layer(points: np.ndarray) -> tuple[np.ndarray, float | None]:
-    """Indices of the points to draw: all in 2D, in 3D the layer of points nearest to mid height."""
-    z = points[:, 2]
-    if z.size == 0 or np.ptp(z) == 0:
-        return np.arange(len(points)), None
-    nearest = z[np.argmin(np.abs(z - 0.5 * (z.min() + z.max())))]
-    chosen = np.flatnonzero(np.abs(z - nearest) <= 0.5 * spacing(points))
-    return chosen, float(nearest)
+def middle_layer(points: np.ndarray) -> tuple[np.ndarray, Slice]:
+    """Indices of the points to draw: all in 2D, in 3D the layer in the middle of the shortest edge.
+
+    A body as long in depth as in height or width is cut along x and z: what falls shows.
+    """
+    if len(points) == 0 or np.ptp(points[:, 2]) == 0:
+        return np.arange(len(points)), Slice((0, 1), 2, None)
+    extent = np.ptp(points, axis=0)
+    normal = 1 if extent[1] <= 1.001 * extent.min() else int(np.argmin(extent))
+    along = points[:, normal]
+    nearest = along[np.argmin(np.abs(along - 0.5 * (along.min() + along.max())))]
+    chosen = np.flatnonzero(np.abs(along - nearest) <= 0.499 * spacing(points))
+    first, second = (axis for axis in range(3) if axis != normal)
+    return chosen, Slice((first, second), normal, float(nearest))
 
 
 def scalar_fields(name: str, unit: str, values: np.ndarray, axes: str) -> list[Field]:
@@ -75,18 +99,18 @@ def scalar_fields(name: str, unit: str, values: np.ndarray, axes: str) -> list[F
     return [magnitude] + [Field(f"{name} {axis}", unit, values[:, i]) for i, axis in enumerate(axes)]
 
 
-def read_frame(path: Path, time: float) -> tuple[Frame, float | None]:
+def read_frame(path: Path, time: float) -> tuple[Frame, Slice]:
     with h5py.File(path, "r") as file:
         group = file["VTKHDF"]
         points = group["Points"][()].astype(float)
-        chosen, slice_at = middle_layer(points)
+        chosen, cut = middle_layer(points)
         fields: list[Field] = []
         for name, data in group["PointData"].items():
             unit = data.attrs.get("units", "")
             unit = unit.decode() if isinstance(unit, bytes) else str(unit)
-            axes = "xy" if slice_at is None else "xyz"
+            axes = "xy" if cut.at is None else "xyz"
             fields += scalar_fields(name, unit, data[()][chosen], axes)
-    return Frame(time, points[chosen, :2], fields), slice_at
+    return Frame(time, points[chosen][:, cut.axes], fields), cut
 
 
 def evenly(count: int, wanted: int) -> list[int]:
@@ -94,7 +118,7 @@ def evenly(count: int, wanted: int) -> list[int]:
     return sorted({round(i) for i in np.linspace(count - 1, 0, max(1, min(count, wanted)))})
 
 
-def readable(path: Path, time: float) -> tuple[Frame, float | None] | None:
+def readable(path: Path, time: float) -> tuple[Frame, Slice] | None:
     try:
         return read_frame(path, time)
     except (OSError, KeyError) as error:
@@ -112,7 +136,7 @@ def read_series(path: Path) -> FrameSeries | None:
             files.pop()
     if last is None:
         return None
-    frame, slice_at = last
+    frame, cut = last
     values = len(frame.points) * (len(frame.fields) + 2)
     places = evenly(len(files), min(MOST_FRAMES, LARGEST_VALUES // max(values, 1)))
     earlier = [readable(*files[place]) for place in places[:-1]]
@@ -120,7 +144,7 @@ def read_series(path: Path) -> FrameSeries | None:
     if not any(len(f.points) for f in frames):
         return None
     name = path.name.removesuffix(".series").removesuffix(".hdf")
-    return FrameSeries(name, frames, len(files), slice_at)
+    return FrameSeries(name, frames, len(files), cut)
 
 
 def read_all_series(folder: Path) -> list[FrameSeries]:

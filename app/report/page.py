@@ -83,12 +83,13 @@ def series_data(series: FrameSeries) -> dict[str, Any]:
     frames = series.frames
     largest = max(float(np.abs(frame.points).max(initial=0.0)) for frame in frames)
     length = display_for("m", largest)
-    note = "" if series.slice_at is None else f"Slice at z = {quantity(series.slice_at, 'm')}. "
+    note = f"{sentence(series.cut.note())}. " if series.cut.note() else ""
     if series.available > len(frames):
         note += f"{len(frames)} of {series.available} frames, evenly chosen."
     return {
         "name": series.name,
         "note": note,
+        "axes": series.cut.names,
         "length": {"factor": length.factor, "unit": pretty_unit(length.unit)},
         "spacing": spacing(frames[-1].points),
         "fields": field_data(series),

@@ -152,13 +152,20 @@ def map_panel(series: FrameSeries, frame: Frame, field: Field) -> Panel:
         shown = display_for(field.unit, float(np.abs(field.values).max(initial=0.0)))
         squares = PolyCollection(list(tiles(frame.points) * length.factor), array=field.values * shown.factor,
                                  cmap=COLOUR_MAP, edgecolors="face", linewidths=0.4, rasterized=True)  # fmt: skip
+        squares.autoscale_None()
         axes.add_collection(squares)
         axes.autoscale_view()
-        axes.set_aspect("equal", anchor="N")
+        # A column a few points wide is drawn wider than it is: its map is about the other direction.
+        width, height = np.maximum(np.ptp(frame.points, axis=0), spacing(frame.points))
+        axes.set_aspect("equal" if 1 / 6 < width / height < 6 else "auto", anchor="N")
+        lowest, highest = squares.get_clim()
+        if highest - lowest < 1e-9 * max(abs(lowest), abs(highest)):  # round-off is not a pattern
+            squares.set_clim(*sorted((0.999 * lowest, 1.001 * highest)))
         axes.grid(False)
-        at = "" if series.slice_at is None else f", slice at z = {quantity(series.slice_at, 'm', 3)}"
+        across, up = series.cut.names
+        at = f", {series.cut.note(3)}" if series.cut.note() else ""
         axes.set(title=f"{sentence(words(field.name))} at t = {time_label(frame.time)}",
-                 xlabel=f"x [{length.unit}]{at}", ylabel=f"y [{length.unit}]")  # fmt: skip
+                 xlabel=f"{across} [{length.unit}]{at}", ylabel=f"{up} [{length.unit}]")  # fmt: skip
         # An inset follows the map's own box, which the equal aspect makes smaller than its cell.
         bar = axes.figure.colorbar(squares, cax=axes.inset_axes((1.04, 0.0, 0.035, 1.0)))
         bar.outline.set_visible(False)

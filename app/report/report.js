@@ -76,7 +76,8 @@ class MapControls {
     if (at < 0) return this.describe();
     const { factor, unit } = this.series.length;
     const [x, y] = ["x", "y"].map((axis) => `${shortNumber(this.map.points[axis][at] * factor)} ${unit}`);
-    element("readout").textContent = `x = ${x}, y = ${y}: ${this.field.label} ${this.shown(this.map.values[at])}`;
+    const [across, up] = this.series.axes;
+    element("readout").textContent = `${across} = ${x}, ${up} = ${y}: ${this.field.label} ${this.shown(this.map.values[at])}`;
   }
 
   play(on) {

@@ -57,11 +57,14 @@ def where(at: dict[str, Any]) -> str:
 
 
 def error_summary(reference: dict[str, Any]) -> str:
+    entries = reference.get("quantities", [])
+    values = [key for key in ("computed", "exact") if any(key in entry for entry in entries)]
     rows = []
-    for entry in reference.get("quantities", []):
+    for entry in entries:
         error = quantity(entry["max_error"], entry.get("unit", ""), 3)
-        rows.append([words(entry["name"]), error, where(entry.get("at", {}))])
-    return table(["quantity", "max error", "at"], rows) if rows else ""
+        shown = [described(entry[key], 6) if key in entry else "" for key in values]
+        rows.append([words(entry["name"]), *shown, error, where(entry.get("at", {}))])
+    return table(["quantity", *values, "max error", "at"], rows) if rows else ""
 
 
 def error_table(reference: dict[str, Any]) -> str:

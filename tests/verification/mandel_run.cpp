@@ -1,16 +1,12 @@
 #include "tests/verification/mandel_run.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <unistd.h>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/run.hpp"
 #include "app/scene_keys.hpp"
 #include "core/config/scene.hpp"
+#include "tests/verification/scene_run.hpp"
 
 namespace perifrac::test {
 
@@ -41,15 +37,9 @@ Simulation make_mandel(const std::vector<std::string>& overrides) {
 }
 
 MandelRun run_mandel(const std::vector<std::string>& overrides) {
-  RunRequest request;
-  request.scene = scene_file;
-  request.overrides = overrides;
-  request.output = fmt::format("{}mandel_run_{}", testing::TempDir(), getpid());
-  request.report = false;
   MandelRun run;
-  run.exit_code = run_scene(request);
-  std::ifstream file(request.output + "/summary.json");
-  const nlohmann::json summary = nlohmann::json::parse(file);
+  const auto [exit_code, summary] = run_config("mandel", overrides);
+  run.exit_code = exit_code;
   for (const auto& row : summary["reference"]["table"]) {
     run.rows.push_back({row["dimensionless_time"], row["pressure_error"], row["plate_error"]});
   }

@@ -273,12 +273,25 @@ class Parts(unittest.TestCase):
             points = np.stack(np.meshgrid(*axes[:dimension]), axis=-1).reshape(-1, dimension)
             self.assertAlmostEqual(frames.spacing(points), 0.25, places=12)
 
-    def test_3d_body_is_shown_by_one_layer(self) -> None:
-        axes = [np.arange(n) * 0.25 for n in (7, 4, 5)]
-        points = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
-        chosen, slice_at = frames.middle_layer(points)
-        self.assertEqual((len(chosen), slice_at), (28, 0.5))
-        self.assertTrue(np.all(points[chosen, 2] == 0.5))
+    def test_3d_body_is_shown_by_a_layer_across_its_shortest_edge(self) -> None:
+        for counts, names, normal, at in (
+            ((7, 4, 5), ("x", "z"), 1, 0.25),
+            ((3, 7, 5), ("y", "z"), 0, 0.25),
+            ((7, 5, 3), ("x", "y"), 2, 0.25),
+            ((4, 4, 9), ("x", "z"), 1, 0.25),  # a column is cut along its height
+        ):
+            axes = [np.arange(n) * 0.25 for n in counts]
+            points = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
+            chosen, cut = frames.middle_layer(points)
+            self.assertEqual((cut.names, cut.normal, cut.at), (names, normal, at))
+            self.assertEqual(len(chosen), len(points) // counts[normal])
+            self.assertTrue(np.all(points[chosen, normal] == at))
+
+    def test_plane_body_is_shown_whole(self) -> None:
+        points = np.zeros((5, 3))
+        points[:, 0] = np.arange(5)
+        chosen, cut = frames.middle_layer(points)
+        self.assertEqual((len(chosen), cut.names, cut.at, cut.note()), (5, ("x", "y"), None, ""))
 
     def test_frames_are_chosen_evenly_and_end_with_the_last(self) -> None:
         self.assertEqual(frames.evenly(9, 3), [0, 4, 8])

@@ -1,0 +1,32 @@
+#include <gtest/gtest.h>
+
+#include "tests/verification/scene_run.hpp"
+
+namespace perifrac::test {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+/// The largest error of the pressure at T = 0.03 to 0.6.
+double error_of(const std::string& scene, const Overrides& overrides) {
+  const SceneRun run = run_config(scene, overrides);
+  EXPECT_EQ(run.exit_code, 0);
+  return run.largest("pressure_error", 0.03, 0.61);
+}
+
+TEST(Convergence, UnderAHorizonOfTwoSpacingsIsOfSecondOrder) {
+  const double coarse = error_of("convergence_delta", {"body.spacing=2 m"});
+  const double middle = error_of("convergence_delta", {});
+  EXPECT_LE(middle, 5e-4);
+  EXPECT_GT(coarse, 3.5 * middle);
+}
+
+TEST(Convergence, UnderOneHorizonFallsFromOneSpacingToTwo) {
+  const double coarse = error_of("convergence_m", {"body.spacing=2 m", "body.horizon_ratio=1"});
+  const double middle = error_of("convergence_m", {});
+  EXPECT_LE(middle, 5e-4);
+  EXPECT_GT(coarse, 3.5 * middle);
+}
+
+}  // namespace
+}  // namespace perifrac::test

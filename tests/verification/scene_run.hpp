@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace perifrac::test {
+
+/// What a run of a scene came to.
+struct SceneRun {
+  int exit_code;
+  nlohmann::json summary;
+
+  /// The largest error of this name among the outputs at dimensionless times `from` to `to`, both
+  /// included; fails the test where there is none.
+  double largest(const std::string& error, double from, double to) const;
+};
+
+/// Runs configs/`name`.yaml, which prints its errors, with `--set` overrides as `perifrac run`
+/// does.
+SceneRun run_config(const std::string& name, const std::vector<std::string>& overrides = {});
+
+}  // namespace perifrac::test

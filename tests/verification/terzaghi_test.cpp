@@ -1,0 +1,71 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/verification/scene_run.hpp"
+
+namespace perifrac::test {
+namespace {
+
+void expect_accurate(const SceneRun& run, double factor) {
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_LE(run.largest("pressure_error", 0.01, 0.01), factor * 1e-3);
+  EXPECT_LE(run.largest("pressure_error", 0.05, 2.0), factor * 2e-4);
+  EXPECT_LE(run.largest("settlement_error", 0.01, 2.0), factor * 3e-4);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 1e-3);
+}
+
+TEST(Terzaghi, ShippedSceneMeetsItsLimits) {
+  const SceneRun run = run_config("terzaghi");
+  expect_accurate(run, 1.0);
+}
+
+TEST(Terzaghi, ExplicitFlowMeetsTwiceTheLimits) {
+  const SceneRun run = run_config("terzaghi", {"pore_flow.integrator.type=explicit"});
+  expect_accurate(run, 2.0);
+}
+
+TEST(Terzaghi, ConvergesWithTheSquareOfTheSpacing) {
+  const auto at = [](const std::string& spacing, const std::string& width) {
+    return run_config("terzaghi", {"body.spacing=" + spacing, "body.size=" + width,
+                                   "time.end=0.57811 s", "output.times=[]"});
+  };
+  const SceneRun coarse = at("2 m", "[8 m, 50 m]");
+  const SceneRun middle = at("1 m", "[4 m, 50 m]");
+  const SceneRun fine = at("0.5 m", "[2 m, 50 m]");
+  for (const char* const error : {"pressure_error", "settlement_error"}) {
+    const double least = std::pow(2.0, 1.9);
+    const double first = coarse.largest(error, 0.01, 0.01);
+    const double second = middle.largest(error, 0.01, 0.01);
+    EXPECT_GT(first, least * second) << error;
+    EXPECT_GT(second, least * fine.largest(error, 0.01, 0.01)) << error;
+  }
+}
+
+TEST(Terzaghi, RecordsHistoriesWithTheRowsOfTheTable) {
+  const SceneRun run = run_config("terzaghi", {"output.history_interval=2 s"});
+  const auto& times = run.summary["reference"]["histories"][0]["time"];
+  EXPECT_EQ(times.size(), 21u);
+  EXPECT_LT(times.size(), run.summary["counts"]["windows"].get<std::size_t>());
+}
+
+TEST(Terzaghi, IsTheSameInThreeDimensions) {
+  const SceneRun plane = run_config(
+      "terzaghi",
+      {"time.end=28.9053 s", "output.times=[0.57811 s, 2.89053 s, 5.78106 s, 11.56212 s]"});
+  const SceneRun solid = run_config("terzaghi_3d");
+  expect_accurate(solid, 1.0);
+  const auto& expected = plane.summary["reference"]["profiles"][0]["computed"];
+  const auto& found = solid.summary["reference"]["profiles"][0]["computed"];
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t n = 0; n < expected.size(); ++n) {
+    ASSERT_EQ(found[n].size(), expected[n].size());
+    for (std::size_t i = 0; i < expected[n].size(); ++i) {
+      EXPECT_NEAR(found[n][i], expected[n][i].get<double>(), 1e-3 * 6e6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace perifrac::test
