@@ -34,6 +34,7 @@ class Body {
   /// Points of the bonded layer behind a face, which stand in for its ghosts; empty where the face
   /// is mirrored.
   std::span<const Index> layer(int face) const { return layers_[face]; }
+  void set_layers(std::vector<std::vector<Index>> layers) { layers_ = std::move(layers); }
   Index nearest_point(const Vector<D>& x) const;
 
   /// Families with mirror ghosts behind the faces in `mirrored`; points of the layers behind the

@@ -59,6 +59,7 @@ class LinearExactOperator {
   const Family<D>& family() const { return *family_; }
   const MirrorCondition<D, R>& mirror() const { return mirror_; }
   const Law& law() const { return law_; }
+  const FamilyMoments<D>& moments() const { return moments_; }
   double weighted_volume(Index i) const { return moments_.weighted_volume[i]; }
   Index point_unknowns() const { return R * family_->point_count; }
   Index size() const { return point_unknowns() + mirror_.face_value_count(); }

@@ -30,6 +30,7 @@ const std::vector<Port>& darcy_ports(int dimension) {
         count("newton_iterations"),
         count("matrix_set_ups"),
         count("linear_iterations"),
+        total("artificial_fluid_mass", "kg", PortRole::mass_artificial),
     };
   };
   static const std::vector<Port> in_2d = make(2), in_3d = make(3);
@@ -50,7 +51,7 @@ DarcyFlow<D>::DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> syst
 
 template <int D>
 std::span<const Port> DarcyFlow<D>::ports() const {
-  return darcy_ports(D);
+  return std::span(darcy_ports(D)).first(system_->smooths() ? port_count : artificial_mass);
 }
 
 template <int D>
@@ -75,7 +76,7 @@ PortView DarcyFlow<D>::port(PortId id) {
       return {points, velocity_};
     default: {
       double& value = scalars_[id - mass_stored];
-      value = id < integrator_steps ? scalar(id) : work(id);
+      value = id < integrator_steps || id == artificial_mass ? scalar(id) : work(id);
       return {&whole_body, {&value, 1}};
     }
   }
@@ -91,6 +92,13 @@ void DarcyFlow<D>::initialize(double t) {
   pressure_.assign(system_->points(), initial_pressure_);
   pore_stress_.assign(system_->points(), alpha * initial_pressure_);
   pore_stress_slope_.assign(system_->points(), -alpha * alpha / material.storage);
+  for (const HeldPoint& held : system_->held_points()) {
+    const double p = system_->held_pressure(held);
+    unknowns_[held.point] = material.storage * p;
+    pressure_[held.point] = p;
+    pore_stress_[held.point] = alpha * p;
+    pore_stress_slope_[held.point] = 0.0;
+  }
   restart_integrator_ = true;
 }
 
@@ -103,6 +111,7 @@ template <int D>
 double DarcyFlow<D>::advance(const TimeWindow& window) {
   system_->set_dilatation({dilatation_, dilatation_rate_, dilatation_slope_, window.end});
   if (window.length() > 0.0) {
+    system_->lead_held_points(window, unknowns_);
     if (restart_integrator_) integrator_->reset(window.begin, unknowns_);
     integrator_->advance(window.end, unknowns_);
   }
@@ -142,6 +151,8 @@ double DarcyFlow<D>::scalar(PortId id) const {
     case energy_gained:
       for (std::size_t f = 0; f < faces; ++f) sum += face_pressures[f] * accumulated[f];
       return system_->sources().size() > 0 ? sum + accumulated[faces + 1] : sum;
+    case artificial_mass:
+      return system_->material().fluid_density * unknowns_.back();
     default:
       return accumulated[faces];
   }

@@ -1,21 +1,78 @@
 #include "modules/pore_flow/darcy_type.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "core/geometry/face_conditions.hpp"
 #include "core/time/forward_euler.hpp"
-#include "modules/pore_flow/conservative_flow.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
+#include "modules/pore_flow/make_flow.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "modules/pore_flow/pore_material.hpp"
+#include "modules/pore_flow/smoothed_euler.hpp"
 
 namespace perifrac {
 
 namespace {
+
+FlowScheme read_scheme(const Section& section) {
+  const std::string word = section.word("operator");
+  if (word == "bond") return FlowScheme::bond;
+  return word == "nested" ? FlowScheme::nested : FlowScheme::conservative;
+}
+
+/// What the nested operator cannot do: it is neither symmetric nor does it know a natural boundary.
+template <int D>
+void check_nested(const Section& section, const Body<D>& body) {
+  const bool implicit = section.word("integrator.type") == "cvode";
+  if (implicit && section.word("integrator.linear_solver") == "direct") {
+    section.fail("integrator.linear_solver", "operator 'nested' has no symmetric matrix to factor",
+                 "krylov, or the explicit integrator");
+  }
+  const std::string smoothing = section.word("nested.smoothing");
+  if (implicit && smoothing != "none") {
+    section.fail("nested.smoothing", "smoothing follows the steps of the explicit integrator",
+                 "none, or the explicit integrator");
+  }
+  if (smoothing == "boundary" && body.faces().empty()) {
+    section.fail("nested.smoothing", "a ball has no faces", "none or everywhere");
+  }
+  for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
+    if (type == "flux" && body.layer(face).empty()) {
+      section.fail(path + ".type", "operator 'nested' takes no inflow at a face",
+                   "sealed, pressure, or a bonded layer behind the face");
+    }
+  }
+}
+
+/// Nothing where the scene does not smooth.
+template <int D>
+std::optional<PressureSmoothing<D>> read_smoothing(const Section& section, const Body<D>& body,
+                                                   std::shared_ptr<const Family<D>> family,
+                                                   const MirrorCondition<D, 1>& mirror,
+                                                   std::span<const HeldPoint> held) {
+  const std::string where = section.word("nested.smoothing");
+  if (section.word("operator") != "nested" || where == "none") return std::nullopt;
+  std::vector<Index> points;
+  if (where == "boundary") {
+    points = points_near_faces(body);
+  } else {
+    points.resize(family->point_count);
+    std::iota(points.begin(), points.end(), 0);
+  }
+  std::erase_if(
+      points, [&](Index i) { return std::ranges::binary_search(held, i, {}, &HeldPoint::point); });
+  return PressureSmoothing<D>(std::move(family), mirror, std::move(points));
+}
 
 template <int D>
 DarcyIntegratorMaker<D> read_integrator(const Section& section) {
   if (section.word("integrator.type") == "explicit") {
     const double safety = section.number("integrator.safety");
     return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
+      if (system.smooths()) return std::make_unique<SmoothedEuler<D>>(system, safety);
       return std::make_unique<ForwardEuler>(system, safety);
     };
   }
@@ -32,15 +89,21 @@ DarcyIntegratorMaker<D> read_integrator(const Section& section) {
 template <int D>
 std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
+  const FlowScheme scheme = read_scheme(section);
+  if (scheme == FlowScheme::nested) check_nested(section, *body);
   const PoreBoundary<D> boundary = read_pore_boundary<D>(section, *body);
   const PoreMaterial material = read_pore_material(section);
-  const auto family = body->family(boundary.mirrored());
+  const auto family = body->family(boundary.mirrored(), boundary.sealed_layers());
   const auto mirror = boundary.mirror_condition(*family);
   LinearExactOperator<D, DarcyLaw<D>> op(family, mirror, DarcyLaw<D>{material.mobility});
   Eigen::VectorXd sources;
   if (boundary.has_sources()) sources = boundary.sources(op.gradient_matrix());
-  DarcySystem<D> system(std::make_unique<ConservativeFlow<D, DarcyLaw<D>>>(std::move(op)), material,
-                        boundary.face_pressures(mirror), sources);
+  const std::vector<HeldPoint> held = boundary.held_points(mirror);
+  DarcySystem<D> system(make_flow(scheme, std::move(op)), material, boundary.face_pressures(mirror),
+                        sources, held);
+  if (auto smoothing = read_smoothing(section, *body, family, mirror, held)) {
+    system.set_smoothing(std::move(*smoothing));
+  }
   return std::make_unique<DarcyFlow<D>>(body, std::move(system), section.number("initial_pressure"),
                                         read_integrator<D>(section));
 }
@@ -51,8 +114,17 @@ KeyTable darcy_keys() {
       {.path = "operator",
        .type = KeyType::word,
        .fallback = "conservative",
-       .words = {"conservative"},
-       .meaning = "conservative: bond fluxes, equal and opposite; stable, fourth order inside."},
+       .words = {"conservative", "bond", "nested"},
+       .meaning =
+           "conservative: bond fluxes, equal and opposite; stable, fourth order inside. bond: "
+           "one flux a bond, first order at no-flux surfaces. nested: the paper's divergence "
+           "of velocities, unstable at cut surfaces, for comparison only."},
+      {.path = "nested.smoothing",
+       .type = KeyType::word,
+       .fallback = "boundary",
+       .words = {"none", "boundary", "everywhere"},
+       .meaning = "nested: points whose pressure is averaged over their neighbours after each "
+                  "explicit step; boundary: within a horizon of a face."},
       {.path = "integrator.type",
        .type = KeyType::word,
        .fallback = "cvode",

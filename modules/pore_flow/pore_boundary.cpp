@@ -1,6 +1,7 @@
 #include "modules/pore_flow/pore_boundary.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include <fmt/format.h>
 
@@ -29,31 +30,79 @@ void PoreBoundary<D>::source(Index point, double rate) {
 }
 
 template <int D>
-FaceSet PoreBoundary<D>::mirrored() const {
+FaceSet PoreBoundary<D>::faces_with(Condition condition, bool layered) const {
   FaceSet set = 0;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].condition != Condition::flux) set |= face_bit(f);
+    if (faces_[f].condition == condition && body_->layer(f).empty() != layered) set |= face_bit(f);
   }
   return set;
+}
+
+template <int D>
+FaceSet PoreBoundary<D>::mirrored() const {
+  return faces_with(Condition::sealed, false) | faces_with(Condition::pressure, false);
+}
+
+template <int D>
+FaceSet PoreBoundary<D>::sealed_layers() const {
+  return faces_with(Condition::sealed, true);
 }
 
 template <int D>
 MirrorCondition<D, 1> PoreBoundary<D>::mirror_condition(const Family<D>& family) const {
   MirrorCondition<D, 1> mirror(family);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].condition == Condition::pressure) mirror.set_odd(f, 0);
+    if (contains(faces_with(Condition::pressure, false), f)) mirror.set_odd(f, 0);
   }
   return mirror;
 }
 
 template <int D>
-Eigen::VectorXd PoreBoundary<D>::face_pressures(const MirrorCondition<D, 1>& mirror) const {
-  Eigen::VectorXd pressures(mirror.face_value_count());
+std::vector<HeldPoint> PoreBoundary<D>::held_points(const MirrorCondition<D, 1>& mirror) const {
+  constexpr int free = -2;
+  std::vector<int> held(body_->points().size(), free);
+  int face_value = mirror.face_value_count();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const int value = mirror.face_value(f, 0);
+    const bool pressure = contains(faces_with(Condition::pressure, true), f);
+    if (!pressure && !contains(sealed_layers(), f)) continue;
+    for (const Index i : body_->layer(f)) {
+      if (!pressure || held[i] == free) held[i] = pressure ? face_value : -1;
+    }
+    face_value += pressure;
+  }
+  std::vector<HeldPoint> points;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (held[i] != free) points.push_back({static_cast<Index>(i), held[i]});
+  }
+  return points;
+}
+
+template <int D>
+Eigen::VectorXd PoreBoundary<D>::face_pressures(const MirrorCondition<D, 1>& mirror) const {
+  const FaceSet layers = faces_with(Condition::pressure, true);
+  Eigen::VectorXd pressures(mirror.face_value_count() + std::popcount(layers));
+  int layer_value = mirror.face_value_count();
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const int value = contains(layers, f) ? layer_value++ : mirror.face_value(f, 0);
     if (value >= 0) pressures[value] = faces_[f].value;
   }
   return pressures;
+}
+
+template <int D>
+Eigen::VectorXd PoreBoundary<D>::area_in_layer(int face) const {
+  const std::vector<Face>& faces = body_->faces();
+  double area = 1.0;
+  for (int axis = 0; axis < D; ++axis) {
+    if (axis != face / 2) area *= faces[2 * axis + 1].coordinate - faces[2 * axis].coordinate;
+  }
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(body_->points().size());
+  for (const Index i : body_->layer(face)) share[i] = body_->points().volume[i];
+  for (int f = 0; f < 2 * D; ++f) {
+    if (!contains(sealed_layers(), f)) continue;
+    for (const Index i : body_->layer(f)) share[i] = 0.0;
+  }
+  return area / share.sum() * share;
 }
 
 template <int D>
@@ -67,7 +116,9 @@ Eigen::VectorXd PoreBoundary<D>::sources(const Eigen::SparseMatrix<double>& grad
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(body_->points().size());
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (faces_[f].condition != Condition::flux) continue;
-    rate += faces_[f].value * face_load<D, 1>(*body_, gradient, mirrored(), f, 0);
+    rate += faces_[f].value * (body_->layer(f).empty()
+                                   ? face_load<D, 1>(*body_, gradient, mirrored(), f, 0)
+                                   : area_in_layer(f));
   }
   for (const auto& [point, value] : sources_) rate[point] += value;
   return rate;

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "core/time/forward_euler.hpp"
-#include "modules/pore_flow/conservative_flow.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
+#include "modules/pore_flow/make_flow.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
+#include "modules/pore_flow/smoothed_euler.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac::test {
@@ -19,19 +23,55 @@ template <int D>
 LinearExactOperator<D, DarcyLaw<D>> flow_operator(const Body<D>& body,
                                                   const PoreBoundary<D>& boundary,
                                                   double mobility) {
-  const auto family = body.family(boundary.mirrored());
+  const auto family = body.family(boundary.mirrored(), boundary.sealed_layers());
   return {family, boundary.mirror_condition(*family), DarcyLaw<D>{mobility}};
 }
 
 template <int D>
 DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary,
-                            const PoreMaterial& material = some_rock) {
+                            const PoreMaterial& material = some_rock,
+                            FlowScheme scheme = FlowScheme::conservative) {
   auto flow = flow_operator<D>(body, boundary, material.mobility);
   const Eigen::VectorXd pressures = boundary.face_pressures(flow.mirror());
+  const std::vector<HeldPoint> held = boundary.held_points(flow.mirror());
   Eigen::VectorXd sources;
   if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
-  return {std::make_unique<ConservativeFlow<D, DarcyLaw<D>>>(std::move(flow)), material, pressures,
-          sources};
+  return {make_flow(scheme, std::move(flow)), material, pressures, sources, held};
+}
+
+constexpr std::array schemes = {FlowScheme::conservative, FlowScheme::bond, FlowScheme::nested};
+
+inline const char* name_of(FlowScheme scheme) {
+  constexpr std::array names = {"conservative", "bond", "nested"};
+  return names[static_cast<std::size_t>(scheme)];
+}
+
+/// A box on a lattice whose last face, at the top, has a bonded layer behind it.
+template <int D>
+std::shared_ptr<const Body<D>> body_with_layer_on_top(const std::array<int, D>& counts,
+                                                      double spacing, double horizon_ratio = 2.5) {
+  std::array<int, D> all = counts;
+  all[D - 1] += static_cast<int>(std::ceil(horizon_ratio));
+  Points<D> points = box_lattice<D>(all, spacing);
+  std::vector<std::vector<Index>> layers(2 * D);
+  for (Index i = 0; i < points.size(); ++i) {
+    if (points.position[D - 1][i] > counts[D - 1] * spacing) layers.back().push_back(i);
+  }
+  auto body = std::make_shared<Body<D>>(std::move(points), box_faces<D>(counts, spacing), spacing,
+                                        horizon_ratio * spacing, InfluenceFunction::gaussian);
+  body->set_layers(std::move(layers));
+  return body;
+}
+
+/// A column of height 1, of pressure 1 at the start, drained at z = 1 and sealed at z = 0:
+/// Terzaghi's series.
+inline double drained_column(double z, double time_factor) {
+  double p = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const double k = (n + 0.5) * std::numbers::pi;
+    p += 2.0 / k * (n % 2 == 0 ? 1.0 : -1.0) * std::cos(k * z) * std::exp(-k * k * time_factor);
+  }
+  return p;
 }
 
 enum class Method { forward_euler, direct, krylov };
