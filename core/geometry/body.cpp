@@ -1,10 +1,12 @@
 #include "core/geometry/body.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/geometry/bonded_layer.hpp"
 #include "core/geometry/lattice.hpp"
 
 namespace perifrac {
@@ -30,16 +32,21 @@ std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double
                                   InfluenceFunction influence) {
   const std::vector<double> size = section.numbers("size");
   const auto cells = cells_along_axes(section, size, spacing);
-  std::array<int, D> counts;
-  std::vector<Face> faces;
   const auto names = face_names<D>();
+  const FaceSet layered = read_layered_faces(section, names);
+  const int rows = layer_rows(horizon, spacing);
+  std::array<int, D> first, counts;
+  std::vector<Face> faces;
   for (int a = 0; a < D; ++a) {
-    counts[a] = cells[a];
+    first[a] = contains(layered, 2 * a) ? -rows : 0;
+    counts[a] = cells[a] - first[a] + (contains(layered, 2 * a + 1) ? rows : 0);
     faces.push_back({names[2 * a], a, -1, 0.0});
     faces.push_back({names[2 * a + 1], a, +1, cells[a] * spacing});
   }
-  return std::make_shared<Body<D>>(box_lattice<D>(counts, spacing), std::move(faces), spacing,
-                                   horizon, influence);
+  auto body = std::make_shared<Body<D>>(box_lattice<D>(counts, spacing, first), std::move(faces),
+                                        spacing, horizon, influence);
+  body->set_layers(points_behind<D>(body->faces(), layered, body->points()));
+  return body;
 }
 
 template <int D>
@@ -49,6 +56,9 @@ std::shared_ptr<Body<D>> make_ball(const Section& section, double spacing, doubl
   if (radius < horizon) {
     section.fail("radius", fmt::format("{:g} m is less than the horizon, {:g} m", radius, horizon),
                  "a ball that holds a whole family");
+  }
+  if (section.has("boundary")) {
+    section.fail("boundary", "a ball has no layers", "a body of shape box, or this left out");
   }
   return std::make_shared<Body<D>>(ball_lattice<D>(radius, spacing), std::vector<Face>{}, spacing,
                                    horizon, influence);
@@ -84,10 +94,36 @@ Body<D>::Body(Points<D> points, std::vector<Face> faces, double spacing, double 
 }
 
 template <int D>
+double Body<D>::thickness(int axis, FaceSet without_layers) const {
+  double sum = 0.0;
+  for (int f : {2 * axis, 2 * axis + 1}) {
+    const Face& face = faces_[f];
+    double reach = face.direction * face.coordinate;
+    for (const Index i : contains(without_layers, f) ? std::span<const Index>{} : layer(f)) {
+      reach = std::max(reach, face.direction * points_.position[axis][i] + 0.5 * spacing_);
+    }
+    sum += reach;
+  }
+  return sum;
+}
+
+template <int D>
+std::vector<bool> Body<D>::in_layers(FaceSet faces) const {
+  std::vector<bool> in(points_.size(), false);
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (!contains(faces, f)) continue;
+    for (const Index i : layers_[f]) in[i] = true;
+  }
+  return in;
+}
+
+template <int D>
 Index Body<D>::nearest_point(const Vector<D>& x) const {
+  const std::vector<bool> in_layer = in_layers(~FaceSet{0});
   Index nearest = 0;
   double least = INFINITY;
   for (Index i = 0; i < points_.size(); ++i) {
+    if (in_layer[i]) continue;
     double r2 = 0.0;
     for (int a = 0; a < D; ++a) r2 += std::pow(points_.position[a][i] - x[a], 2);
     // A tie between lattice points goes to the first along the curve, whatever the rounding.
@@ -100,21 +136,38 @@ Index Body<D>::nearest_point(const Vector<D>& x) const {
 }
 
 template <int D>
-std::shared_ptr<const Family<D>> Body<D>::family(FaceSet mirrored, FaceSet) const {
-  for (const auto& [faces, shared] : families_) {
-    if (auto family = shared.lock(); family && faces == mirrored) return family;
+std::shared_ptr<const Family<D>> Body<D>::family(FaceSet mirrored, FaceSet without_layers) const {
+  for (const SharedFamily& known : families_) {
+    if (known.mirrored != mirrored || known.without_layers != without_layers) continue;
+    if (auto family = known.family.lock()) return family;
   }
+  check_mirrored_faces(mirrored, without_layers);
   auto family = std::make_shared<const Family<D>>(
-      build_family<D>(points_, faces_, mirrored, horizon_, influence_));
-  families_.emplace_back(mirrored, family);
+      build_family<D>(points_, faces_, mirrored, horizon_, influence_, in_layers(without_layers)));
+  families_.push_back({mirrored, without_layers, family});
   return family;
+}
+
+template <int D>
+void Body<D>::check_mirrored_faces(FaceSet mirrored, FaceSet without_layers) const {
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (!contains(mirrored, f)) continue;
+    if (!layers_[f].empty()) throw std::logic_error("a mirrored face has a layer");
+    const double across = thickness(faces_[f].axis, without_layers);
+    if (across < horizon_) {
+      const auto low = f & ~std::size_t{1};
+      throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is less than the horizon",
+                                  across, faces_[low].name, faces_[low + 1].name),
+                      fmt::format("at least {:g} m where a face is mirrored", horizon_));
+    }
+  }
 }
 
 template <int D>
 std::vector<std::shared_ptr<const Family<D>>> Body<D>::families() const {
   std::vector<std::shared_ptr<const Family<D>>> used;
-  for (const auto& [faces, shared] : families_) {
-    if (auto family = shared.lock()) used.push_back(std::move(family));
+  for (const SharedFamily& known : families_) {
+    if (auto family = known.family.lock()) used.push_back(std::move(family));
   }
   return used;
 }
@@ -154,7 +207,9 @@ KeyTable body_keys() {
        .words = {"gaussian", "constant", "inverse"},
        .meaning = "How a bond's weight falls with its length."},
   };
-  for (const Key& key : region_keys()) keys.push_back(key);
+  for (const KeyTable& part : {bonded_layer_keys(), region_keys()}) {
+    keys.insert(keys.end(), part.begin(), part.end());
+  }
   return keys;
 }
 

@@ -32,13 +32,18 @@ class Body {
   const std::vector<Region<D>>& regions() const { return regions_; }
   void set_regions(std::vector<Region<D>> regions) { regions_ = std::move(regions); }
   /// Points of the bonded layer behind a face, which stand in for its ghosts; empty where the face
-  /// is mirrored.
+  /// has none. A point behind two layered faces belongs to both layers.
   std::span<const Index> layer(int face) const { return layers_[face]; }
   void set_layers(std::vector<std::vector<Index>> layers) { layers_ = std::move(layers); }
+  /// Between the two faces across an axis, layers included except those behind faces in
+  /// `without_layers` [m].
+  double thickness(int axis, FaceSet without_layers = 0) const;
+  /// The nearest point of the body proper, layers left out.
   Index nearest_point(const Vector<D>& x) const;
 
-  /// Families with mirror ghosts behind the faces in `mirrored`; points of the layers behind the
-  /// faces in `without_layers` have no bonds. Modules that ask for the same share one.
+  /// Families with mirror ghosts behind the faces in `mirrored`, none of which may have a layer;
+  /// points of the layers behind the faces in `without_layers` have no bonds. Modules that ask for
+  /// the same share one. Throws BodyError.
   std::shared_ptr<const Family<D>> family(FaceSet mirrored, FaceSet without_layers = 0) const;
   /// All families that are in use.
   std::vector<std::shared_ptr<const Family<D>>> families() const;
@@ -52,7 +57,18 @@ class Body {
   double horizon_;
   InfluenceFunction influence_;
   PointSet point_set_;
-  mutable std::vector<std::pair<FaceSet, std::weak_ptr<const Family<D>>>> families_;
+
+  /// Throws BodyError where the body is thinner than the horizon between mirrored faces.
+  void check_mirrored_faces(FaceSet mirrored, FaceSet without_layers) const;
+  /// By point: it belongs to a layer behind one of the faces.
+  std::vector<bool> in_layers(FaceSet faces) const;
+
+  struct SharedFamily {
+    FaceSet mirrored;
+    FaceSet without_layers;
+    std::weak_ptr<const Family<D>> family;
+  };
+  mutable std::vector<SharedFamily> families_;
 };
 
 using AnyBody = std::variant<std::shared_ptr<const Body<2>>, std::shared_ptr<const Body<3>>>;

@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "core/errors.hpp"
-
 namespace perifrac {
 
 namespace {
@@ -24,12 +20,14 @@ double squared_distance(const Family<D>& family, Index i, Index j) {
 /// Mirrors every node, ghosts of earlier faces included, that lies within the horizon of a face:
 /// corners come out right, each image once.
 template <int D>
-void add_ghosts(Family<D>& family, const Face& face, int number, double horizon) {
+void add_ghosts(Family<D>& family, const Face& face, int number, double horizon,
+                const std::vector<bool>& bondless) {
   const auto& coordinate = family.position[face.axis];
   const Index nodes = family.node_count();
   for (Index i = 0; i < nodes; ++i) {
     const double depth = face.direction * (face.coordinate - coordinate[i]);
     if (depth > horizon || depth < 0.0) continue;
+    if (i < family.point_count && bondless[i]) continue;
     for (int a = 0; a < D; ++a) {
       const double x = family.position[a][i];
       family.position[a].push_back(a == face.axis ? 2.0 * face.coordinate - x : x);
@@ -101,17 +99,6 @@ struct CellGrid {
   }
 };
 
-void check_thickness(std::span<const Face> faces, FaceSet mirrored, double horizon) {
-  for (std::size_t low = 0; low + 1 < faces.size(); low += 2) {
-    const double thickness = faces[low + 1].coordinate - faces[low].coordinate;
-    if (thickness < horizon && (mirrored & (face_bit(low) | face_bit(low + 1)))) {
-      throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is less than the horizon",
-                                  thickness, faces[low].name, faces[low + 1].name),
-                      fmt::format("at least {:g} m where a face is mirrored", horizon));
-    }
-  }
-}
-
 }  // namespace
 
 template <int D>
@@ -123,22 +110,25 @@ std::size_t Family<D>::bytes() const {
 
 template <int D>
 Family<D> build_family(const Points<D>& points, std::span<const Face> faces, FaceSet mirrored,
-                       double horizon, InfluenceFunction influence_function) {
+                       double horizon, InfluenceFunction influence_function,
+                       std::vector<bool> bondless) {
+  bondless.resize(points.size(), false);
   // A lattice distance that equals the horizon must not depend on rounding.
   const double reach = horizon * (1.0 + 1e-9);
   Family<D> family;
   family.point_count = points.size();
   family.position = points.position;
   family.volume = points.volume;
-  check_thickness(faces, mirrored, horizon);
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (contains(mirrored, f)) add_ghosts(family, faces[f], static_cast<int>(f), reach);
+    if (contains(mirrored, f)) add_ghosts(family, faces[f], static_cast<int>(f), reach, bondless);
   }
 
   const CellGrid<D> grid(family, reach);
   const auto bonds_of = [&](Index i, std::vector<Index>& found) {
     found.clear();
+    if (bondless[i]) return;
     grid.for_nodes_near(family, i, [&](Index j) {
+      if (j < family.point_count && bondless[j]) return;
       if (j != i && squared_distance(family, i, j) <= reach * reach) found.push_back(j);
     });
     std::ranges::sort(found);
@@ -176,8 +166,8 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
 template struct Family<2>;
 template struct Family<3>;
 template Family<2> build_family<2>(const Points<2>&, std::span<const Face>, FaceSet, double,
-                                   InfluenceFunction);
+                                   InfluenceFunction, std::vector<bool>);
 template Family<3> build_family<3>(const Points<3>&, std::span<const Face>, FaceSet, double,
-                                   InfluenceFunction);
+                                   InfluenceFunction, std::vector<bool>);
 
 }  // namespace perifrac

@@ -32,10 +32,11 @@ struct Family {
 };
 
 /// Finds all families. Bonds of a point are sorted by their other end, so that they depend on
-/// nothing but the points. Throws BodyError where the body is thinner than the horizon between
-/// mirrored faces.
+/// nothing but the points. Points that are marked as `bondless` have no bonds and no ghosts; empty:
+/// none is.
 template <int D>
 Family<D> build_family(const Points<D>& points, std::span<const Face> faces, FaceSet mirrored,
-                       double horizon, InfluenceFunction influence);
+                       double horizon, InfluenceFunction influence,
+                       std::vector<bool> bondless = {});
 
 }  // namespace perifrac

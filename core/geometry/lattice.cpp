@@ -23,12 +23,13 @@ void for_each_cell(const std::array<int, D>& counts, Use&& use) {
 }  // namespace
 
 template <int D>
-Points<D> box_lattice(const std::array<int, D>& counts, double spacing) {
+Points<D> box_lattice(const std::array<int, D>& counts, double spacing,
+                      const std::array<int, D>& first) {
   Points<D> points;
   const double volume = std::pow(spacing, D);
   for_each_cell<D>(counts, [&](const std::array<int, D>& cell) {
     Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = (cell[a] + 0.5) * spacing;
+    for (int a = 0; a < D; ++a) x[a] = (first[a] + cell[a] + 0.5) * spacing;
     points.add(x, volume);
   });
   sort_along_curve(points, spacing);
@@ -56,8 +57,8 @@ Points<D> ball_lattice(double radius, double spacing) {
   return points;
 }
 
-template Points<2> box_lattice<2>(const std::array<int, 2>&, double);
-template Points<3> box_lattice<3>(const std::array<int, 3>&, double);
+template Points<2> box_lattice<2>(const std::array<int, 2>&, double, const std::array<int, 2>&);
+template Points<3> box_lattice<3>(const std::array<int, 3>&, double, const std::array<int, 3>&);
 template Points<2> ball_lattice<2>(double, double);
 template Points<3> ball_lattice<3>(double, double);
 

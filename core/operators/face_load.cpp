@@ -8,7 +8,7 @@ namespace perifrac {
 
 template <int D, int R>
 Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
-                          FaceSet mirrored, int face, int component) {
+                          FaceSet mirrored, int face, int component, FaceSet without_layers) {
   const Face& loaded = body.faces()[face];
   const Face& opposite = body.faces()[face ^ 1];
   const Index points = body.points().size();
@@ -16,7 +16,7 @@ Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>
   // opposite face, or, where that one is mirrored, the stress jumps there and one horizon feels it.
   const double reach = 2.0 * body.horizon();
   const double needed = reach + (contains(mirrored, face ^ 1) ? body.horizon() : reach);
-  const double thickness = std::abs(loaded.coordinate - opposite.coordinate);
+  const double thickness = body.thickness(loaded.axis, without_layers);
   if (thickness < needed * (1.0 - 1e-9)) {
     throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is too thin for a load on one",
                                 thickness, loaded.name, opposite.name),
@@ -36,12 +36,12 @@ Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>
 }
 
 template Eigen::VectorXd face_load<2, 1>(const Body<2>&, const Eigen::SparseMatrix<double>&,
-                                         FaceSet, int, int);
+                                         FaceSet, int, int, FaceSet);
 template Eigen::VectorXd face_load<2, 2>(const Body<2>&, const Eigen::SparseMatrix<double>&,
-                                         FaceSet, int, int);
+                                         FaceSet, int, int, FaceSet);
 template Eigen::VectorXd face_load<3, 1>(const Body<3>&, const Eigen::SparseMatrix<double>&,
-                                         FaceSet, int, int);
+                                         FaceSet, int, int, FaceSet);
 template Eigen::VectorXd face_load<3, 3>(const Body<3>&, const Eigen::SparseMatrix<double>&,
-                                         FaceSet, int, int);
+                                         FaceSet, int, int, FaceSet);
 
 }  // namespace perifrac

@@ -12,10 +12,12 @@ namespace perifrac {
 /// points near the face. In a body with that stress it balances the inner forces exactly, surfaces
 /// and corners included, and its sum is the face's area.
 ///
-/// `gradient` is the operator's gradient_matrix(); the result has one value a point [m^(D-1)].
+/// `gradient` is the operator's gradient_matrix(), `mirrored` and `without_layers` what its family
+/// was asked for; the result has one value a point [m^(D-1)]. Beside a layer with bonds the load
+/// goes on along the layer, which is under the same stress, and the sum is greater by its side.
 /// Throws BodyError where the body is too thin to tell the face from the opposite one.
 template <int D, int R>
 Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
-                          FaceSet mirrored, int face, int component);
+                          FaceSet mirrored, int face, int component, FaceSet without_layers = 0);
 
 }  // namespace perifrac

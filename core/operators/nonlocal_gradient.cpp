@@ -79,6 +79,9 @@ Eigen::SparseMatrix<double> bond_matrix(const Family<D>& family,
   Triplets triplets;
   triplets.reserve(family.other.size() * R * 4);
   for (Index i = 0; i < points; ++i) {
+    for (int r = 0; r < R && family.bond_count(i) == 0; ++r) {
+      triplets.emplace_back(r * points + i, r * points + i, 0.0);
+    }
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       const double stiffness = family.volume[i] * bond_stiffness[i] * family.weight[bond];
       for (int r = 0; r < R; ++r) {

@@ -16,7 +16,8 @@ Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
                                             const FamilyMoments<D>& moments,
                                             const MirrorCondition<D, R>& mirror);
 
-/// The matrix of sum_i V_i 1/2 s_i sum_j w_ij |u_j - u_i|^2, with s_i per point.
+/// The matrix of sum_i V_i 1/2 s_i sum_j w_ij |u_j - u_i|^2, with s_i per point. Its whole diagonal
+/// is stored, zeros of points without bonds too, for a storage to be added in place.
 template <int D, int R>
 Eigen::SparseMatrix<double> bond_matrix(const Family<D>& family,
                                         const MirrorCondition<D, R>& mirror,

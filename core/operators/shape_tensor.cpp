@@ -1,5 +1,7 @@
 #include "core/operators/shape_tensor.hpp"
 
+#include <limits>
+
 #include <Eigen/Dense>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,8 +44,9 @@ FamilyMoments<D> family_moments(const Family<D>& family) {
   using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
   FamilyMoments<D> moments;
   for (auto& entry : moments.inverse_shape) entry.resize(family.point_count);
-  moments.weighted_volume.resize(family.point_count);
+  moments.weighted_volume.resize(family.point_count, std::numeric_limits<double>::infinity());
   for (Index i = 0; i < family.point_count; ++i) {
+    if (family.bond_count(i) == 0) continue;
     const auto sum = shape_tensor_at(family, i);
     const Matrix shape = Eigen::Map<const Matrix>(sum.data());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spectrum(shape);

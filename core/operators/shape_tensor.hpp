@@ -12,14 +12,15 @@ template <int D>
 struct FamilyMoments {
   /// Entry (a, b) of K_i^-1 is inverse_shape[a * D + b][i] [1/m^(2+D)].
   std::array<std::vector<double>, D * D> inverse_shape;
-  std::vector<double> weighted_volume;  ///< m_i [m^(2+D)]
+  std::vector<double> weighted_volume;  ///< m_i [m^(2+D)]; see family_moments()
 };
 
 /// K_i, row by row.
 template <int D>
 std::array<double, D * D> shape_tensor_at(const Family<D>& family, Index i);
 
-/// Throws BodyError where a family's bonds do not span space.
+/// A point without bonds has a zero inverse shape and an infinite weighted volume: no gradient, no
+/// stiffness. Throws BodyError where a family has bonds that do not span space.
 template <int D>
 FamilyMoments<D> family_moments(const Family<D>& family);
 

@@ -95,14 +95,10 @@ TEST(Family, CountsLatticeBondsAtTheHorizonAlike) {
 }
 
 TEST(Family, RefusesABodyThinnerThanTheHorizonBetweenMirroredFaces) {
-  const Points<2> points = box_lattice<2>({8, 2}, 1.0);
-  const auto faces = test::box_faces<2>({8, 2}, 1.0);
-  const auto build = [&](FaceSet mirrored) {
-    return build_family<2>(points, faces, mirrored, 2.5, InfluenceFunction::gaussian);
-  };
-  EXPECT_NO_THROW(build(0b0011));
+  const auto body = test::box_body<2>({8, 2}, 1.0);
+  EXPECT_NO_THROW(body->family(0b0011));
   try {
-    build(0b1100);
+    body->family(0b1100);
     FAIL() << "accepted";
   } catch (const BodyError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("2 m between faces 'bottom' and 'top'"));

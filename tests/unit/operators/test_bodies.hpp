@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/body.hpp"
+#include "core/geometry/bonded_layer.hpp"
 #include "core/geometry/lattice.hpp"
 
 namespace perifrac::test {
@@ -49,6 +50,23 @@ std::shared_ptr<const Body<D>> box_body(const std::array<int, D>& counts, double
   return std::make_shared<const Body<D>>(box_points<D>(counts, spacing, cloud),
                                          box_faces<D>(counts, spacing), spacing,
                                          horizon_ratio * spacing, influence);
+}
+
+/// A box on a lattice with bonded layers behind the faces in `layered`.
+template <int D>
+std::shared_ptr<const Body<D>> layered_body(const std::array<int, D>& counts, double spacing,
+                                            FaceSet layered, double horizon_ratio = 2.5) {
+  const int rows = layer_rows(horizon_ratio, 1.0);
+  std::array<int, D> first{}, all = counts;
+  for (int a = 0; a < D; ++a) {
+    if (contains(layered, 2 * a)) first[a] = -rows;
+    all[a] += contains(layered, 2 * a + 1) ? rows - first[a] : -first[a];
+  }
+  const auto faces = box_faces<D>(counts, spacing);
+  auto body = std::make_shared<Body<D>>(box_lattice<D>(all, spacing, first), faces, spacing,
+                                        horizon_ratio * spacing, InfluenceFunction::gaussian);
+  body->set_layers(points_behind<D>(faces, layered, body->points()));
+  return body;
 }
 
 /// A ball without faces.
