@@ -15,6 +15,10 @@ KeyTable top_level_keys() {
        .range = "[2, 3]",
        .required = true,
        .meaning = "2: plane strain, totals per metre of thickness. 3."},
+      {.path = "gravity",
+       .type = KeyType::vector,
+       .unit = "m/s^2",
+       .meaning = "Acceleration of gravity, for all physics; none where left out."},
   };
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "modules/pore_flow/mobility.hpp"
 #include "modules/pore_flow/pore_material.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
 
@@ -32,14 +33,20 @@ MandelProblem read_problem(const Section& scene) {
   require_word(scene, "solid.boundary.bottom.type", "roller");
   require_word(scene, "solid.boundary.top.type", "rigid_plate");
   require_word(scene, "pore_flow.boundary.right.type", "pressure");
+  require_word(scene, "pore_flow.fluid.equation_of_state", "linear");
+  if (scene.has("pore_flow.regions") || scene.has("gravity")) {
+    scene.fail("reference.type", "Mandel's problem is uniform and without weight",
+               "neither pore_flow.regions nor gravity");
+  }
   const auto elasticity = read_isotropic_elasticity<2>(scene.at("solid"));
-  const PoreMaterial pore = read_pore_material(scene.at("pore_flow"));
+  const PoreFluid fluid = read_pore_fluid(scene.at("pore_flow"));
+  const PoreMaterial pore = read_pore_materials(scene.at("pore_flow"), fluid)[0];
   const std::vector<double> size = scene.numbers("body.size");
   return {elasticity.lame_lambda,
           elasticity.shear_modulus,
           pore.biot_coefficient,
           pore.storage,
-          pore.mobility,
+          read_mobilities<2>(scene.at("pore_flow"), fluid.viscosity)[0][0],
           size[0],
           size[1],
           scene.number("solid.boundary.top.force")};

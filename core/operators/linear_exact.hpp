@@ -44,14 +44,8 @@ class LinearExactOperator {
         field_(static_cast<std::size_t>(R) * family_->node_count()),
         state_(static_cast<std::size_t>(R) * D * family_->node_count()),
         bond_stiffness_(family_->node_count()) {
-    const Index points = family_->point_count;
-    for (Index i = 0; i < points; ++i) {
-      bond_stiffness_[i] = law_at(law_, i).stabilisation() / moments_.weighted_volume[i];
-    }
-    for (Index g = 0; g < family_->ghost_count(); ++g) {
-      bond_stiffness_[points + g] = bond_stiffness_[family_->ghost_source[g]];
-    }
-    for (Index i = 0; i < points; ++i) {
+    find_bond_stiffness();
+    for (Index i = 0; i < family_->point_count; ++i) {
       if (touches_odd_face(i)) face_points_.push_back(i);
     }
   }
@@ -60,6 +54,12 @@ class LinearExactOperator {
   const MirrorCondition<D, R>& mirror() const { return mirror_; }
   const Law& law() const { return law_; }
   const FamilyMoments<D>& moments() const { return moments_; }
+  /// Takes another law on the same bonds, as change(law) makes it of the present one.
+  template <class Change>
+  void change_law(Change&& change) {
+    change(law_);
+    find_bond_stiffness();
+  }
   double weighted_volume(Index i) const { return moments_.weighted_volume[i]; }
   Index point_unknowns() const { return R * family_->point_count; }
   Index size() const { return point_unknowns() + mirror_.face_value_count(); }
@@ -108,6 +108,16 @@ class LinearExactOperator {
   }
 
  private:
+  void find_bond_stiffness() {
+    const Index points = family_->point_count;
+    for_each_point(points, [&](Index i) {
+      bond_stiffness_[i] = law_at(law_, i).stabilisation() / moments_.weighted_volume[i];
+    });
+    for (Index g = 0; g < family_->ghost_count(); ++g) {
+      bond_stiffness_[points + g] = bond_stiffness_[family_->ghost_source[g]];
+    }
+  }
+
   void fill_field(std::span<const double> u) {
     const Index points = family_->point_count;
     const Index nodes = family_->node_count();

@@ -17,10 +17,11 @@ double norm(std::span<const double> v) {
   return std::sqrt(sum);
 }
 
-/// Upper bound of the largest |eigenvalue| of J [1/s] by power iteration. The top of a lattice
-/// operator's spectrum is crowded: the vector hardly converges, but the growth per iteration does,
-/// from below, so the bound adds a margin over the tolerance and what slow convergence hides.
-double spectral_radius(OdeSystem& system, double t, std::span<const double> y) {
+/// Upper bound of the largest |eigenvalue| of the J of reference [1/s] by power iteration. The top
+/// of a lattice operator's spectrum is crowded: the vector hardly converges, but the growth per
+/// iteration does, from below, so the bound adds a margin over the tolerance and what slow
+/// convergence hides.
+double spectral_radius(OdeSystem& system, double t) {
   constexpr int max_iterations = 500;
   constexpr int settled_iterations = 10;
   constexpr double tolerance = 1e-3;
@@ -37,7 +38,7 @@ double spectral_radius(OdeSystem& system, double t, std::span<const double> y) {
   double checked = 0.0;
   for (int iteration = 1; iteration <= max_iterations; ++iteration) {
     for (double& value : v) value /= length;
-    system.jacobian_times(t, y, v, product);
+    system.jacobian_times(t, {}, v, product);
     const double radius = norm(std::span(product).first(coupled));
     if (radius == 0.0) return 0.0;
     if (!std::isfinite(radius)) break;
@@ -56,10 +57,10 @@ double spectral_radius(OdeSystem& system, double t, std::span<const double> y) {
 
 ForwardEuler::ForwardEuler(OdeSystem& system, double safety) : system_(system), safety_(safety) {}
 
-void ForwardEuler::reset(double t, std::span<const double> y) {
+void ForwardEuler::reset(double t, std::span<const double>) {
   t_ = t;
   if (limit_version_ != system_.jacobian_version()) {
-    stable_step_ = 2.0 / spectral_radius(system_, t, y);  // infinity where nothing flows
+    stable_step_ = 2.0 / spectral_radius(system_, t);  // infinity where nothing flows
     limit_version_ = system_.jacobian_version();
   }
   rate_.resize(system_.size());
@@ -67,17 +68,24 @@ void ForwardEuler::reset(double t, std::span<const double> y) {
 
 void ForwardEuler::advance(double t_end, std::span<double> y) {
   if (t_end == t_) return;
-  const double begin = t_;
-  const auto steps = std::max<std::int64_t>(
-      1, static_cast<std::int64_t>(std::ceil((t_end - begin) / (safety_ * stable_step_))));
-  const double step = (t_end - begin) / static_cast<double>(steps);
-  for (std::int64_t n = 0; n < steps; ++n) {
-    system_.rhs(begin + static_cast<double>(n) * step, y, rate_);
+  double begin = t_, step = 0.0, growth = 0.0;  // equal steps from `begin` while J is the same
+  std::int64_t steps = 0;
+  for (std::int64_t n = 0; n == 0 || n < steps; ++n, ++statistics_.steps) {
+    const double t = begin + static_cast<double>(n) * step;
+    if (const double now = system_.jacobian_growth(t, y); now != growth) {
+      begin = t;
+      n = 0;
+      growth = now;
+      const double limit = safety_ * stable_step_ / growth;
+      steps =
+          std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil((t_end - begin) / limit)));
+      step = (t_end - begin) / static_cast<double>(steps);
+    }
+    system_.rhs(t, y, rate_);
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += step * rate_[i];
   }
   t_ = t_end;
-  statistics_.steps += steps;
-  statistics_.rhs_evaluations += steps;
+  statistics_.rhs_evaluations = statistics_.steps;
   const auto bad = std::find_if_not(y.begin(), y.end(), [](double v) { return std::isfinite(v); });
   if (bad != y.end())
     throw NumericalError(std::string(system_.name()), system_.place(bad - y.begin()), t_end,

@@ -30,7 +30,8 @@ class OdeSystem {
   /// dydt = f(t, y); both of length size().
   virtual void rhs(double t, std::span<const double> y, std::span<double> dydt) = 0;
 
-  /// product = J(t, y) v, without forming J.
+  /// product = J(t, y) v, without forming J. An empty y asks for the J of a state of reference
+  /// that changes with jacobian_version() only.
   virtual void jacobian_times(double t, std::span<const double> y, std::span<const double> v,
                               std::span<double> product) = 0;
 
@@ -41,6 +42,10 @@ class OdeSystem {
   /// Rises whenever J becomes another matrix (bonds broke), so that what was derived from the old
   /// one is derived anew at the next reset.
   virtual std::uint64_t jacobian_version() const = 0;
+
+  /// At most so many times the spectral radius at the state of reference is that of J(t, y); 1
+  /// where J does not depend on y. Stable steps are shorter by it.
+  virtual double jacobian_growth(double, std::span<const double>) { return 1.0; }
 };
 
 /// The matrix I - gamma J of an implicit step, by its inverse. An exact inverse makes a direct

@@ -19,6 +19,8 @@ class Schedule {
 
   double factor(double t) const;  ///< t [s]
   bool is_constant() const { return times_.empty(); }
+  /// Where the factor's rate changes, rising [s]: no step of an integrator should go across.
+  const std::vector<double>& break_points() const { return times_; }
 
  private:
   std::vector<double> times_;

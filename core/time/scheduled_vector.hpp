@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -23,12 +24,30 @@ class ScheduledVector {
     }
   }
 
+  Eigen::Index size() const { return constant_.size(); }
   bool is_constant() const { return parts_.empty(); }
+
+  /// Of all its schedules, sorted [s].
+  std::vector<double> break_points() const {
+    std::vector<double> all;
+    for (const auto& [schedule, vector] : parts_) {
+      all.insert(all.end(), schedule.break_points().begin(), schedule.break_points().end());
+    }
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
 
   /// `sum`, of the right size already, at time t [s].
   void at(double t, Eigen::VectorXd& sum) const {
     sum = constant_;
     for (const auto& [schedule, vector] : parts_) sum += schedule.factor(t) * vector;
+  }
+
+  Eigen::VectorXd at(double t) const {
+    Eigen::VectorXd sum(size());
+    at(t, sum);
+    return sum;
   }
 
  private:

@@ -16,10 +16,14 @@ class BondFlow final : public GradientFlow<D, Law> {
  public:
   explicit BondFlow(LinearExactOperator<D, Law> op)
       : GradientFlow<D, Law>(std::move(op)),
-        stiffness_(this->bond_stiffness()),
+        stiffness_(this->family().node_count()),
         pressure_(this->family().node_count()) {
-    const Family<D>& family = this->family();
-    for (const Index source : family.ghost_source) stiffness_.push_back(stiffness_[source]);
+    find_stiffness();
+  }
+
+  void scale_mobility(std::span<const double> factor) override {
+    GradientFlow<D, Law>::scale_mobility(factor);
+    find_stiffness();
   }
 
   void apply(std::span<const double> p, std::span<double> outflow) override {
@@ -41,6 +45,14 @@ class BondFlow final : public GradientFlow<D, Law> {
   Eigen::SparseMatrix<double> assemble() const override { return this->preconditioner(); }
 
  private:
+  void find_stiffness() {
+    const Family<D>& family = this->family();
+    this->find_bond_stiffness(stiffness_);
+    for (Index g = 0; g < family.ghost_count(); ++g) {
+      stiffness_[family.point_count + g] = stiffness_[family.ghost_source[g]];
+    }
+  }
+
   /// dE/dU of the face values by way of the ghosts; serial, so that the order of the sum is fixed.
   void add_face_inflow(std::span<double> inflow) const {
     if (inflow.empty()) return;

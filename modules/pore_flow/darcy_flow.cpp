@@ -1,7 +1,5 @@
 #include "modules/pore_flow/darcy_flow.hpp"
 
-#include <numeric>
-
 namespace perifrac {
 
 namespace {
@@ -43,11 +41,13 @@ const PointSet whole_body{.name = "pore_flow"};
 
 template <int D>
 DarcyFlow<D>::DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> system,
-                        double initial_pressure, const DarcyIntegratorMaker<D>& make_integrator)
+                        double initial_pressure, const DarcyIntegratorMaker<D>& make_integrator,
+                        InitialState initial_state)
     : body_(std::move(body)),
       system_(std::make_unique<DarcySystem<D>>(std::move(system))),
       integrator_(make_integrator(*system_)),
-      initial_pressure_(initial_pressure) {}
+      initial_pressure_(initial_pressure),
+      initial_state_(initial_state) {}
 
 template <int D>
 std::span<const Port> DarcyFlow<D>::ports() const {
@@ -72,7 +72,7 @@ PortView DarcyFlow<D>::port(PortId id) {
       return {points, std::span(unknowns_).first(count)};
     case darcy_velocity:
       velocity_.resize(D * count);
-      system_->darcy_velocity(pressure_, velocity_);
+      system_->darcy_velocity(time_, pressure_, velocity_);
       return {points, velocity_};
     default: {
       double& value = scalars_[id - mass_stored];
@@ -84,21 +84,26 @@ PortView DarcyFlow<D>::port(PortId id) {
 
 template <int D>
 void DarcyFlow<D>::initialize(double t) {
-  const PoreMaterial& material = system_->material();
-  const double alpha = material.biot_coefficient;
   start_ = time_ = t;
   unknowns_.assign(system_->size(), 0.0);
-  std::fill_n(unknowns_.begin(), system_->points(), material.storage * initial_pressure_);
   pressure_.assign(system_->points(), initial_pressure_);
-  pore_stress_.assign(system_->points(), alpha * initial_pressure_);
-  pore_stress_slope_.assign(system_->points(), -alpha * alpha / material.storage);
+  pore_stress_.resize(system_->points());
+  pore_stress_slope_.resize(system_->points());
+  const PoreFluid& fluid = system_->fluid();
+  for (Index i = 0; i < system_->points(); ++i) {
+    if (initial_state_ == InitialState::hydrostatic) {
+      const double potential = fluid.potential(initial_pressure_) - system_->gravity(i);
+      pressure_[i] = fluid.pressure_of(potential);
+    }
+    unknowns_[i] = system_->storage().content(i, pressure_[i]);
+    pore_stress_slope_[i] = system_->storage().undrained_slope(i, unknowns_[i], pressure_[i]);
+  }
   for (const HeldPoint& held : system_->held_points()) {
-    const double p = system_->held_pressure(held);
-    unknowns_[held.point] = material.storage * p;
-    pressure_[held.point] = p;
-    pore_stress_[held.point] = alpha * p;
+    pressure_[held.point] = system_->held_pressure(t, held);
+    unknowns_[held.point] = system_->storage().content(held.point, pressure_[held.point]);
     pore_stress_slope_[held.point] = 0.0;
   }
+  update_pore_stress();
   restart_integrator_ = true;
 }
 
@@ -110,51 +115,66 @@ double DarcyFlow<D>::stable_time_step() const {
 template <int D>
 double DarcyFlow<D>::advance(const TimeWindow& window) {
   system_->set_dilatation({dilatation_, dilatation_rate_, dilatation_slope_, window.end});
-  if (window.length() > 0.0) {
-    system_->lead_held_points(window, unknowns_);
-    if (restart_integrator_) integrator_->reset(window.begin, unknowns_);
-    integrator_->advance(window.end, unknowns_);
-  }
+  if (window.length() > 0.0) integrate(window);
   // A window of no length changes pressures at once, which no history survives.
   restart_integrator_ = !(window.length() > 0.0);
   time_ = window.end;
-  update_pressure();
+  system_->pressure(time_, unknowns_, pressure_);
+  update_pore_stress();
   return window.end;
 }
 
+/// In parts between which schedules are smooth: no step, and no history, goes across a kink.
 template <int D>
-void DarcyFlow<D>::update_pressure() {
-  system_->pressure(time_, unknowns_, pressure_);
-  const double alpha = system_->material().biot_coefficient;
-  for (std::size_t i = 0; i < pressure_.size(); ++i) pore_stress_[i] = alpha * pressure_[i];
+void DarcyFlow<D>::integrate(const TimeWindow& window) {
+  system_->lead_held_points(window, unknowns_);
+  double begin = window.begin;
+  const auto up_to = [&](double end) {
+    if (restart_integrator_) integrator_->reset(begin, unknowns_);
+    integrator_->advance(end, unknowns_);
+    restart_integrator_ = false;
+    begin = end;
+  };
+  for (const double kink : system_->break_points()) {
+    if (kink < begin || kink >= window.end) continue;
+    if (kink > begin) up_to(kink);
+    restart_integrator_ = true;
+  }
+  up_to(window.end);
+}
+
+template <int D>
+void DarcyFlow<D>::update_pore_stress() {
+  const PoreStorage& storage = system_->storage();
+  for (Index i = 0; i < system_->points(); ++i) {
+    pore_stress_[i] = system_->biot_coefficient(i) * pressure_[i];
+  }
+  if (system_->fluid().is_linear()) return;
+  for (Index i = 0; i < system_->points(); ++i) {
+    pore_stress_slope_[i] = storage.undrained_slope(i, unknowns_[i], pressure_[i]);
+  }
+  for (const HeldPoint& held : system_->held_points()) pore_stress_slope_[held.point] = 0.0;
 }
 
 template <int D>
 double DarcyFlow<D>::scalar(PortId id) const {
-  const std::size_t points = system_->points();
+  const double density = system_->fluid().density;
   const std::vector<double>& volume = system_->volume();
-  const Eigen::VectorXd& face_pressures = system_->face_pressures();
-  const double* const accumulated = unknowns_.data() + points;  // by faces, dissipated, by sources
-  const std::size_t faces = face_pressures.size();
   double sum = 0.0;
   switch (id) {
     case mass_stored:
-      for (std::size_t i = 0; i < points; ++i) sum += volume[i] * unknowns_[i];
-      return system_->material().fluid_density * sum;
+      for (Index i = 0; i < system_->points(); ++i) sum += volume[i] * unknowns_[i];
+      return density * sum;
     case mass_gained:
-      sum = std::accumulate(accumulated, accumulated + faces, 0.0);
-      if (system_->sources().size() > 0) sum += (time_ - start_) * system_->sources().sum();
-      return system_->material().fluid_density * sum;
+      return density * system_->gained_volume(start_, time_, unknowns_);
     case energy_stored:
-      for (std::size_t i = 0; i < points; ++i) sum += volume[i] * pressure_[i] * pressure_[i];
-      return 0.5 * system_->material().storage * sum;
+      return system_->stored_energy(unknowns_, pressure_);
     case energy_gained:
-      for (std::size_t f = 0; f < faces; ++f) sum += face_pressures[f] * accumulated[f];
-      return system_->sources().size() > 0 ? sum + accumulated[faces + 1] : sum;
+      return system_->gained_energy(unknowns_);
     case artificial_mass:
-      return system_->material().fluid_density * unknowns_.back();
+      return density * unknowns_.back();
     default:
-      return accumulated[faces];
+      return system_->dissipated_energy(unknowns_);
   }
 }
 
@@ -186,8 +206,7 @@ template <int D>
 void DarcyFlow<D>::on_restored(double t) {
   time_ = t;
   restart_integrator_ = true;
-  const double alpha = system_->material().biot_coefficient;
-  for (std::size_t i = 0; i < pressure_.size(); ++i) pore_stress_[i] = alpha * pressure_[i];
+  update_pore_stress();
 }
 
 template class DarcyFlow<2>;

@@ -16,6 +16,9 @@ namespace perifrac {
 template <int D>
 using DarcyIntegratorMaker = std::function<std::unique_ptr<Integrator>(DarcySystem<D>&)>;
 
+/// The pressure that a run begins with is one everywhere, or grows downwards so that fluid rests.
+enum class InitialState { uniform, hydrostatic };
+
 /// Pore flow after Darcy, by whichever integrator it is given.
 ///
 /// Ports: in `dilatation`; out `pore_pressure` [Pa], `pore_stress` (alpha p) with its undrained
@@ -27,7 +30,8 @@ template <int D>
 class DarcyFlow final : public PhysicsModule {
  public:
   DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> system, double initial_pressure,
-            const DarcyIntegratorMaker<D>& make_integrator);
+            const DarcyIntegratorMaker<D>& make_integrator,
+            InitialState initial_state = InitialState::uniform);
 
   std::span<const Port> ports() const override;
   PortView port(PortId id) override;
@@ -58,7 +62,8 @@ class DarcyFlow final : public PhysicsModule {
     port_count
   };
 
-  void update_pressure();
+  void integrate(const TimeWindow& window);
+  void update_pore_stress();
   double scalar(PortId id) const;
   double work(PortId id) const;
 
@@ -66,6 +71,7 @@ class DarcyFlow final : public PhysicsModule {
   std::unique_ptr<DarcySystem<D>> system_;
   std::unique_ptr<Integrator> integrator_;
   double initial_pressure_;
+  InitialState initial_state_;
 
   std::vector<double> unknowns_;  ///< of the system
   double start_ = 0.0;            ///< [s]

@@ -15,12 +15,13 @@ DarcyNewtonMatrix<D>::DarcyNewtonMatrix(DarcySystem<D>& system, Method method)
 }
 
 template <int D>
-void DarcyNewtonMatrix<D>::set_up(double, std::span<const double>, double gamma) {
+void DarcyNewtonMatrix<D>::set_up(double t, std::span<const double> y, double gamma) {
   gamma_ = gamma;
   matrix_.coeffs() = gamma * flow_.coeffs();
   for (const HeldPoint& held : system_.held_points()) uncouple(held.point);
+  const std::span<const double> storage = system_.effective_storage(t, y);
   for (Index i = 0; i < system_.points(); ++i) {
-    matrix_.coeffRef(i, i) += system_.volume()[i] * system_.effective_storage()[i];
+    matrix_.coeffRef(i, i) += system_.volume()[i] * storage[i];
   }
   factor_.factor(matrix_);
 }

@@ -9,7 +9,8 @@
 
 namespace perifrac {
 
-/// I - gamma J of Darcy flow by way of the symmetric V S + gamma H in pressure.
+/// I - gamma J of Darcy flow by way of the symmetric V S + gamma H in the potential. For a
+/// compressible fluid S follows the pressure and H is that of no pressure.
 ///
 /// Directly, H is assembled and factored. As a preconditioner, the bonds' own part of the flow
 /// stands in for H: it has a third of the entries and the same spectrum up to a factor.

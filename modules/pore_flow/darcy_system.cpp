@@ -3,25 +3,45 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/errors.hpp"
+#include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
 
 template <int D>
-DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow, PoreMaterial material,
-                            Eigen::VectorXd face_pressures, Eigen::VectorXd sources,
-                            std::vector<HeldPoint> held)
+DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow,
+                            std::unique_ptr<PoreStorage> storage, PoreFluid fluid,
+                            ScheduledVector face_pressures, ScheduledVector sources,
+                            Eigen::VectorXd gravity, std::vector<HeldPoint> held)
     : flow_(std::move(flow)),
-      material_(material),
+      storage_(std::move(storage)),
+      fluid_(fluid),
       face_pressures_(std::move(face_pressures)),
       sources_(std::move(sources)),
+      gravity_(std::move(gravity)),
       held_(std::move(held)),
       held_rate_(held_.size(), 0.0),
       points_(flow_->family().point_count),
-      effective_storage_(points_, material.storage),
-      pressure_(flow_->size()),
-      outflow_(flow_->size()) {}
+      face_potential_(face_pressures_.size()),
+      source_rate_(sources_.size()),
+      potential_(flow_->size()),
+      outflow_(flow_->size()),
+      mobility_(fluid_.is_linear() ? 0 : points_) {
+  for (const ScheduledVector* scheduled : {&face_pressures_, &sources_}) {
+    const std::vector<double> times = scheduled->break_points();
+    break_points_.insert(break_points_.end(), times.begin(), times.end());
+  }
+  std::ranges::sort(break_points_);
+  find_face_potential(0.0);
+  sources_.at(0.0, source_rate_);
+  for (const double t : face_pressures_.is_constant() ? std::vector{0.0} : break_points_) {
+    for (const double p : face_pressures_.at(t)) {
+      largest_face_pressure_ = std::max(largest_face_pressure_, std::abs(p));
+    }
+  }
+}
 
 template <int D>
 std::string DarcySystem<D>::place(std::size_t unknown) const {
@@ -31,39 +51,31 @@ std::string DarcySystem<D>::place(std::size_t unknown) const {
     return describe_point(unknown, position);
   }
   const std::size_t accumulated = unknown - points_;
-  const std::size_t faces = face_pressures_.size();
+  const std::size_t faces = face_potential_.size();
   if (accumulated < faces) return "the volume that came in through a face";
   if (accumulated == faces) return "the energy dissipated";
-  return smooths() && unknown + 1 == size() ? "the volume that smoothing made"
-                                            : "the energy of the sources";
+  if (smooths() && unknown + 1 == size()) return "the volume that smoothing made";
+  return accumulated == faces + 1 ? "the energy brought" : "the volume of the sources";
 }
 
 template <int D>
 void DarcySystem<D>::set_dilatation(const DilatationInput& input) {
-  dilatation_ = input;
-  const double alpha = material_.biot_coefficient;
-  bool changed = false;
-  for (std::size_t i = 0; i < input.slope.size(); ++i) {
-    const double storage = material_.storage + alpha * alpha * input.slope[i];
-    changed = changed || storage != effective_storage_[i];
-    effective_storage_[i] = storage;
-  }
-  if (changed) ++version_;
+  if (storage_->set_dilatation(input)) ++version_;
 }
 
 template <int D>
-double DarcySystem<D>::dilated(double t, Index i) const {
-  return material_.biot_coefficient *
-         (dilatation_.value[i] + (t - dilatation_.end) * dilatation_.rate[i]);
+double DarcySystem<D>::held_pressure(double t, const HeldPoint& held) {
+  if (held.face_value < 0) return 0.0;
+  if (!face_pressures_.is_constant()) find_face_potential(t);
+  return fluid_.pressure_of(face_potential_[held.face_value] - gravity(held.point));
 }
 
 template <int D>
 void DarcySystem<D>::lead_held_points(const TimeWindow& window, std::span<const double> y) {
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    const Index i = held_[k].point;
-    if (held_[k].face_value < 0) continue;  // dry
-    double content = effective_storage_[i] * held_pressure(held_[k]);
-    if (!dilatation_.value.empty()) content += dilated(window.end, i);
+    const auto [i, face_value] = held_[k];
+    if (face_value < 0) continue;
+    const double content = storage_->content(window.end, i, held_pressure(window.end, held_[k]));
     held_rate_[k] = (content - y[i]) / window.length();
   }
 }
@@ -76,14 +88,15 @@ void DarcySystem<D>::set_smoothing(PressureSmoothing<D> smoothing) {
 
 template <int D>
 void DarcySystem<D>::smooth(double t, std::span<double> y) {
-  pressure(t, y, pressure_);
-  std::copy_n(face_pressures_.data(), mirrored_faces(), pressure_.begin() + points_);
-  smoothing_->apply(pressure_, smoothed_);
+  pressure(t, y, potential_);
+  const Eigen::VectorXd faces = face_pressures_.at(t);
+  std::copy_n(faces.data(), mirrored_faces(), potential_.begin() + points_);
+  smoothing_->apply(potential_, smoothed_);
   const auto points = smoothing_->points();
   double made = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Index i = points[k];
-    const double change = effective_storage_[i] * (smoothed_[k] - pressure_[i]);
+    const double change = storage_->content(t, i, smoothed_[k]) - y[i];
     y[i] += change;
     made += volume()[i] * change;
   }
@@ -91,53 +104,94 @@ void DarcySystem<D>::smooth(double t, std::span<double> y) {
 }
 
 template <int D>
-void DarcySystem<D>::pressure(double t, std::span<const double> y, std::span<double> p) const {
-  if (dilatation_.value.empty()) {
-    for (Index i = 0; i < points_; ++i) p[i] = y[i] / effective_storage_[i];
-  } else {
-    for (Index i = 0; i < points_; ++i) p[i] = (y[i] - dilated(t, i)) / effective_storage_[i];
+void DarcySystem<D>::pressure(double t, std::span<const double> y, std::span<double> p) {
+  storage_->pressure(t, y.first(points_), p);
+  for (const HeldPoint& held : held_) p[held.point] = held_pressure(t, held);
+}
+
+template <int D>
+std::span<const double> DarcySystem<D>::effective_storage(double t, std::span<const double> y) {
+  return storage_->effective_storage(t, y.empty() ? y : y.first(points_));
+}
+
+template <int D>
+void DarcySystem<D>::find_face_potential(double t) {
+  face_pressures_.at(t, face_potential_);
+  for (double& value : face_potential_) value = fluid_.potential(value);
+  if (gravity_.size() > 0) face_potential_ += gravity_.tail(face_potential_.size());
+}
+
+/// Empty p: no pressure.
+template <int D>
+void DarcySystem<D>::scale_mobility(std::span<const double> p) {
+  for_each_point(points_, [&](Index i) {
+    const double ratio = p.empty() ? 1.0 : fluid_.density_ratio(p[i]);
+    mobility_[i] = ratio * ratio;
+  });
+  flow_->scale_mobility(mobility_);
+}
+
+template <int D>
+void DarcySystem<D>::pressure_to_potential(double t) {
+  if (!face_pressures_.is_constant()) find_face_potential(t);
+  std::copy_n(face_potential_.data(), mirrored_faces(), potential_.begin() + points_);
+  if (!fluid_.is_linear()) {
+    scale_mobility(std::span(potential_).first(points_));
+    for_each_point(points_, [&](Index i) { potential_[i] = fluid_.potential(potential_[i]); });
   }
-  for (const HeldPoint& held : held_) p[held.point] = held_pressure(held);
+  if (gravity_.size() > 0) {
+    for (Index i = 0; i < points_; ++i) potential_[i] += gravity_[i];
+  }
 }
 
 template <int D>
 void DarcySystem<D>::rhs(double t, std::span<const double> y, std::span<double> dydt) {
-  pressure(t, y, pressure_);
-  const auto faces = face_pressures_.size();
-  std::copy_n(face_pressures_.data(), mirrored_faces(), pressure_.begin() + points_);
-  flow_->apply(pressure_, outflow_);
+  pressure(t, y, potential_);
+  pressure_to_potential(t);
+  flow_->apply(potential_, outflow_);
   const std::vector<double>& v = volume();
   for (Index i = 0; i < points_; ++i) dydt[i] = -outflow_[i] / v[i];
 
-  double dissipated = 0.0;
-  for (std::size_t k = 0; k < pressure_.size(); ++k) dissipated += pressure_[k] * outflow_[k];
+  const std::size_t faces = face_potential_.size();
+  double dissipated = 0.0, brought = 0.0;
+  for (std::size_t k = 0; k < potential_.size(); ++k) dissipated += potential_[k] * outflow_[k];
   const std::span<double> accumulated = dydt.subspan(points_);
   std::fill_n(accumulated.begin(), faces, 0.0);
   std::copy_n(outflow_.begin() + points_, mirrored_faces(), accumulated.begin());
   accumulated[faces] = dissipated;
-  if (sources_.size() > 0) {
-    double brought = 0.0;
+  if (has_sources()) {
+    if (brings_volume()) sources_.at(t, source_rate_);
     for (Index i = 0; i < points_; ++i) {
-      dydt[i] += sources_[i] / v[i];
-      brought += sources_[i] * pressure_[i];
+      dydt[i] += source_rate_[i] / v[i];
+      brought += source_rate_[i] * potential_[i];
     }
-    accumulated[faces + 1] = brought;
   }
-  if (smoothing_) dydt.back() = 0.0;
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const auto [i, face_value] = held_[k];
     if (face_value >= 0) accumulated[face_value] += v[i] * (held_rate_[k] - dydt[i]);
     dydt[i] = held_rate_[k];
   }
+  if (!face_pressures_.is_constant()) {
+    for (std::size_t f = 0; f < faces; ++f) brought += face_potential_[f] * accumulated[f];
+  }
+  if (brings_energy()) accumulated[faces + 1] = brought;
+  if (brings_volume()) accumulated[faces + 2] = source_rate_.sum();
+  if (smooths()) accumulated.back() = 0.0;
 }
 
 template <int D>
-void DarcySystem<D>::jacobian_times(double, std::span<const double>, std::span<const double> v,
+void DarcySystem<D>::jacobian_times(double t, std::span<const double> y, std::span<const double> v,
                                     std::span<double> product) {
-  for (Index i = 0; i < points_; ++i) pressure_[i] = v[i] / effective_storage_[i];
-  std::fill(pressure_.begin() + points_, pressure_.end(), 0.0);
-  for (const HeldPoint& held : held_) pressure_[held.point] = 0.0;
-  flow_->apply(pressure_, outflow_);
+  if (!fluid_.is_linear()) {
+    // How the mobility follows the pressure is left out: Newton's method makes up for it.
+    if (!y.empty()) pressure(t, y, potential_);
+    scale_mobility(std::span(potential_).first(y.empty() ? 0 : points_));
+  }
+  const std::span<const double> storage = effective_storage(t, y);
+  for (Index i = 0; i < points_; ++i) potential_[i] = v[i] / storage[i];
+  std::fill(potential_.begin() + points_, potential_.end(), 0.0);
+  for (const HeldPoint& held : held_) potential_[held.point] = 0.0;
+  flow_->apply(potential_, outflow_);
   for (Index i = 0; i < points_; ++i) product[i] = -outflow_[i] / volume()[i];
   // Energies follow the flow and nothing follows them: their rows may be left out.
   std::ranges::fill(product.subspan(points_), 0.0);
@@ -149,13 +203,30 @@ void DarcySystem<D>::jacobian_times(double, std::span<const double>, std::span<c
 }
 
 template <int D>
+double DarcySystem<D>::jacobian_growth(double t, std::span<const double> y) {
+  if (fluid_.is_linear()) return 1.0;
+  // J = V^-1 H(mobility) / storage: a bound for each of the two factors.
+  const std::span<const double> rest = effective_storage(t, {});
+  const std::vector<double> at_rest(rest.begin(), rest.end());
+  const std::span<const double> now = effective_storage(t, y);
+  pressure(t, y, potential_);
+  double of_storage = 0.0, of_mobility = 0.0;
+  for (Index i = 0; i < points_; ++i) {
+    const double ratio = fluid_.density_ratio(potential_[i]);
+    of_storage = std::max(of_storage, at_rest[i] / now[i]);
+    of_mobility = std::max(of_mobility, ratio * ratio);
+  }
+  return of_storage * of_mobility;
+}
+
+template <int D>
 void DarcySystem<D>::magnitudes(double t, std::span<const double> y, std::span<double> magnitude) {
   constexpr double negligible = 1e-3;  // [Pa], where a run starts from no pressure at all
-  pressure(t, y, pressure_);
-  double largest = negligible;
-  for (Index i = 0; i < points_; ++i) largest = std::max(largest, std::abs(pressure_[i]));
-  for (const double p : face_pressures_) largest = std::max(largest, std::abs(p));
-  for (Index i = 0; i < points_; ++i) magnitude[i] = effective_storage_[i] * largest;
+  pressure(t, y, potential_);
+  double largest = std::max(negligible, largest_face_pressure_);
+  for (Index i = 0; i < points_; ++i) largest = std::max(largest, std::abs(potential_[i]));
+  const std::span<const double> storage = effective_storage(t, y);
+  for (Index i = 0; i < points_; ++i) magnitude[i] = storage[i] * largest;
   std::ranges::fill(magnitude.subspan(points_), std::numeric_limits<double>::infinity());
   for (const HeldPoint& held : held_) {
     magnitude[held.point] = std::numeric_limits<double>::infinity();
@@ -163,10 +234,41 @@ void DarcySystem<D>::magnitudes(double t, std::span<const double> y, std::span<d
 }
 
 template <int D>
-void DarcySystem<D>::darcy_velocity(std::span<const double> p, std::span<double> velocity) {
-  std::ranges::copy(p, pressure_.begin());
-  std::copy_n(face_pressures_.data(), mirrored_faces(), pressure_.begin() + points_);
-  flow_->velocity(pressure_, velocity);
+void DarcySystem<D>::darcy_velocity(double t, std::span<const double> p,
+                                    std::span<double> velocity) {
+  std::ranges::copy(p, potential_.begin());
+  pressure_to_potential(t);
+  flow_->velocity(potential_, velocity);
+  if (fluid_.is_linear()) return;
+  for (std::size_t k = 0; k < velocity.size(); ++k) {
+    velocity[k] /= fluid_.density_ratio(p[k % points_]);  // mass flux over rho_0 to volume
+  }
+}
+
+template <int D>
+double DarcySystem<D>::gained_volume(double start, double t, std::span<const double> y) const {
+  const double* const accumulated = y.data() + points_;
+  const double sum = std::accumulate(accumulated, accumulated + faces(), 0.0);
+  if (brings_volume()) return sum + accumulated[faces() + 2];
+  return has_sources() ? sum + (t - start) * source_rate_.sum() : sum;
+}
+
+template <int D>
+double DarcySystem<D>::gained_energy(std::span<const double> y) const {
+  const double* const accumulated = y.data() + points_;
+  double sum = brings_energy() ? accumulated[faces() + 1] : 0.0;
+  if (!face_pressures_.is_constant()) return sum;
+  for (Index f = 0; f < faces(); ++f) sum += face_potential_[f] * accumulated[f];
+  return sum;
+}
+
+template <int D>
+double DarcySystem<D>::stored_energy(std::span<const double> y, std::span<const double> p) const {
+  double sum = 0.0;
+  for (Index i = 0; i < points_; ++i) {
+    sum += volume()[i] * (storage_->energy(i, y[i], p[i]) + gravity(i) * y[i]);
+  }
+  return sum;
 }
 
 template class DarcySystem<2>;

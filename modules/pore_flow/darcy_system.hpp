@@ -9,52 +9,51 @@
 
 #include "core/module/time_window.hpp"
 #include "core/time/ode_system.hpp"
+#include "core/time/scheduled_vector.hpp"
 #include "modules/pore_flow/flow_operator.hpp"
 #include "modules/pore_flow/held_point.hpp"
-#include "modules/pore_flow/pore_material.hpp"
+#include "modules/pore_flow/pore_storage.hpp"
 #include "modules/pore_flow/pressure_smoothing.hpp"
 
 namespace perifrac {
 
-/// The dilatation that pore flow is told for a window: at time t and pore stress x it is
-/// value + rate (t - end) + slope x. Empty spans: no dilatation at all.
-struct DilatationInput {
-  std::span<const double> value{};
-  std::span<const double> rate{};
-  std::span<const double> slope{};
-  double end = 0.0;
-};
-
 /// Conservation of pore fluid as ordinary differential equations:
-///   d(zeta_i)/dt = (q_i - (H p)_i) / V_i,   zeta = alpha theta + S p,
-/// with q the sources and H twice the dissipation's derivative. zeta is the fluid volume gained per
-/// volume of rock; it, not pressure, is what is stored, so that a corrected dilatation changes the
-/// pressure and never the mass.
+///   d(zeta_i)/dt = (q_i - (H psi)_i) / V_i,   psi = potential(p) - rho_0 g.x,
+/// with q the sources, H twice the dissipation's derivative and p from zeta by the PoreStorage. For
+/// a linear fluid without gravity psi is p. For a compressible one H has the mobility times
+/// (rho/rho_0)^2, which makes H psi the mass flux of Darcy's law over rho_0. zeta is the fluid
+/// gained per volume of rock; it, not pressure, is what is stored, so that a corrected dilatation
+/// changes the pressure and never the mass.
 ///
-/// A held point has its face value's pressure at every moment, whatever its zeta. That follows at
-/// a steady rate within a window, to be alpha theta + S p at the end; what it takes, and what flows
-/// off into the rock, is inflow through the face.
+/// A held point has the potential of its face value at every moment, whatever its zeta. That
+/// follows at a steady rate within a window, to be what belongs to its pressure at the end; what it
+/// takes, and what flows off into the rock, is inflow through the face.
 ///
 /// Unknowns: zeta at the points; then what accumulates: volume that came in through each face of
-/// prescribed pressure, energy dissipated by the flow, energy brought by sources (if any), volume
-/// that smoothing made (if it is on).
+/// prescribed pressure, energy dissipated by the flow, energy brought by sources and by faces whose
+/// pressure changes (if any), volume brought by sources that change (if any), volume that smoothing
+/// made (if it is on). Volumes are at zero pressure.
 template <int D>
 class DarcySystem final : public OdeSystem {
  public:
-  DarcySystem(std::unique_ptr<FlowOperator<D>> flow, PoreMaterial material,
-              Eigen::VectorXd face_pressures, Eigen::VectorXd sources,
-              std::vector<HeldPoint> held = {});
+  /// `sources` of size 0 where there are none; `gravity`: -rho_0 g.x of points, then of face values
+  /// [Pa], empty without.
+  DarcySystem(std::unique_ptr<FlowOperator<D>> flow, std::unique_ptr<PoreStorage> storage,
+              PoreFluid fluid, ScheduledVector face_pressures, ScheduledVector sources,
+              Eigen::VectorXd gravity = {}, std::vector<HeldPoint> held = {});
 
   std::string_view name() const override { return "fluid_content"; }
   std::size_t size() const override { return points_ + accumulators(); }
   std::string place(std::size_t unknown) const override;
   std::size_t accumulators() const override {
-    return face_pressures_.size() + (sources_.size() > 0 ? 2 : 1) + (smoothing_ ? 1 : 0);
+    return face_pressures_.size() + 1 + (brings_energy() ? 1 : 0) + (brings_volume() ? 1 : 0) +
+           (smooths() ? 1 : 0);
   }
   void rhs(double t, std::span<const double> y, std::span<double> dydt) override;
   void jacobian_times(double t, std::span<const double> y, std::span<const double> v,
                       std::span<double> product) override;
   std::uint64_t jacobian_version() const override { return version_; }
+  double jacobian_growth(double t, std::span<const double> y) override;
   void magnitudes(double t, std::span<const double> y, std::span<double> magnitude) override;
 
   /// Takes the input of the next window; spans must stay valid while it is integrated.
@@ -71,42 +70,65 @@ class DarcySystem final : public OdeSystem {
   void smooth(double t, std::span<double> y);
 
   /// Pressure at the points [Pa].
-  void pressure(double t, std::span<const double> y, std::span<double> p) const;
+  void pressure(double t, std::span<const double> y, std::span<double> p);
 
-  /// Darcy velocity of the point pressures p, D blocks of point values [m/s].
-  void darcy_velocity(std::span<const double> p, std::span<double> velocity);
+  /// Darcy velocity of the point pressures p at time t, D blocks of point values [m/s].
+  void darcy_velocity(double t, std::span<const double> p, std::span<double> velocity);
+
+  /// Where schedules change their rate, rising [s]: integrate up to them and start anew.
+  const std::vector<double>& break_points() const { return break_points_; }
+
+  /// What came in since `start` by faces and sources: volume at zero pressure, and energy [J].
+  double gained_volume(double start, double t, std::span<const double> y) const;
+  double gained_energy(std::span<const double> y) const;
+  double dissipated_energy(std::span<const double> y) const { return y[points_ + faces()]; }
+  /// Energy of fluid and pores, that of the fluid's height included [J].
+  double stored_energy(std::span<const double> y, std::span<const double> p) const;
+
+  std::span<const HeldPoint> held_points() const { return held_; }
+  /// Of a held point at time t [Pa].
+  double held_pressure(double t, const HeldPoint& held);
 
   Index points() const { return points_; }
   const std::vector<double>& volume() const { return flow_->family().volume; }
-  /// d(zeta)/dp with the dilatation's answer [1/Pa], per point.
-  const std::vector<double>& effective_storage() const { return effective_storage_; }
+  /// d(zeta)/d(psi) with the dilatation's answer [1/Pa], per point; of the rock at rest where y is
+  /// empty. Valid until the next call.
+  std::span<const double> effective_storage(double t, std::span<const double> y);
+  double biot_coefficient(Index i) const { return storage_->materials().at(i).biot_coefficient; }
+  PoreStorage& storage() const { return *storage_; }
   const FlowOperator<D>& flow() const { return *flow_; }
-  const PoreMaterial& material() const { return material_; }
-  const Eigen::VectorXd& face_pressures() const { return face_pressures_; }
-  const Eigen::VectorXd& sources() const { return sources_; }
-  std::span<const HeldPoint> held_points() const { return held_; }
-  double held_pressure(const HeldPoint& held) const {
-    return held.face_value < 0 ? 0.0 : face_pressures_[held.face_value];
-  }
+  const PoreFluid& fluid() const { return fluid_; }
+  /// -rho_0 g.x of point i [Pa].
+  double gravity(Index i) const { return gravity_.size() > 0 ? gravity_[i] : 0.0; }
 
  private:
   /// Face values that the flow operator knows; those of layers follow.
   Index mirrored_faces() const { return flow_->size() - points_; }
-  /// alpha times the dilatation at no pore stress.
-  double dilated(double t, Index i) const;
+  Index faces() const { return static_cast<Index>(face_potential_.size()); }
+  bool has_sources() const { return sources_.size() > 0; }
+  bool brings_energy() const { return has_sources() || !face_pressures_.is_constant(); }
+  bool brings_volume() const { return !sources_.is_constant(); }
+  void find_face_potential(double t);
+  void scale_mobility(std::span<const double> p);
+  void pressure_to_potential(double t);
 
   std::unique_ptr<FlowOperator<D>> flow_;
-  PoreMaterial material_;
-  Eigen::VectorXd face_pressures_;
-  Eigen::VectorXd sources_;  ///< empty where there are none
+  std::unique_ptr<PoreStorage> storage_;
+  PoreFluid fluid_;
+  ScheduledVector face_pressures_;
+  ScheduledVector sources_;
+  Eigen::VectorXd gravity_;
   std::vector<HeldPoint> held_;
   std::vector<double> held_rate_;  ///< d(zeta)/dt of the held points in this window [1/s]
   Index points_;
-  DilatationInput dilatation_;
-  std::vector<double> effective_storage_;
+  std::vector<double> break_points_;
+  double largest_face_pressure_ = 0.0;  ///< of all times [Pa]
   std::uint64_t version_ = 0;
-  std::vector<double> pressure_;  ///< workspace: points, then face values
-  std::vector<double> outflow_;   ///< workspace: H p
+  Eigen::VectorXd face_potential_;
+  Eigen::VectorXd source_rate_;
+  std::vector<double> potential_;  ///< workspace: pressures, then psi, of points and face values
+  std::vector<double> outflow_;    ///< workspace: H psi
+  std::vector<double> mobility_;   ///< (rho/rho_0)^2; empty for a linear fluid
   std::optional<PressureSmoothing<D>> smoothing_;
   std::vector<double> smoothed_;  ///< workspace: by its points
 };

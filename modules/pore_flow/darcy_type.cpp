@@ -6,12 +6,16 @@
 
 #include "core/geometry/face_conditions.hpp"
 #include "core/time/forward_euler.hpp"
+#include "modules/pore_flow/anisotropic_darcy_law.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
+#include "modules/pore_flow/linear_storage.hpp"
 #include "modules/pore_flow/make_flow.hpp"
+#include "modules/pore_flow/mobility.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
-#include "modules/pore_flow/pore_material.hpp"
+#include "modules/pore_flow/pore_gravity.hpp"
 #include "modules/pore_flow/smoothed_euler.hpp"
+#include "modules/pore_flow/tait_storage.hpp"
 
 namespace perifrac {
 
@@ -86,26 +90,79 @@ DarcyIntegratorMaker<D> read_integrator(const Section& section) {
   };
 }
 
+/// The flow in space, and the sources that its gradient spreads over the points near a face.
+template <int D>
+struct Discretisation {
+  std::unique_ptr<FlowOperator<D>> flow;
+  ScheduledVector sources{0};
+};
+
+template <int D, class Law>
+Discretisation<D> discretise(FlowScheme scheme, const Body<D>& body,
+                             const PoreBoundary<D>& boundary, Law law) {
+  const auto family = body.family(boundary.mirrored(), boundary.sealed_layers());
+  LinearExactOperator<D, Law> op(family, boundary.mirror_condition(*family), std::move(law));
+  Discretisation<D> made;
+  if (boundary.has_sources()) made.sources = boundary.sources(op.gradient_matrix());
+  made.flow = make_flow(scheme, std::move(op));
+  return made;
+}
+
+/// A scalar mobility that is the same everywhere stays the simple law that it is.
+template <int D>
+Discretisation<D> discretise(const Section& section, const Body<D>& body,
+                             const PoreBoundary<D>& boundary, const PoreFluid& fluid,
+                             std::vector<std::uint8_t> region) {
+  const std::vector<Tensor<D, D>> mobilities = read_mobilities<D>(section, fluid.viscosity);
+  const FlowScheme scheme = read_scheme(section);
+  if (scheme == FlowScheme::bond && std::ranges::any_of(mobilities, [](const auto& mobility) {
+        return isotropic_part<D>(mobility) < 0.0;
+      })) {
+    section.fail("operator", "'bond' cannot carry a permeability tensor", "conservative or nested");
+  }
+  const double scalar = isotropic_part<D>(mobilities[0]);
+  if (fluid.is_linear() && mobilities.size() == 1 && scalar >= 0.0) {
+    return discretise(scheme, body, boundary, DarcyLaw<D>{scalar});
+  }
+  LawByRegion<AnisotropicDarcyLaw<D>> law{.laws = {}, .law_of_point = std::move(region)};
+  for (const Tensor<D, D>& mobility : mobilities) law.laws.push_back({mobility});
+  if (fluid.is_linear()) return discretise(scheme, body, boundary, std::move(law));
+  std::vector<double> ones(law.law_of_point.size(), 1.0);
+  return discretise(scheme, body, boundary, ScaledDarcyLaw<D>{std::move(law), std::move(ones)});
+}
+
 template <int D>
 std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
-  const FlowScheme scheme = read_scheme(section);
-  if (scheme == FlowScheme::nested) check_nested(section, *body);
+  if (read_scheme(section) == FlowScheme::nested) check_nested(section, *body);
   const PoreBoundary<D> boundary = read_pore_boundary<D>(section, *body);
-  const PoreMaterial material = read_pore_material(section);
+  const PoreFluid fluid = read_pore_fluid(section);
+  std::vector<std::uint8_t> region = region_of_points<D>(section, body->regions(), body->points());
+  PoreMaterials materials{read_pore_materials(section, fluid), region};
+  Discretisation<D> space = discretise<D>(section, *body, boundary, fluid, std::move(region));
+  std::unique_ptr<PoreStorage> storage;
+  if (fluid.is_linear()) {
+    storage = std::make_unique<LinearStorage>(std::move(materials));
+  } else {
+    storage = std::make_unique<TaitStorage>(std::move(materials), fluid);
+  }
+  const auto mirror = boundary.mirror_condition(space.flow->family());
+  Eigen::VectorXd gravity;
+  if (const Vector<D> g = read_gravity<D>(section); g != Vector<D>{}) {
+    gravity = PoreGravity<D>(*body, g, fluid.density).values(mirror, boundary.pressure_layers());
+  }
   const auto family = body->family(boundary.mirrored(), boundary.sealed_layers());
-  const auto mirror = boundary.mirror_condition(*family);
-  LinearExactOperator<D, DarcyLaw<D>> op(family, mirror, DarcyLaw<D>{material.mobility});
-  Eigen::VectorXd sources;
-  if (boundary.has_sources()) sources = boundary.sources(op.gradient_matrix());
   const std::vector<HeldPoint> held = boundary.held_points(mirror);
-  DarcySystem<D> system(make_flow(scheme, std::move(op)), material, boundary.face_pressures(mirror),
-                        sources, held);
+  DarcySystem<D> system(std::move(space.flow), std::move(storage), fluid,
+                        boundary.face_pressures(mirror), std::move(space.sources), gravity, held);
   if (auto smoothing = read_smoothing(section, *body, family, mirror, held)) {
     system.set_smoothing(std::move(*smoothing));
   }
+  const auto initial_state = section.word("initial_state") == "hydrostatic"
+                                 ? InitialState::hydrostatic
+                                 : InitialState::uniform;
   return std::make_unique<DarcyFlow<D>>(body, std::move(system), section.number("initial_pressure"),
-                                        read_integrator<D>(section));
+                                        read_integrator<D>(section), initial_state);
 }
 
 KeyTable darcy_keys() {
@@ -146,9 +203,15 @@ KeyTable darcy_keys() {
       {.path = "initial_pressure",
        .unit = "Pa",
        .fallback = "0 Pa",
-       .meaning = "Uniform pore pressure at the start."},
+       .meaning = "Pore pressure at the start, if hydrostatic at the highest corner of the body."},
+      {.path = "initial_state",
+       .type = KeyType::word,
+       .fallback = "uniform",
+       .words = {"uniform", "hydrostatic"},
+       .meaning = "hydrostatic: the pressure grows downwards by the fluid's weight."},
   };
-  for (const KeyTable& part : {pore_material_keys(), pore_boundary_keys()}) {
+  for (const KeyTable& part :
+       {permeability_keys(), pore_material_keys(), pore_fluid_keys(), pore_boundary_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;

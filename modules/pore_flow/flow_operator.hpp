@@ -1,6 +1,8 @@
 #pragma once
 
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include <Eigen/SparseCore>
 
@@ -17,6 +19,13 @@ class FlowOperator {
 
   virtual const Family<D>& family() const = 0;
   virtual Index size() const = 0;
+
+  /// Multiplies the mobility of every point by a factor, from now on; for fluids whose density
+  /// changes. Throws std::logic_error where the operator was not made for it.
+  virtual void scale_mobility(std::span<const double> factor) {
+    throw std::logic_error("an operator of constant mobility, asked to scale it by " +
+                           std::to_string(factor.size()) + " factors");
+  }
 
   /// outflow = H p: volume that leaves every point per time, and that enters through every face
   /// value's faces [m^3/s, per metre in 2D].

@@ -18,6 +18,14 @@ class GradientFlow : public FlowOperator<D> {
   const Family<D>& family() const override { return operator_.family(); }
   Index size() const override { return operator_.size(); }
 
+  void scale_mobility(std::span<const double> factor) override {
+    if constexpr (requires(Law law) { law.factor; }) {
+      operator_.change_law([&](Law& law) { law.factor.assign(factor.begin(), factor.end()); });
+    } else {
+      FlowOperator<D>::scale_mobility(factor);
+    }
+  }
+
   void velocity(std::span<const double> p, std::span<double> velocity) override {
     operator_.gradient(p, velocity);
     const Index points = family().point_count;
@@ -30,18 +38,17 @@ class GradientFlow : public FlowOperator<D> {
   }
 
   Eigen::SparseMatrix<double> preconditioner() const override {
-    const std::vector<double> stiffness = bond_stiffness();
+    std::vector<double> stiffness(family().point_count);
+    find_bond_stiffness(stiffness);
     return bond_matrix(family(), operator_.mirror(), std::span<const double>(stiffness));
   }
 
  protected:
   /// s_i = D kappa_i / m_i of the flow on bonds alone, sum_i V_i s_i sum_j w_ij (p_j - p_i)^2 / 2.
-  std::vector<double> bond_stiffness() const {
-    std::vector<double> stiffness(family().point_count);
-    for (Index i = 0; i < family().point_count; ++i) {
+  void find_bond_stiffness(std::span<double> stiffness) const {
+    for_each_point(family().point_count, [&](Index i) {
       stiffness[i] = D * law_at(operator_.law(), i).mean_mobility() / operator_.weighted_volume(i);
-    }
-    return stiffness;
+    });
   }
 
   LinearExactOperator<D, Law> operator_;

@@ -4,8 +4,8 @@
 
 namespace perifrac {
 
-/// A point whose pressure is prescribed, because it lies in a bonded layer: that of a face value,
-/// or none where no fluid is in a sealed layer.
+/// A point whose pressure is prescribed, because it lies in a bonded layer: fluid rests in the
+/// layer at its face's pressure, or there is none in a sealed one.
 struct HeldPoint {
   Index point;
   int face_value;  ///< -1: dry

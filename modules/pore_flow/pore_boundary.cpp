@@ -8,6 +8,7 @@
 #include "core/geometry/face_conditions.hpp"
 #include "core/geometry/read_point.hpp"
 #include "core/operators/face_load.hpp"
+#include "modules/pore_flow/pore_gravity.hpp"
 
 namespace perifrac {
 
@@ -15,18 +16,18 @@ template <int D>
 PoreBoundary<D>::PoreBoundary(const Body<D>& body) : body_(&body), faces_(body.faces().size()) {}
 
 template <int D>
-void PoreBoundary<D>::pressure(int face, double pressure) {
-  faces_[face] = {Condition::pressure, pressure};
+void PoreBoundary<D>::pressure(int face, double pressure, Schedule schedule) {
+  faces_[face] = {Condition::pressure, pressure, std::move(schedule)};
 }
 
 template <int D>
-void PoreBoundary<D>::flux(int face, double inflow) {
-  faces_[face] = {Condition::flux, inflow};
+void PoreBoundary<D>::flux(int face, double inflow, Schedule schedule) {
+  faces_[face] = {Condition::flux, inflow, std::move(schedule)};
 }
 
 template <int D>
-void PoreBoundary<D>::source(Index point, double rate) {
-  sources_.emplace_back(point, rate);
+void PoreBoundary<D>::source(Index point, double rate, Schedule schedule) {
+  sources_.push_back({point, rate, std::move(schedule)});
 }
 
 template <int D>
@@ -49,6 +50,11 @@ FaceSet PoreBoundary<D>::sealed_layers() const {
 }
 
 template <int D>
+FaceSet PoreBoundary<D>::pressure_layers() const {
+  return faces_with(Condition::pressure, true);
+}
+
+template <int D>
 MirrorCondition<D, 1> PoreBoundary<D>::mirror_condition(const Family<D>& family) const {
   MirrorCondition<D, 1> mirror(family);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -59,16 +65,15 @@ MirrorCondition<D, 1> PoreBoundary<D>::mirror_condition(const Family<D>& family)
 
 template <int D>
 std::vector<HeldPoint> PoreBoundary<D>::held_points(const MirrorCondition<D, 1>& mirror) const {
-  constexpr int free = -2;
+  constexpr int dry = -1, free = -2;
   std::vector<int> held(body_->points().size(), free);
   int face_value = mirror.face_value_count();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const bool pressure = contains(faces_with(Condition::pressure, true), f);
-    if (!pressure && !contains(sealed_layers(), f)) continue;
     for (const Index i : body_->layer(f)) {
-      if (!pressure || held[i] == free) held[i] = pressure ? face_value : -1;
+      if (contains(sealed_layers(), f)) held[i] = dry;
+      if (contains(pressure_layers(), f) && held[i] == free) held[i] = face_value;
     }
-    face_value += pressure;
+    if (contains(pressure_layers(), f)) ++face_value;
   }
   std::vector<HeldPoint> points;
   for (std::size_t i = 0; i < held.size(); ++i) {
@@ -78,13 +83,14 @@ std::vector<HeldPoint> PoreBoundary<D>::held_points(const MirrorCondition<D, 1>&
 }
 
 template <int D>
-Eigen::VectorXd PoreBoundary<D>::face_pressures(const MirrorCondition<D, 1>& mirror) const {
-  const FaceSet layers = faces_with(Condition::pressure, true);
-  Eigen::VectorXd pressures(mirror.face_value_count() + std::popcount(layers));
+ScheduledVector PoreBoundary<D>::face_pressures(const MirrorCondition<D, 1>& mirror) const {
+  const int count = mirror.face_value_count() + std::popcount(pressure_layers());
   int layer_value = mirror.face_value_count();
+  ScheduledVector pressures(count);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const int value = contains(layers, f) ? layer_value++ : mirror.face_value(f, 0);
-    if (value >= 0) pressures[value] = faces_[f].value;
+    const int value = contains(pressure_layers(), f) ? layer_value++ : mirror.face_value(f, 0);
+    if (value < 0) continue;
+    pressures.add(faces_[f].schedule, faces_[f].value * Eigen::VectorXd::Unit(count, value));
   }
   return pressures;
 }
@@ -112,20 +118,24 @@ bool PoreBoundary<D>::has_sources() const {
 }
 
 template <int D>
-Eigen::VectorXd PoreBoundary<D>::sources(const Eigen::SparseMatrix<double>& gradient) const {
-  Eigen::VectorXd rate = Eigen::VectorXd::Zero(body_->points().size());
+ScheduledVector PoreBoundary<D>::sources(const Eigen::SparseMatrix<double>& gradient) const {
+  const Index points = body_->points().size();
+  ScheduledVector rate(points);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (faces_[f].condition != Condition::flux) continue;
-    rate += faces_[f].value * (body_->layer(f).empty()
-                                   ? face_load<D, 1>(*body_, gradient, mirrored(), f, 0)
-                                   : area_in_layer(f));
+    const bool layered = !body_->layer(f).empty();
+    rate.add(faces_[f].schedule,
+             faces_[f].value * (layered ? area_in_layer(f)
+                                        : face_load<D, 1>(*body_, gradient, mirrored(), f, 0)));
   }
-  for (const auto& [point, value] : sources_) rate[point] += value;
+  for (const auto& [point, value, schedule] : sources_) {
+    rate.add(schedule, value * Eigen::VectorXd::Unit(points, point));
+  }
   return rate;
 }
 
 KeyTable pore_boundary_keys() {
-  return {
+  KeyTable keys = {
       {.path = "boundary.*.type",
        .type = KeyType::word,
        .required = true,
@@ -136,11 +146,18 @@ KeyTable pore_boundary_keys() {
        .required = true,
        .when = "type=pressure",
        .meaning = "Pore pressure on the face."},
+      {.path = "boundary.*.hydrostatic",
+       .type = KeyType::boolean,
+       .fallback = "false",
+       .when = "type=pressure",
+       .meaning =
+           "The pressure is that of the highest place of the face and grows downwards by the "
+           "fluid's weight. Needed where gravity runs along the face."},
       {.path = "boundary.*.flux",
        .unit = "m/s",
        .required = true,
        .when = "type=flux",
-       .meaning = "Volume that enters per area and time; negative leaves."},
+       .meaning = "Volume that enters per area and time, at zero pressure; negative leaves."},
       {.path = "sources[].at",
        .type = KeyType::vector,
        .unit = "m",
@@ -149,20 +166,36 @@ KeyTable pore_boundary_keys() {
       {.path = "sources[].rate",
        .unit = "m^2/s|m^3/s",
        .required = true,
-       .meaning = "Volume that the source adds per time; negative takes out."},
+       .meaning = "Volume that the source adds per time, at zero pressure; negative takes out."},
   };
+  for (const KeyTable& part : {schedule_keys("boundary.*."), schedule_keys("sources[].")}) {
+    keys.insert(keys.end(), part.begin(), part.end());
+  }
+  return keys;
 }
 
 template <int D>
 PoreBoundary<D> read_pore_boundary(const Section& section, const Body<D>& body) {
   PoreBoundary<D> boundary(body);
+  const PoreGravity<D> gravity(body, read_gravity<D>(section), 1.0);
   for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
-    if (type == "pressure") boundary.pressure(face, section.number(path + ".pressure"));
-    if (type == "flux") boundary.flux(face, section.number(path + ".flux"));
+    const Schedule schedule = read_schedule(section, path);
+    if (type == "sealed" && !schedule.is_constant()) {
+      section.fail(path + ".schedule", "nothing to multiply on a sealed face",
+                   "type: pressure or flux");
+    }
+    if (type == "flux") boundary.flux(face, section.number(path + ".flux"), schedule);
+    if (type != "pressure") continue;
+    boundary.pressure(face, section.number(path + ".pressure"), schedule);
+    if (!section.boolean(path + ".hydrostatic") && !gravity.crosses(face)) {
+      section.fail(path, "a uniform pressure on a face along which gravity runs",
+                   "hydrostatic: true");
+    }
   }
   for (std::size_t n = 0; n < section.count("sources"); ++n) {
     const std::string item = fmt::format("sources[{}]", n);
-    boundary.source(read_point<D>(section, item + ".at", body), section.number(item + ".rate"));
+    boundary.source(read_point<D>(section, item + ".at", body), section.number(item + ".rate"),
+                    read_schedule(section, item));
   }
   return boundary;
 }

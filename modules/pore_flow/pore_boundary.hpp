@@ -7,6 +7,7 @@
 #include "core/config/section.hpp"
 #include "core/geometry/body.hpp"
 #include "core/operators/mirror_condition.hpp"
+#include "core/time/scheduled_vector.hpp"
 #include "modules/pore_flow/held_point.hpp"
 
 namespace perifrac {
@@ -20,25 +21,26 @@ class PoreBoundary {
   explicit PoreBoundary(const Body<D>& body);
 
   /// Prescribes the pressure of a face [Pa].
-  void pressure(int face, double pressure);
+  void pressure(int face, double pressure, Schedule schedule = {});
   /// Prescribes the volume that enters through a face per area and time [m/s].
-  void flux(int face, double inflow);
+  void flux(int face, double inflow, Schedule schedule = {});
   /// Adds fluid at a point [m^3/s, per metre in 2D].
-  void source(Index point, double rate);
+  void source(Index point, double rate, Schedule schedule = {});
 
   /// A sealed face mirrors evenly, one of prescribed pressure oddly. A face with inflow is none: an
   /// even image has no slope there, a linear field would not be exact. Nor is one with a layer.
   FaceSet mirrored() const;
   /// Sealed faces with a layer.
   FaceSet sealed_layers() const;
+  /// Faces with a layer that holds their pressure.
+  FaceSet pressure_layers() const;
   MirrorCondition<D, 1> mirror_condition(const Family<D>& family) const;
   /// In order of points; a sealed layer has its points before another that shares them.
   std::vector<HeldPoint> held_points(const MirrorCondition<D, 1>& mirror) const;
-  /// Prescribed pressures, by face value, then of the layers that hold one [Pa].
-  Eigen::VectorXd face_pressures(const MirrorCondition<D, 1>& mirror) const;
-  /// Volume per time that inflow and sources bring to every point [m^3/s, per metre in 2D];
-  /// empty where there are none.
-  Eigen::VectorXd sources(const Eigen::SparseMatrix<double>& gradient) const;
+  /// Prescribed pressures, by face value, then of pressure_layers() [Pa].
+  ScheduledVector face_pressures(const MirrorCondition<D, 1>& mirror) const;
+  /// Volume per time that inflow and sources bring to every point [m^3/s, per metre in 2D].
+  ScheduledVector sources(const Eigen::SparseMatrix<double>& gradient) const;
   bool has_sources() const;
 
  private:
@@ -46,14 +48,21 @@ class PoreBoundary {
   FaceSet faces_with(Condition condition, bool layered) const;
   /// The face's area, shared by the points of its layer by volume [m^2, m in 2D].
   Eigen::VectorXd area_in_layer(int face) const;
+
   struct FaceState {
     Condition condition = Condition::sealed;
     double value = 0.0;
+    Schedule schedule{};
+  };
+  struct Source {
+    Index point;
+    double rate;
+    Schedule schedule;
   };
 
   const Body<D>* body_;
   std::vector<FaceState> faces_;
-  std::vector<std::pair<Index, double>> sources_;
+  std::vector<Source> sources_;
 };
 
 /// The keys of `boundary` and `sources` in the section of pore flow.

@@ -2,34 +2,50 @@
 
 #include <fmt/format.h>
 
+#include "modules/pore_flow/region_path.hpp"
+
 namespace perifrac {
 
-PoreMaterial read_pore_material(const Section& section) {
-  const double alpha = section.number("biot_coefficient");
-  const double porosity = section.number("porosity");
-  if (porosity > alpha) {
-    section.fail("porosity",
+namespace {
+
+PoreMaterial read_material(const Section& section, const PoreFluid& fluid,
+                           const std::string& region) {
+  const std::string porosity_path = path_in_region(section, region, "porosity");
+  const std::string alpha_path = path_in_region(section, region, "biot_coefficient");
+  const std::string grain_path = path_in_region(section, region, "grain_bulk_modulus");
+  PoreMaterial material{.biot_coefficient = section.number(alpha_path),
+                        .porosity = section.number(porosity_path),
+                        .grain_storage = 0.0,
+                        .storage = 0.0};
+  const double alpha = material.biot_coefficient, porosity = material.porosity;
+  if (porosity > alpha && porosity_path.starts_with(region)) {
+    section.fail(porosity_path,
                  fmt::format("{:g} is above the Biot coefficient, {:g}", porosity, alpha),
                  "a porosity at most biot_coefficient");
   }
-  PoreMaterial material{};
-  material.biot_coefficient = alpha;
-  material.storage = porosity / section.number("fluid.bulk_modulus");
-  if (section.has("grain_bulk_modulus")) {
-    material.storage += (alpha - porosity) / section.number("grain_bulk_modulus");
+  if (porosity > alpha) {
+    section.fail(alpha_path, fmt::format("{:g} is below the porosity, {:g}", alpha, porosity),
+                 "a Biot coefficient at least porosity");
   }
-  material.mobility = section.number("permeability") / section.number("fluid.viscosity");
-  material.fluid_density = section.number("fluid.density");
+  if (section.has(grain_path)) {
+    material.grain_storage = (alpha - porosity) / section.number(grain_path);
+  }
+  material.storage = porosity / fluid.bulk_modulus + material.grain_storage;
   return material;
+}
+
+}  // namespace
+
+std::vector<PoreMaterial> read_pore_materials(const Section& section, const PoreFluid& fluid) {
+  std::vector<PoreMaterial> materials;
+  for (const std::string& region : region_prefixes(section)) {
+    materials.push_back(read_material(section, fluid, region));
+  }
+  return materials;
 }
 
 KeyTable pore_material_keys() {
   return {
-      {.path = "permeability",
-       .unit = "m^2",
-       .range = "[0, inf)",
-       .required = true,
-       .meaning = "Intrinsic permeability."},
       {.path = "biot_coefficient",
        .range = "(0, 1]",
        .fallback = "1",
@@ -42,21 +58,16 @@ KeyTable pore_material_keys() {
        .unit = "Pa",
        .range = "(0, inf)",
        .meaning = "Bulk modulus of the grains; incompressible where left out."},
-      {.path = "fluid.bulk_modulus",
+      {.path = "regions.*.biot_coefficient",
+       .range = "(0, 1]",
+       .meaning = "In a region of the body; as outside it where left out."},
+      {.path = "regions.*.porosity",
+       .range = "(0, 1)",
+       .meaning = "In a region of the body; as outside it where left out."},
+      {.path = "regions.*.grain_bulk_modulus",
        .unit = "Pa",
        .range = "(0, inf)",
-       .required = true,
-       .meaning = "Bulk modulus of the pore fluid."},
-      {.path = "fluid.viscosity",
-       .unit = "Pa s",
-       .range = "(0, inf)",
-       .required = true,
-       .meaning = "Dynamic viscosity of the pore fluid."},
-      {.path = "fluid.density",
-       .unit = "kg/m^3",
-       .range = "(0, inf)",
-       .fallback = "1000 kg/m^3",
-       .meaning = "Density of the pore fluid, for the mass ledger."},
+       .meaning = "In a region of the body; as outside it where left out."},
   };
 }
 

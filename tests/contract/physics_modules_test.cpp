@@ -21,6 +21,9 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
   return nullptr;
 }
 
+/// The nested operator takes no inflow at a face.
+const std::string nested_left = "pore_flow.boundary.left={type: sealed}";
+
 struct Variant {
   std::string type;  ///< as registered, `physics/type`
   ModuleCase contract;
@@ -47,8 +50,28 @@ const std::vector<Variant>& variants() {
               {"pore_flow.integrator.linear_solver=krylov"}),
       variant("darcy_explicit", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.integrator.type=explicit"}),
+      variant("darcy_bond", "pore_flow/darcy", box_2d + darcy, {"pore_flow.operator=bond"}),
+      variant("darcy_nested_krylov", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.operator=nested", "pore_flow.nested.smoothing=none",
+               "pore_flow.integrator.linear_solver=krylov", nested_left}),
+      variant("darcy_nested_smoothed", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.operator=nested", "pore_flow.integrator.type=explicit", nested_left}),
       variant("darcy_with_well", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.sources=[{at: [3 m, 3 m], rate: 1 cm^2/s}]"}),
+      variant("darcy_regions", "pore_flow/darcy", box_2d + darcy,
+              {"body.regions={upper: {from: [0 m, 6 m]}}",
+               "pore_flow.regions={upper: {permeability_tensor: [2e-12 m^2, 1e-12 m^2, 5e-13 m^2], "
+               "porosity: 0.1, biot_coefficient: 0.5}}"}),
+      variant("darcy_gravity", "pore_flow/darcy", box_2d + darcy,
+              {"gravity=[0 m/s^2, -9.81 m/s^2]", "pore_flow.boundary.right.hydrostatic=true"}),
+      variant("darcy_schedule", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.boundary.right.schedule={ramp: 5 ms}",
+               "pore_flow.boundary.left.schedule={times: [2 ms, 13 ms], factors: [1, -1]}"}),
+      variant("darcy_tait", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.fluid.equation_of_state=tait"}),
+      variant("darcy_tait_explicit", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.fluid.equation_of_state=tait", "pore_flow.fluid.bulk_modulus=22 MPa",
+               "pore_flow.integrator.type=explicit"}),
   };
   return all;
 }

@@ -159,12 +159,32 @@ TEST(FlowInLayers, HoldALinearPressureToTheFirstCentres) {
   }
 }
 
+TEST(FlowInLayers, AreDryWhereTheyAreSealed) {
+  for (const Method method : methods) {
+    const auto body = test::body_with_layer_on_top<2>({8, 9}, 0.5);
+    PoreBoundary<2> boundary(*body);
+    boundary.pressure(2, 0.6);
+    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.2,
+                      test::integrator_maker<2>(method, 1e-6));
+    flow.initialize(0.0);
+    const double before = scalar(flow, "pore_fluid_mass");
+    flow.advance({0.0, 100.0});
+    const auto p = test::port(flow, "pore_pressure").value;
+    for (Index i = 0; i < body->points().size(); ++i) {
+      const bool dry = body->points().position[1][i] > 4.5;
+      EXPECT_NEAR(p[i], dry ? 0.0 : 0.6, dry ? 0.0 : 1e-4);
+    }
+    const double gained = scalar(flow, "pore_fluid_gained");
+    EXPECT_NEAR(scalar(flow, "pore_fluid_mass") - before, gained, 1e-12 * gained);
+  }
+}
+
 TEST(FlowInLayers, ShareTheInflowThroughTheirFace) {
   const auto body = test::body_with_layer_on_top<3>({6, 5, 7}, 0.5);
   PoreBoundary<3> boundary(*body);
   boundary.flux(5, 0.14);
   ASSERT_TRUE(boundary.has_sources());
-  const Eigen::VectorXd sources = boundary.sources({});
+  const Eigen::VectorXd sources = boundary.sources({}).at(0.0);
   EXPECT_NEAR(sources.sum(), 0.14 * 3.0 * 2.5, 1e-14);
   double in_layer = 0.0;
   for (const Index i : body->layer(5)) in_layer += sources[i];

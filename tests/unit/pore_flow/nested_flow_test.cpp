@@ -95,8 +95,7 @@ class Column {
     const auto family = body_->family(cut ? 0 : boundary.mirrored());
     const MirrorCondition<2, 1> mirror(*family);
     LinearExactOperator<2, DarcyLaw<2>> op(family, mirror, {test::some_rock.mobility});
-    DarcySystem<2> system(make_flow(FlowScheme::nested, std::move(op)), test::some_rock,
-                          boundary.face_pressures(mirror), {}, boundary.held_points(mirror));
+    auto system = test::darcy_system(boundary, FlowScheme::nested, std::move(op), test::some_rock);
     if (stepping == Stepping::smoothed) {
       std::vector<Index> points = points_near_faces(*body_);
       std::erase_if(points, [&](Index i) { return body_->points().position[1][i] > 1.0; });

@@ -9,6 +9,7 @@
 #include "core/time/forward_euler.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
+#include "modules/pore_flow/linear_storage.hpp"
 #include "modules/pore_flow/make_flow.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "modules/pore_flow/smoothed_euler.hpp"
@@ -16,7 +17,14 @@
 
 namespace perifrac::test {
 
-constexpr PoreMaterial some_rock{
+struct Rock {
+  double biot_coefficient;
+  double storage;
+  double mobility;
+  double fluid_density;
+};
+
+constexpr Rock some_rock{
     .biot_coefficient = 0.8, .storage = 0.3, .mobility = 0.7, .fluid_density = 1.5};
 
 template <int D>
@@ -27,16 +35,30 @@ LinearExactOperator<D, DarcyLaw<D>> flow_operator(const Body<D>& body,
   return {family, boundary.mirror_condition(*family), DarcyLaw<D>{mobility}};
 }
 
+/// The equations of a rock that is the same everywhere.
+template <int D>
+DarcySystem<D> darcy_system(const PoreBoundary<D>& boundary, FlowScheme scheme,
+                            LinearExactOperator<D, DarcyLaw<D>> flow, const Rock& rock) {
+  const std::vector<HeldPoint> held = boundary.held_points(flow.mirror());
+  const ScheduledVector pressures = boundary.face_pressures(flow.mirror());
+  ScheduledVector sources(0);
+  if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
+  PoreMaterials materials{{{rock.biot_coefficient, 0.2, 0.0, rock.storage}},
+                          std::vector<std::uint8_t>(flow.family().point_count, 0)};
+  return {make_flow(scheme, std::move(flow)),
+          std::make_unique<LinearStorage>(std::move(materials)),
+          PoreFluid{.bulk_modulus = 1.0, .viscosity = 1.0, .density = rock.fluid_density},
+          pressures,
+          sources,
+          {},
+          held};
+}
+
 template <int D>
 DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary,
-                            const PoreMaterial& material = some_rock,
+                            const Rock& rock = some_rock,
                             FlowScheme scheme = FlowScheme::conservative) {
-  auto flow = flow_operator<D>(body, boundary, material.mobility);
-  const Eigen::VectorXd pressures = boundary.face_pressures(flow.mirror());
-  const std::vector<HeldPoint> held = boundary.held_points(flow.mirror());
-  Eigen::VectorXd sources;
-  if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
-  return {make_flow(scheme, std::move(flow)), material, pressures, sources, held};
+  return darcy_system(boundary, scheme, flow_operator<D>(body, boundary, rock.mobility), rock);
 }
 
 constexpr std::array schemes = {FlowScheme::conservative, FlowScheme::bond, FlowScheme::nested};
@@ -49,18 +71,8 @@ inline const char* name_of(FlowScheme scheme) {
 /// A box on a lattice whose last face, at the top, has a bonded layer behind it.
 template <int D>
 std::shared_ptr<const Body<D>> body_with_layer_on_top(const std::array<int, D>& counts,
-                                                      double spacing, double horizon_ratio = 2.5) {
-  std::array<int, D> all = counts;
-  all[D - 1] += static_cast<int>(std::ceil(horizon_ratio));
-  Points<D> points = box_lattice<D>(all, spacing);
-  std::vector<std::vector<Index>> layers(2 * D);
-  for (Index i = 0; i < points.size(); ++i) {
-    if (points.position[D - 1][i] > counts[D - 1] * spacing) layers.back().push_back(i);
-  }
-  auto body = std::make_shared<Body<D>>(std::move(points), box_faces<D>(counts, spacing), spacing,
-                                        horizon_ratio * spacing, InfluenceFunction::gaussian);
-  body->set_layers(std::move(layers));
-  return body;
+                                                      double spacing) {
+  return layered_body<D>(counts, spacing, face_bit(2 * D - 1));
 }
 
 /// A column of height 1, of pressure 1 at the start, drained at z = 1 and sealed at z = 0:

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "modules/pore_flow/pore_material.hpp"
+
+namespace perifrac {
+
+/// The dilatation that pore flow is told for a window: at time t and pore stress x it is
+/// value + rate (t - end) + slope x. Empty spans: no dilatation at all.
+struct DilatationInput {
+  std::span<const double> value{};
+  std::span<const double> rate{};
+  std::span<const double> slope{};
+  double end = 0.0;
+
+  /// What does not answer the pore stress.
+  double at(Index i, double t) const {
+    return value.empty() ? 0.0 : value[i] + (t - end) * rate[i];
+  }
+};
+
+/// How the fluid content zeta of every point, its pressure and its dilatation belong together.
+/// zeta is the fluid gained per volume of rock, as volume at zero pressure.
+class PoreStorage {
+ public:
+  explicit PoreStorage(PoreMaterials materials) : materials_(std::move(materials)) {}
+  virtual ~PoreStorage() = default;
+
+  const PoreMaterials& materials() const { return materials_; }
+
+  /// Takes the input of the next window; spans must stay valid. True where its slope is another.
+  virtual bool set_dilatation(const DilatationInput& input) = 0;
+
+  /// Pressure p at fluid content zeta [Pa].
+  virtual void pressure(double t, std::span<const double> zeta, std::span<double> p) const = 0;
+
+  /// d(zeta)/d(potential) [1/Pa] with the dilatation's answer; see PoreFluid::potential(). Of the
+  /// rock at rest where zeta is empty. Valid until the next call.
+  virtual std::span<const double> effective_storage(double t, std::span<const double> zeta) = 0;
+
+  /// zeta of point i at pressure p [Pa] and no dilatation.
+  virtual double content(Index i, double p) const = 0;
+
+  /// zeta of point i at pressure p [Pa] and the window's dilatation at time t, its answer included.
+  virtual double content(double t, Index i, double p) const = 0;
+
+  /// d(pore stress)/d(dilatation) of point i [Pa] while no fluid moves.
+  virtual double undrained_slope(Index i, double zeta, double p) const = 0;
+
+  /// Energy of point i per volume of rock [J/m^3]: its rates are potential d(zeta) - pore stress
+  /// d(dilatation).
+  virtual double energy(Index i, double zeta, double p) const = 0;
+
+ private:
+  PoreMaterials materials_;
+};
+
+}  // namespace perifrac
