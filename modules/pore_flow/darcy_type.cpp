@@ -176,12 +176,6 @@ KeyTable darcy_keys() {
            "conservative: bond fluxes, equal and opposite; stable, fourth order inside. bond: "
            "one flux a bond, first order at no-flux surfaces. nested: the paper's divergence "
            "of velocities, unstable at cut surfaces, for comparison only."},
-      {.path = "nested.smoothing",
-       .type = KeyType::word,
-       .fallback = "boundary",
-       .words = {"none", "boundary", "everywhere"},
-       .meaning = "nested: points whose pressure is averaged over their neighbours after each "
-                  "explicit step; boundary: within a horizon of a face."},
       {.path = "integrator.type",
        .type = KeyType::word,
        .fallback = "cvode",
@@ -214,6 +208,13 @@ KeyTable darcy_keys() {
        {permeability_keys(), pore_material_keys(), pore_fluid_keys(), pore_boundary_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
+  keys.push_back({.path = "nested.smoothing",
+                  .type = KeyType::word,
+                  .fallback = "boundary",
+                  .words = {"none", "boundary", "everywhere"},
+                  .meaning =
+                      "nested: points whose pressure is averaged over their neighbours after each "
+                      "explicit step; boundary: within a horizon of a face."});
   return keys;
 }
 
