@@ -71,6 +71,8 @@ std::vector<LedgerColumn> Ledger::columns() const {
     columns.push_back({"fluid_mass_stored", unit, mass->stored});
     columns.push_back({"fluid_mass_gained", unit, mass->gained});
     columns.push_back({"fluid_mass_error", "1", mass->relative_error});
+    const Total artificial = total(modules_, PortRole::mass_artificial);
+    if (artificial.ports > 0) columns.push_back({"fluid_mass_artificial", unit, artificial.sum});
   }
   if (const auto energy = this->energy()) {
     const std::string unit = total(modules_, PortRole::energy_stored).unit;

@@ -28,7 +28,8 @@ struct LedgerColumn {
 };
 
 /// Adds up what modules say on their ports of the roles mass_* and energy_*. A quantity that no
-/// module stores has no balance and no columns.
+/// module stores has no balance and no columns. What numerical measures made has a column of its
+/// own; the error holds it too.
 class Ledger {
  public:
   explicit Ledger(std::span<ModuleSlot> modules) : modules_(modules) {}

@@ -19,6 +19,7 @@ enum class PortRole {
   field,              ///< a quantity on points
   mass_stored,        ///< fluid mass held now [kg], one value
   mass_gained,        ///< fluid mass taken in through boundaries and sources since the start [kg]
+  mass_artificial,    ///< fluid mass that a numerical measure made [kg]: shown, never excused
   energy_stored,      ///< [J]
   energy_gained,      ///< work done on the system from outside since the start [J]
   energy_dissipated,  ///< turned into heat since the start [J]

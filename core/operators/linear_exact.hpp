@@ -60,6 +60,7 @@ class LinearExactOperator {
   const Family<D>& family() const { return *family_; }
   const MirrorCondition<D, R>& mirror() const { return mirror_; }
   const Law& law() const { return law_; }
+  const FamilyMoments<D>& moments() const { return moments_; }
   /// Takes another law on the same bonds, as change(law) makes it of the present one.
   template <class Change>
   void change_law(Change&& change) {

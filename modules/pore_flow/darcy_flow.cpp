@@ -28,6 +28,7 @@ const std::vector<Port>& darcy_ports(int dimension) {
         count("newton_iterations"),
         count("matrix_set_ups"),
         count("linear_iterations"),
+        total("artificial_fluid_mass", "kg", PortRole::mass_artificial),
     };
   };
   static const std::vector<Port> in_2d = make(2), in_3d = make(3);
@@ -50,7 +51,7 @@ DarcyFlow<D>::DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> syst
 
 template <int D>
 std::span<const Port> DarcyFlow<D>::ports() const {
-  return darcy_ports(D);
+  return std::span(darcy_ports(D)).first(system_->smooths() ? port_count : artificial_mass);
 }
 
 template <int D>
@@ -75,7 +76,7 @@ PortView DarcyFlow<D>::port(PortId id) {
       return {points, velocity_};
     default: {
       double& value = scalars_[id - mass_stored];
-      value = id < integrator_steps ? scalar(id) : work(id);
+      value = id < integrator_steps || id == artificial_mass ? scalar(id) : work(id);
       return {&whole_body, {&value, 1}};
     }
   }
@@ -96,6 +97,11 @@ void DarcyFlow<D>::initialize(double t) {
     }
     unknowns_[i] = system_->storage().content(i, pressure_[i]);
     pore_stress_slope_[i] = system_->storage().undrained_slope(i, unknowns_[i], pressure_[i]);
+  }
+  for (const HeldPoint& held : system_->held_points()) {
+    pressure_[held.point] = system_->held_pressure(t, held);
+    unknowns_[held.point] = system_->storage().content(held.point, pressure_[held.point]);
+    pore_stress_slope_[held.point] = 0.0;
   }
   update_pore_stress();
   restart_integrator_ = true;
@@ -121,6 +127,7 @@ double DarcyFlow<D>::advance(const TimeWindow& window) {
 /// In parts between which schedules are smooth: no step, and no history, goes across a kink.
 template <int D>
 void DarcyFlow<D>::integrate(const TimeWindow& window) {
+  system_->lead_held_points(window, unknowns_);
   double begin = window.begin;
   const auto up_to = [&](double end) {
     if (restart_integrator_) integrator_->reset(begin, unknowns_);
@@ -146,6 +153,7 @@ void DarcyFlow<D>::update_pore_stress() {
   for (Index i = 0; i < system_->points(); ++i) {
     pore_stress_slope_[i] = storage.undrained_slope(i, unknowns_[i], pressure_[i]);
   }
+  for (const HeldPoint& held : system_->held_points()) pore_stress_slope_[held.point] = 0.0;
 }
 
 template <int D>
@@ -163,6 +171,8 @@ double DarcyFlow<D>::scalar(PortId id) const {
       return system_->stored_energy(unknowns_, pressure_);
     case energy_gained:
       return system_->gained_energy(unknowns_);
+    case artificial_mass:
+      return density * unknowns_.back();
     default:
       return system_->dissipated_energy(unknowns_);
   }

@@ -24,7 +24,8 @@ enum class InitialState { uniform, hydrostatic };
 /// Ports: in `dilatation`; out `pore_pressure` [Pa], `pore_stress` (alpha p) with its undrained
 /// slope d(pore_stress)/d(dilatation) [Pa], `fluid_content`, `darcy_velocity` [m/s], and for the
 /// ledger `pore_fluid_mass`, `pore_fluid_gained` [kg], `pore_fluid_energy`, `pore_fluid_work`,
-/// `darcy_dissipation` [J] (per metre in 2D).
+/// `darcy_dissipation` [J] (per metre in 2D); `artificial_fluid_mass` [kg] where pressures are
+/// smoothed.
 template <int D>
 class DarcyFlow final : public PhysicsModule {
  public:
@@ -57,6 +58,7 @@ class DarcyFlow final : public PhysicsModule {
     newton_iterations,
     matrix_set_ups,
     linear_iterations,
+    artificial_mass,  ///< only where pressures are smoothed
     port_count
   };
 

@@ -18,6 +18,7 @@ template <int D>
 void DarcyNewtonMatrix<D>::set_up(double t, std::span<const double> y, double gamma) {
   gamma_ = gamma;
   matrix_.coeffs() = gamma * flow_.coeffs();
+  for (const HeldPoint& held : system_.held_points()) uncouple(held.point);
   const std::span<const double> storage = system_.effective_storage(t, y);
   for (Index i = 0; i < system_.points(); ++i) {
     matrix_.coeffRef(i, i) += system_.volume()[i] * storage[i];
@@ -30,6 +31,7 @@ void DarcyNewtonMatrix<D>::solve(std::span<const double> r, std::span<double> so
   const Index points = system_.points();
   const std::vector<double>& volume = system_.volume();
   for (Index i = 0; i < points; ++i) right_side_[i] = volume[i] * r[i];
+  for (const HeldPoint& held : system_.held_points()) right_side_[held.point] = 0.0;
   factor_.solve(right_side_, pressure_);
   outflow_.noalias() = flow_ * pressure_;
   face_outflow_.noalias() = face_flow_ * pressure_;
@@ -37,6 +39,18 @@ void DarcyNewtonMatrix<D>::solve(std::span<const double> r, std::span<double> so
   std::copy(r.begin() + points, r.end(), solution.begin() + points);
   for (Index f = 0; f < face_outflow_.size(); ++f) {
     solution[points + f] += gamma_ * face_outflow_[f];
+  }
+  for (const auto& [i, face_value] : system_.held_points()) {
+    if (face_value >= 0) solution[points + face_value] += gamma_ * outflow_[i];
+    solution[i] = r[i];
+  }
+}
+
+template <int D>
+void DarcyNewtonMatrix<D>::uncouple(Index i) {
+  for (typename Eigen::SparseMatrix<double>::InnerIterator entry(flow_, i); entry; ++entry) {
+    matrix_.coeffRef(entry.row(), i) = 0.0;
+    matrix_.coeffRef(i, entry.row()) = 0.0;
   }
 }
 

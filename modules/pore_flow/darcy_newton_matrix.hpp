@@ -29,6 +29,9 @@ class DarcyNewtonMatrix final : public NewtonMatrix {
   void solve(std::span<const double> r, std::span<double> solution) override;
 
  private:
+  /// Leaves nothing in the matrix's row and column of a point whose pressure is held.
+  void uncouple(Index i);
+
   DarcySystem<D>& system_;
   Method method_;
   Eigen::SparseMatrix<double> flow_;       ///< H or what stands in for it

@@ -14,13 +14,15 @@ template <int D>
 DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow,
                             std::unique_ptr<PoreStorage> storage, PoreFluid fluid,
                             ScheduledVector face_pressures, ScheduledVector sources,
-                            Eigen::VectorXd gravity)
+                            Eigen::VectorXd gravity, std::vector<HeldPoint> held)
     : flow_(std::move(flow)),
       storage_(std::move(storage)),
       fluid_(fluid),
       face_pressures_(std::move(face_pressures)),
       sources_(std::move(sources)),
       gravity_(std::move(gravity)),
+      held_(std::move(held)),
+      held_rate_(held_.size(), 0.0),
       points_(flow_->family().point_count),
       face_potential_(face_pressures_.size()),
       source_rate_(sources_.size()),
@@ -52,6 +54,7 @@ std::string DarcySystem<D>::place(std::size_t unknown) const {
   const std::size_t faces = face_potential_.size();
   if (accumulated < faces) return "the volume that came in through a face";
   if (accumulated == faces) return "the energy dissipated";
+  if (smooths() && unknown + 1 == size()) return "the volume that smoothing made";
   return accumulated == faces + 1 ? "the energy brought" : "the volume of the sources";
 }
 
@@ -61,8 +64,49 @@ void DarcySystem<D>::set_dilatation(const DilatationInput& input) {
 }
 
 template <int D>
-void DarcySystem<D>::pressure(double t, std::span<const double> y, std::span<double> p) const {
+double DarcySystem<D>::held_pressure(double t, const HeldPoint& held) {
+  if (held.face_value < 0) return 0.0;
+  if (!face_pressures_.is_constant()) find_face_potential(t);
+  return fluid_.pressure_of(face_potential_[held.face_value] - gravity(held.point));
+}
+
+template <int D>
+void DarcySystem<D>::lead_held_points(const TimeWindow& window, std::span<const double> y) {
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const auto [i, face_value] = held_[k];
+    if (face_value < 0) continue;
+    const double content = storage_->content(window.end, i, held_pressure(window.end, held_[k]));
+    held_rate_[k] = (content - y[i]) / window.length();
+  }
+}
+
+template <int D>
+void DarcySystem<D>::set_smoothing(PressureSmoothing<D> smoothing) {
+  smoothing_ = std::move(smoothing);
+  smoothed_.resize(smoothing_->points().size());
+}
+
+template <int D>
+void DarcySystem<D>::smooth(double t, std::span<double> y) {
+  pressure(t, y, potential_);
+  const Eigen::VectorXd faces = face_pressures_.at(t);
+  std::copy_n(faces.data(), mirrored_faces(), potential_.begin() + points_);
+  smoothing_->apply(potential_, smoothed_);
+  const auto points = smoothing_->points();
+  double made = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Index i = points[k];
+    const double change = storage_->content(t, i, smoothed_[k]) - y[i];
+    y[i] += change;
+    made += volume()[i] * change;
+  }
+  y.back() += made;
+}
+
+template <int D>
+void DarcySystem<D>::pressure(double t, std::span<const double> y, std::span<double> p) {
   storage_->pressure(t, y.first(points_), p);
+  for (const HeldPoint& held : held_) p[held.point] = held_pressure(t, held);
 }
 
 template <int D>
@@ -90,7 +134,7 @@ void DarcySystem<D>::scale_mobility(std::span<const double> p) {
 template <int D>
 void DarcySystem<D>::pressure_to_potential(double t) {
   if (!face_pressures_.is_constant()) find_face_potential(t);
-  std::copy_n(face_potential_.data(), face_potential_.size(), potential_.begin() + points_);
+  std::copy_n(face_potential_.data(), mirrored_faces(), potential_.begin() + points_);
   if (!fluid_.is_linear()) {
     scale_mobility(std::span(potential_).first(points_));
     for_each_point(points_, [&](Index i) { potential_[i] = fluid_.potential(potential_[i]); });
@@ -112,7 +156,8 @@ void DarcySystem<D>::rhs(double t, std::span<const double> y, std::span<double> 
   double dissipated = 0.0, brought = 0.0;
   for (std::size_t k = 0; k < potential_.size(); ++k) dissipated += potential_[k] * outflow_[k];
   const std::span<double> accumulated = dydt.subspan(points_);
-  std::copy_n(outflow_.begin() + points_, faces, accumulated.begin());
+  std::fill_n(accumulated.begin(), faces, 0.0);
+  std::copy_n(outflow_.begin() + points_, mirrored_faces(), accumulated.begin());
   accumulated[faces] = dissipated;
   if (has_sources()) {
     if (brings_volume()) sources_.at(t, source_rate_);
@@ -121,11 +166,17 @@ void DarcySystem<D>::rhs(double t, std::span<const double> y, std::span<double> 
       brought += source_rate_[i] * potential_[i];
     }
   }
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const auto [i, face_value] = held_[k];
+    if (face_value >= 0) accumulated[face_value] += v[i] * (held_rate_[k] - dydt[i]);
+    dydt[i] = held_rate_[k];
+  }
   if (!face_pressures_.is_constant()) {
     for (std::size_t f = 0; f < faces; ++f) brought += face_potential_[f] * accumulated[f];
   }
   if (brings_energy()) accumulated[faces + 1] = brought;
   if (brings_volume()) accumulated[faces + 2] = source_rate_.sum();
+  if (smooths()) accumulated.back() = 0.0;
 }
 
 template <int D>
@@ -139,11 +190,16 @@ void DarcySystem<D>::jacobian_times(double t, std::span<const double> y, std::sp
   const std::span<const double> storage = effective_storage(t, y);
   for (Index i = 0; i < points_; ++i) potential_[i] = v[i] / storage[i];
   std::fill(potential_.begin() + points_, potential_.end(), 0.0);
+  for (const HeldPoint& held : held_) potential_[held.point] = 0.0;
   flow_->apply(potential_, outflow_);
   for (Index i = 0; i < points_; ++i) product[i] = -outflow_[i] / volume()[i];
   // Energies follow the flow and nothing follows them: their rows may be left out.
   std::ranges::fill(product.subspan(points_), 0.0);
-  std::copy_n(outflow_.begin() + points_, face_potential_.size(), product.begin() + points_);
+  std::copy_n(outflow_.begin() + points_, mirrored_faces(), product.begin() + points_);
+  for (const auto& [i, face_value] : held_) {
+    if (face_value >= 0) product[points_ + face_value] += outflow_[i];
+    product[i] = 0.0;
+  }
 }
 
 template <int D>
@@ -172,6 +228,9 @@ void DarcySystem<D>::magnitudes(double t, std::span<const double> y, std::span<d
   const std::span<const double> storage = effective_storage(t, y);
   for (Index i = 0; i < points_; ++i) magnitude[i] = storage[i] * largest;
   std::ranges::fill(magnitude.subspan(points_), std::numeric_limits<double>::infinity());
+  for (const HeldPoint& held : held_) {
+    magnitude[held.point] = std::numeric_limits<double>::infinity();
+  }
 }
 
 template <int D>

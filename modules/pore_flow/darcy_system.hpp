@@ -1,15 +1,19 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/module/time_window.hpp"
 #include "core/time/ode_system.hpp"
 #include "core/time/scheduled_vector.hpp"
 #include "modules/pore_flow/flow_operator.hpp"
+#include "modules/pore_flow/held_point.hpp"
 #include "modules/pore_flow/pore_storage.hpp"
+#include "modules/pore_flow/pressure_smoothing.hpp"
 
 namespace perifrac {
 
@@ -21,10 +25,14 @@ namespace perifrac {
 /// gained per volume of rock; it, not pressure, is what is stored, so that a corrected dilatation
 /// changes the pressure and never the mass.
 ///
+/// A held point has the potential of its face value at every moment, whatever its zeta. That
+/// follows at a steady rate within a window, to be what belongs to its pressure at the end; what it
+/// takes, and what flows off into the rock, is inflow through the face.
+///
 /// Unknowns: zeta at the points; then what accumulates: volume that came in through each face of
 /// prescribed pressure, energy dissipated by the flow, energy brought by sources and by faces whose
-/// pressure changes (if any), volume brought by sources that change (if any). Volumes are at zero
-/// pressure.
+/// pressure changes (if any), volume brought by sources that change (if any), volume that smoothing
+/// made (if it is on). Volumes are at zero pressure.
 template <int D>
 class DarcySystem final : public OdeSystem {
  public:
@@ -32,13 +40,14 @@ class DarcySystem final : public OdeSystem {
   /// [Pa], empty without.
   DarcySystem(std::unique_ptr<FlowOperator<D>> flow, std::unique_ptr<PoreStorage> storage,
               PoreFluid fluid, ScheduledVector face_pressures, ScheduledVector sources,
-              Eigen::VectorXd gravity = {});
+              Eigen::VectorXd gravity = {}, std::vector<HeldPoint> held = {});
 
   std::string_view name() const override { return "fluid_content"; }
   std::size_t size() const override { return points_ + accumulators(); }
   std::string place(std::size_t unknown) const override;
   std::size_t accumulators() const override {
-    return face_pressures_.size() + 1 + (brings_energy() ? 1 : 0) + (brings_volume() ? 1 : 0);
+    return face_pressures_.size() + 1 + (brings_energy() ? 1 : 0) + (brings_volume() ? 1 : 0) +
+           (smooths() ? 1 : 0);
   }
   void rhs(double t, std::span<const double> y, std::span<double> dydt) override;
   void jacobian_times(double t, std::span<const double> y, std::span<const double> v,
@@ -50,8 +59,18 @@ class DarcySystem final : public OdeSystem {
   /// Takes the input of the next window; spans must stay valid while it is integrated.
   void set_dilatation(const DilatationInput& input);
 
+  /// Takes y at the window's beginning, after its dilatation: the rates of held points follow.
+  void lead_held_points(const TimeWindow& window, std::span<const double> y);
+
+  /// Smooths the pressures of all later steps, except of held points.
+  void set_smoothing(PressureSmoothing<D> smoothing);
+  bool smooths() const { return smoothing_.has_value(); }
+  /// Smooths them once; what that makes of fluid is the last accumulator's (paper Eq 14, last
+  /// term).
+  void smooth(double t, std::span<double> y);
+
   /// Pressure at the points [Pa].
-  void pressure(double t, std::span<const double> y, std::span<double> p) const;
+  void pressure(double t, std::span<const double> y, std::span<double> p);
 
   /// Darcy velocity of the point pressures p at time t, D blocks of point values [m/s].
   void darcy_velocity(double t, std::span<const double> p, std::span<double> velocity);
@@ -66,6 +85,10 @@ class DarcySystem final : public OdeSystem {
   /// Energy of fluid and pores, that of the fluid's height included [J].
   double stored_energy(std::span<const double> y, std::span<const double> p) const;
 
+  std::span<const HeldPoint> held_points() const { return held_; }
+  /// Of a held point at time t [Pa].
+  double held_pressure(double t, const HeldPoint& held);
+
   Index points() const { return points_; }
   const std::vector<double>& volume() const { return flow_->family().volume; }
   /// d(zeta)/d(psi) with the dilatation's answer [1/Pa], per point; of the rock at rest where y is
@@ -79,6 +102,8 @@ class DarcySystem final : public OdeSystem {
   double gravity(Index i) const { return gravity_.size() > 0 ? gravity_[i] : 0.0; }
 
  private:
+  /// Face values that the flow operator knows; those of layers follow.
+  Index mirrored_faces() const { return flow_->size() - points_; }
   Index faces() const { return static_cast<Index>(face_potential_.size()); }
   bool has_sources() const { return sources_.size() > 0; }
   bool brings_energy() const { return has_sources() || !face_pressures_.is_constant(); }
@@ -93,6 +118,8 @@ class DarcySystem final : public OdeSystem {
   ScheduledVector face_pressures_;
   ScheduledVector sources_;
   Eigen::VectorXd gravity_;
+  std::vector<HeldPoint> held_;
+  std::vector<double> held_rate_;  ///< d(zeta)/dt of the held points in this window [1/s]
   Index points_;
   std::vector<double> break_points_;
   double largest_face_pressure_ = 0.0;  ///< of all times [Pa]
@@ -102,6 +129,8 @@ class DarcySystem final : public OdeSystem {
   std::vector<double> potential_;  ///< workspace: pressures, then psi, of points and face values
   std::vector<double> outflow_;    ///< workspace: H psi
   std::vector<double> mobility_;   ///< (rho/rho_0)^2; empty for a linear fluid
+  std::optional<PressureSmoothing<D>> smoothing_;
+  std::vector<double> smoothed_;  ///< workspace: by its points
 };
 
 }  // namespace perifrac

@@ -1,25 +1,82 @@
 #include "modules/pore_flow/darcy_type.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "core/geometry/face_conditions.hpp"
 #include "core/time/forward_euler.hpp"
 #include "modules/pore_flow/anisotropic_darcy_law.hpp"
-#include "modules/pore_flow/conservative_flow.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
 #include "modules/pore_flow/linear_storage.hpp"
+#include "modules/pore_flow/make_flow.hpp"
 #include "modules/pore_flow/mobility.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "modules/pore_flow/pore_gravity.hpp"
+#include "modules/pore_flow/smoothed_euler.hpp"
 #include "modules/pore_flow/tait_storage.hpp"
 
 namespace perifrac {
 
 namespace {
 
+FlowScheme read_scheme(const Section& section) {
+  const std::string word = section.word("operator");
+  if (word == "bond") return FlowScheme::bond;
+  return word == "nested" ? FlowScheme::nested : FlowScheme::conservative;
+}
+
+/// What the nested operator cannot do: it is neither symmetric nor does it know a natural boundary.
+template <int D>
+void check_nested(const Section& section, const Body<D>& body) {
+  const bool implicit = section.word("integrator.type") == "cvode";
+  if (implicit && section.word("integrator.linear_solver") == "direct") {
+    section.fail("integrator.linear_solver", "operator 'nested' has no symmetric matrix to factor",
+                 "krylov, or the explicit integrator");
+  }
+  const std::string smoothing = section.word("nested.smoothing");
+  if (implicit && smoothing != "none") {
+    section.fail("nested.smoothing", "smoothing follows the steps of the explicit integrator",
+                 "none, or the explicit integrator");
+  }
+  if (smoothing == "boundary" && body.faces().empty()) {
+    section.fail("nested.smoothing", "a ball has no faces", "none or everywhere");
+  }
+  for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
+    if (type == "flux" && body.layer(face).empty()) {
+      section.fail(path + ".type", "operator 'nested' takes no inflow at a face",
+                   "sealed, pressure, or a bonded layer behind the face");
+    }
+  }
+}
+
+/// Nothing where the scene does not smooth.
+template <int D>
+std::optional<PressureSmoothing<D>> read_smoothing(const Section& section, const Body<D>& body,
+                                                   std::shared_ptr<const Family<D>> family,
+                                                   const MirrorCondition<D, 1>& mirror,
+                                                   std::span<const HeldPoint> held) {
+  const std::string where = section.word("nested.smoothing");
+  if (section.word("operator") != "nested" || where == "none") return std::nullopt;
+  std::vector<Index> points;
+  if (where == "boundary") {
+    points = points_near_faces(body);
+  } else {
+    points.resize(family->point_count);
+    std::iota(points.begin(), points.end(), 0);
+  }
+  std::erase_if(
+      points, [&](Index i) { return std::ranges::binary_search(held, i, {}, &HeldPoint::point); });
+  return PressureSmoothing<D>(std::move(family), mirror, std::move(points));
+}
+
 template <int D>
 DarcyIntegratorMaker<D> read_integrator(const Section& section) {
   if (section.word("integrator.type") == "explicit") {
     const double safety = section.number("integrator.safety");
     return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
+      if (system.smooths()) return std::make_unique<SmoothedEuler<D>>(system, safety);
       return std::make_unique<ForwardEuler>(system, safety);
     };
   }
@@ -41,12 +98,13 @@ struct Discretisation {
 };
 
 template <int D, class Law>
-Discretisation<D> conservative_flow(const Body<D>& body, const PoreBoundary<D>& boundary, Law law) {
-  const auto family = body.family(boundary.mirrored());
+Discretisation<D> discretise(FlowScheme scheme, const Body<D>& body,
+                             const PoreBoundary<D>& boundary, Law law) {
+  const auto family = body.family(boundary.mirrored(), boundary.sealed_layers());
   LinearExactOperator<D, Law> op(family, boundary.mirror_condition(*family), std::move(law));
   Discretisation<D> made;
   if (boundary.has_sources()) made.sources = boundary.sources(op.gradient_matrix());
-  made.flow = std::make_unique<ConservativeFlow<D, Law>>(std::move(op));
+  made.flow = make_flow(scheme, std::move(op));
   return made;
 }
 
@@ -56,20 +114,27 @@ Discretisation<D> discretise(const Section& section, const Body<D>& body,
                              const PoreBoundary<D>& boundary, const PoreFluid& fluid,
                              std::vector<std::uint8_t> region) {
   const std::vector<Tensor<D, D>> mobilities = read_mobilities<D>(section, fluid.viscosity);
+  const FlowScheme scheme = read_scheme(section);
+  if (scheme == FlowScheme::bond && std::ranges::any_of(mobilities, [](const auto& mobility) {
+        return isotropic_part<D>(mobility) < 0.0;
+      })) {
+    section.fail("operator", "'bond' cannot carry a permeability tensor", "conservative or nested");
+  }
   const double scalar = isotropic_part<D>(mobilities[0]);
   if (fluid.is_linear() && mobilities.size() == 1 && scalar >= 0.0) {
-    return conservative_flow<D>(body, boundary, DarcyLaw<D>{scalar});
+    return discretise(scheme, body, boundary, DarcyLaw<D>{scalar});
   }
   LawByRegion<AnisotropicDarcyLaw<D>> law{.laws = {}, .law_of_point = std::move(region)};
   for (const Tensor<D, D>& mobility : mobilities) law.laws.push_back({mobility});
-  if (fluid.is_linear()) return conservative_flow<D>(body, boundary, std::move(law));
+  if (fluid.is_linear()) return discretise(scheme, body, boundary, std::move(law));
   std::vector<double> ones(law.law_of_point.size(), 1.0);
-  return conservative_flow<D>(body, boundary, ScaledDarcyLaw<D>{std::move(law), std::move(ones)});
+  return discretise(scheme, body, boundary, ScaledDarcyLaw<D>{std::move(law), std::move(ones)});
 }
 
 template <int D>
 std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
+  if (read_scheme(section) == FlowScheme::nested) check_nested(section, *body);
   const PoreBoundary<D> boundary = read_pore_boundary<D>(section, *body);
   const PoreFluid fluid = read_pore_fluid(section);
   std::vector<std::uint8_t> region = region_of_points<D>(section, body->regions(), body->points());
@@ -84,10 +149,15 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
   const auto mirror = boundary.mirror_condition(space.flow->family());
   Eigen::VectorXd gravity;
   if (const Vector<D> g = read_gravity<D>(section); g != Vector<D>{}) {
-    gravity = PoreGravity<D>(*body, g, fluid.density).values(mirror);
+    gravity = PoreGravity<D>(*body, g, fluid.density).values(mirror, boundary.pressure_layers());
   }
+  const auto family = body->family(boundary.mirrored(), boundary.sealed_layers());
+  const std::vector<HeldPoint> held = boundary.held_points(mirror);
   DarcySystem<D> system(std::move(space.flow), std::move(storage), fluid,
-                        boundary.face_pressures(mirror), std::move(space.sources), gravity);
+                        boundary.face_pressures(mirror), std::move(space.sources), gravity, held);
+  if (auto smoothing = read_smoothing(section, *body, family, mirror, held)) {
+    system.set_smoothing(std::move(*smoothing));
+  }
   const auto initial_state = section.word("initial_state") == "hydrostatic"
                                  ? InitialState::hydrostatic
                                  : InitialState::uniform;
@@ -101,8 +171,11 @@ KeyTable darcy_keys() {
       {.path = "operator",
        .type = KeyType::word,
        .fallback = "conservative",
-       .words = {"conservative"},
-       .meaning = "conservative: bond fluxes, equal and opposite; stable, fourth order inside."},
+       .words = {"conservative", "bond", "nested"},
+       .meaning =
+           "conservative: bond fluxes, equal and opposite; stable, fourth order inside. bond: "
+           "one flux a bond, first order at no-flux surfaces. nested: the paper's divergence "
+           "of velocities, unstable at cut surfaces, for comparison only."},
       {.path = "integrator.type",
        .type = KeyType::word,
        .fallback = "cvode",
@@ -135,6 +208,13 @@ KeyTable darcy_keys() {
        {permeability_keys(), pore_material_keys(), pore_fluid_keys(), pore_boundary_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
+  keys.push_back({.path = "nested.smoothing",
+                  .type = KeyType::word,
+                  .fallback = "boundary",
+                  .words = {"none", "boundary", "everywhere"},
+                  .meaning =
+                      "nested: points whose pressure is averaged over their neighbours after each "
+                      "explicit step; boundary: within a horizon of a face."});
   return keys;
 }
 

@@ -38,6 +38,10 @@ std::span<const double> LinearStorage::effective_storage(double, std::span<const
 
 double LinearStorage::content(Index i, double p) const { return materials().at(i).storage * p; }
 
+double LinearStorage::content(double t, Index i, double p) const {
+  return materials().at(i).biot_coefficient * dilatation_.at(i, t) + effective_storage_[i] * p;
+}
+
 double LinearStorage::undrained_slope(Index i, double, double) const {
   const PoreMaterial& rock = materials().at(i);
   return -rock.biot_coefficient * rock.biot_coefficient / rock.storage;

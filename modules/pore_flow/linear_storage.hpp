@@ -15,6 +15,7 @@ class LinearStorage final : public PoreStorage {
   void pressure(double t, std::span<const double> zeta, std::span<double> p) const override;
   std::span<const double> effective_storage(double t, std::span<const double> zeta) override;
   double content(Index i, double p) const override;
+  double content(double t, Index i, double p) const override;
   double undrained_slope(Index i, double zeta, double p) const override;
   double energy(Index i, double zeta, double p) const override;
 

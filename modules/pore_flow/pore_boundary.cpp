@@ -1,6 +1,7 @@
 #include "modules/pore_flow/pore_boundary.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include <fmt/format.h>
 
@@ -30,33 +31,84 @@ void PoreBoundary<D>::source(Index point, double rate, Schedule schedule) {
 }
 
 template <int D>
-FaceSet PoreBoundary<D>::mirrored() const {
+FaceSet PoreBoundary<D>::faces_with(Condition condition, bool layered) const {
   FaceSet set = 0;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].condition != Condition::flux) set |= face_bit(f);
+    if (faces_[f].condition == condition && body_->layer(f).empty() != layered) set |= face_bit(f);
   }
   return set;
+}
+
+template <int D>
+FaceSet PoreBoundary<D>::mirrored() const {
+  return faces_with(Condition::sealed, false) | faces_with(Condition::pressure, false);
+}
+
+template <int D>
+FaceSet PoreBoundary<D>::sealed_layers() const {
+  return faces_with(Condition::sealed, true);
+}
+
+template <int D>
+FaceSet PoreBoundary<D>::pressure_layers() const {
+  return faces_with(Condition::pressure, true);
 }
 
 template <int D>
 MirrorCondition<D, 1> PoreBoundary<D>::mirror_condition(const Family<D>& family) const {
   MirrorCondition<D, 1> mirror(family);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (faces_[f].condition == Condition::pressure) mirror.set_odd(f, 0);
+    if (contains(faces_with(Condition::pressure, false), f)) mirror.set_odd(f, 0);
   }
   return mirror;
 }
 
 template <int D>
+std::vector<HeldPoint> PoreBoundary<D>::held_points(const MirrorCondition<D, 1>& mirror) const {
+  constexpr int dry = -1, free = -2;
+  std::vector<int> held(body_->points().size(), free);
+  int face_value = mirror.face_value_count();
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    for (const Index i : body_->layer(f)) {
+      if (contains(sealed_layers(), f)) held[i] = dry;
+      if (contains(pressure_layers(), f) && held[i] == free) held[i] = face_value;
+    }
+    if (contains(pressure_layers(), f)) ++face_value;
+  }
+  std::vector<HeldPoint> points;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (held[i] != free) points.push_back({static_cast<Index>(i), held[i]});
+  }
+  return points;
+}
+
+template <int D>
 ScheduledVector PoreBoundary<D>::face_pressures(const MirrorCondition<D, 1>& mirror) const {
-  const int count = mirror.face_value_count();
+  const int count = mirror.face_value_count() + std::popcount(pressure_layers());
+  int layer_value = mirror.face_value_count();
   ScheduledVector pressures(count);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const int value = mirror.face_value(f, 0);
+    const int value = contains(pressure_layers(), f) ? layer_value++ : mirror.face_value(f, 0);
     if (value < 0) continue;
     pressures.add(faces_[f].schedule, faces_[f].value * Eigen::VectorXd::Unit(count, value));
   }
   return pressures;
+}
+
+template <int D>
+Eigen::VectorXd PoreBoundary<D>::area_in_layer(int face) const {
+  const std::vector<Face>& faces = body_->faces();
+  double area = 1.0;
+  for (int axis = 0; axis < D; ++axis) {
+    if (axis != face / 2) area *= faces[2 * axis + 1].coordinate - faces[2 * axis].coordinate;
+  }
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(body_->points().size());
+  for (const Index i : body_->layer(face)) share[i] = body_->points().volume[i];
+  for (int f = 0; f < 2 * D; ++f) {
+    if (!contains(sealed_layers(), f)) continue;
+    for (const Index i : body_->layer(f)) share[i] = 0.0;
+  }
+  return area / share.sum() * share;
 }
 
 template <int D>
@@ -71,8 +123,10 @@ ScheduledVector PoreBoundary<D>::sources(const Eigen::SparseMatrix<double>& grad
   ScheduledVector rate(points);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (faces_[f].condition != Condition::flux) continue;
+    const bool layered = !body_->layer(f).empty();
     rate.add(faces_[f].schedule,
-             faces_[f].value * face_load<D, 1>(*body_, gradient, mirrored(), f, 0));
+             faces_[f].value * (layered ? area_in_layer(f)
+                                        : face_load<D, 1>(*body_, gradient, mirrored(), f, 0)));
   }
   for (const auto& [point, value, schedule] : sources_) {
     rate.add(schedule, value * Eigen::VectorXd::Unit(points, point));

@@ -8,11 +8,13 @@
 #include "core/geometry/body.hpp"
 #include "core/operators/mirror_condition.hpp"
 #include "core/time/scheduled_vector.hpp"
+#include "modules/pore_flow/held_point.hpp"
 
 namespace perifrac {
 
 /// Where fluid comes from and goes to: conditions of a body's faces and sources inside it.
-/// A face without a condition is sealed.
+/// A face without a condition is sealed. Where a face has a bonded layer, the condition acts on the
+/// layer's points: they hold the pressure, share the inflow, or take no part in the flow.
 template <int D>
 class PoreBoundary {
  public:
@@ -26,10 +28,16 @@ class PoreBoundary {
   void source(Index point, double rate, Schedule schedule = {});
 
   /// A sealed face mirrors evenly, one of prescribed pressure oddly. A face with inflow is none: an
-  /// even image has no slope there, a linear field would not be exact.
+  /// even image has no slope there, a linear field would not be exact. Nor is one with a layer.
   FaceSet mirrored() const;
+  /// Sealed faces with a layer.
+  FaceSet sealed_layers() const;
+  /// Faces with a layer that holds their pressure.
+  FaceSet pressure_layers() const;
   MirrorCondition<D, 1> mirror_condition(const Family<D>& family) const;
-  /// Prescribed pressures, by face value [Pa].
+  /// In order of points; a sealed layer has its points before another that shares them.
+  std::vector<HeldPoint> held_points(const MirrorCondition<D, 1>& mirror) const;
+  /// Prescribed pressures, by face value, then of pressure_layers() [Pa].
   ScheduledVector face_pressures(const MirrorCondition<D, 1>& mirror) const;
   /// Volume per time that inflow and sources bring to every point [m^3/s, per metre in 2D].
   ScheduledVector sources(const Eigen::SparseMatrix<double>& gradient) const;
@@ -37,6 +45,10 @@ class PoreBoundary {
 
  private:
   enum class Condition { sealed, pressure, flux };
+  FaceSet faces_with(Condition condition, bool layered) const;
+  /// The face's area, shared by the points of its layer by volume [m^2, m in 2D].
+  Eigen::VectorXd area_in_layer(int face) const;
+
   struct FaceState {
     Condition condition = Condition::sealed;
     double value = 0.0;

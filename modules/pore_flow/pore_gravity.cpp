@@ -1,6 +1,7 @@
 #include "modules/pore_flow/pore_gravity.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace perifrac {
 
@@ -41,12 +42,13 @@ bool PoreGravity<D>::crosses(int face) const {
 }
 
 template <int D>
-Eigen::VectorXd PoreGravity<D>::values(const MirrorCondition<D, 1>& mirror) const {
+Eigen::VectorXd PoreGravity<D>::values(const MirrorCondition<D, 1>& mirror, FaceSet layers) const {
   const Points<D>& points = body_->points();
-  Eigen::VectorXd result(points.size() + mirror.face_value_count());
+  int layer_value = mirror.face_value_count();
+  Eigen::VectorXd result(points.size() + layer_value + std::popcount(layers));
   for (Index i = 0; i < points.size(); ++i) result[i] = at(points.at(i));
   for (std::size_t f = 0; f < body_->faces().size(); ++f) {
-    const int value = mirror.face_value(f, 0);
+    const int value = contains(layers, f) ? layer_value++ : mirror.face_value(f, 0);
     if (value >= 0) result[points.size() + value] = at_face(f);
   }
   return result;

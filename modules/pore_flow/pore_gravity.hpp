@@ -22,8 +22,8 @@ class PoreGravity {
   /// A uniform pressure on the face is at rest.
   bool crosses(int face) const;
 
-  /// Of points, then of the mirror's face values.
-  Eigen::VectorXd values(const MirrorCondition<D, 1>& mirror) const;
+  /// Of points, then of the mirror's face values, then of the faces in `layers`.
+  Eigen::VectorXd values(const MirrorCondition<D, 1>& mirror, FaceSet layers = 0) const;
 
  private:
   const Body<D>* body_;

@@ -43,6 +43,9 @@ class PoreStorage {
   /// zeta of point i at pressure p [Pa] and no dilatation.
   virtual double content(Index i, double p) const = 0;
 
+  /// zeta of point i at pressure p [Pa] and the window's dilatation at time t, its answer included.
+  virtual double content(double t, Index i, double p) const = 0;
+
   /// d(pore stress)/d(dilatation) of point i [Pa] while no fluid moves.
   virtual double undrained_slope(Index i, double zeta, double p) const = 0;
 

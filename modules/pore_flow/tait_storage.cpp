@@ -76,6 +76,13 @@ double TaitStorage::content(Index i, double p) const {
   return fluid_.density_ratio(p) * (rock.porosity + rock.grain_storage * p) - rock.porosity;
 }
 
+double TaitStorage::content(double t, Index i, double p) const {
+  const PoreMaterial& rock = materials().at(i);
+  const double pores =
+      rock.porosity + rock.biot_coefficient * dilatation_.at(i, t) + pore_answer_[i] * p;
+  return fluid_.density_ratio(p) * pores - rock.porosity;
+}
+
 double TaitStorage::undrained_slope(Index i, double zeta, double p) const {
   const PoreMaterial& rock = materials().at(i);
   const double ratio = fluid_.density_ratio(p);

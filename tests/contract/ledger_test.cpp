@@ -83,6 +83,43 @@ TEST(Ledger, AddsEnergyOverModulesSinceTheStart) {
                                           "energy_error"));
 }
 
+/// Holds fluid, some of which a numerical measure made.
+class Smoothed final : public PhysicsModule {
+ public:
+  std::span<const Port> ports() const override { return ports_; }
+  PortView port(PortId id) override { return {.points = &point_, .value = {&values_[id], 1}}; }
+  void initialize(double) override {}
+  double stable_time_step() const override { return 1.0; }
+  double advance(const TimeWindow& window) override { return window.end; }
+  void visit_state(StateVisitor&) override {}
+  void on_restored(double) override {}
+
+  void make(double mass) {
+    for (double& value : values_) value += mass;
+  }
+
+ private:
+  std::vector<Port> ports_ = {
+      {"mass", "kg", PortDirection::out, PortKind::extensive, PortRole::mass_stored},
+      {"made", "kg", PortDirection::out, PortKind::extensive, PortRole::mass_artificial}};
+  PointSet point_{.name = "total"};
+  double values_[2] = {8.0, 0.0};
+};
+
+TEST(Ledger, ShowsArtificialMassAndDoesNotExcuseIt) {
+  std::vector<ModuleSlot> modules;
+  modules.push_back({"smoothed", std::make_unique<Smoothed>()});
+  Ledger ledger(modules);
+  ledger.start();
+  static_cast<Smoothed&>(*modules[0].module).make(2.0);
+  EXPECT_DOUBLE_EQ(ledger.mass()->error, 2.0);
+  EXPECT_DOUBLE_EQ(ledger.mass()->relative_error, 0.2);
+  const auto columns = ledger.columns();
+  ASSERT_EQ(columns.size(), 4u);
+  EXPECT_EQ(columns[3].name, "fluid_mass_artificial");
+  EXPECT_DOUBLE_EQ(columns[3].value, 2.0);
+}
+
 TEST(Ledger, IsEmptyWithoutPorts) {
   std::vector<ModuleSlot> modules;
   modules.push_back({"alarm", std::make_unique<fake::Alarm>(1.0)});

@@ -21,6 +21,9 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
   return nullptr;
 }
 
+/// The nested operator takes no inflow at a face.
+const std::string nested_left = "pore_flow.boundary.left={type: sealed}";
+
 struct Variant {
   std::string type;  ///< as registered, `physics/type`
   ModuleCase contract;
@@ -56,6 +59,14 @@ const std::vector<Variant>& variants() {
               {"pore_flow.integrator.linear_solver=krylov"}),
       variant("darcy_explicit", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.integrator.type=explicit"}),
+      variant("darcy_bond", "pore_flow/darcy", box_2d + darcy, {"pore_flow.operator=bond"}),
+      variant("darcy_nested_krylov", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.operator=nested", "pore_flow.nested.smoothing=none",
+               "pore_flow.integrator.linear_solver=krylov", nested_left}),
+      variant("darcy_nested_smoothed", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.operator=nested", "pore_flow.integrator.type=explicit", nested_left}),
+      variant("darcy_in_layers", "pore_flow/darcy", box_2d + darcy,
+              {"body.boundary={left: layer, right: layer, top: layer}"}),
       variant("darcy_with_well", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.sources=[{at: [3 m, 3 m], rate: 1 cm^2/s}]"}),
       variant("darcy_regions", "pore_flow/darcy", box_2d + darcy,
@@ -102,6 +113,7 @@ TEST(SwapMatrix, EveryCombinationRuns) {
       {},
       {"pore_flow.integrator.type=explicit"},
       {"pore_flow.integrator.type=cvode"},
+      {"pore_flow.operator=bond"},
       {"pore_flow.integrator.linear_solver=krylov"}};
   for (const std::string& solid : solids) {
     for (const auto& flow : flows) {

@@ -1,7 +1,6 @@
 #include "modules/pore_flow/darcy_flow.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +10,6 @@
 namespace perifrac {
 namespace {
 
-using std::numbers::pi;
 using test::Method;
 using test::scalar;
 
@@ -88,16 +86,6 @@ TEST(DarcyFlow, StoresWhatComesThroughItsFaces) {
   expect_mass_kept<3>(cube, around, "open");
 }
 
-/// A layer, drained at x = 1 and sealed at x = 0: Terzaghi's series at the points.
-double drained_layer(double x, double time_factor) {
-  double p = 0.0;
-  for (int n = 0; n < 60; ++n) {
-    const double k = (n + 0.5) * pi;
-    p += 2.0 / k * (n % 2 == 0 ? 1.0 : -1.0) * std::cos(k * x) * std::exp(-k * k * time_factor);
-  }
-  return p;
-}
-
 double error_of_drainage(int count, Method method) {
   const auto body = test::box_body<2>({count, 4}, 1.0 / count);
   PoreBoundary<2> boundary(*body);
@@ -112,8 +100,8 @@ double error_of_drainage(int count, Method method) {
     t = time_factor / diffusivity;
     const auto p = test::port(flow, "pore_pressure").value;
     for (Index i = 0; i < body->points().size(); ++i) {
-      worst = std::max(worst,
-                       std::abs(p[i] - drained_layer(body->points().position[0][i], time_factor)));
+      const double x = body->points().position[0][i];
+      worst = std::max(worst, std::abs(p[i] - test::drained_column(x, time_factor)));
     }
   }
   return worst;

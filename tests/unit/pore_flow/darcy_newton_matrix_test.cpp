@@ -12,7 +12,7 @@ namespace {
 /// A system with everything that can stand in its matrix.
 template <int D>
 struct Setting {
-  std::shared_ptr<const Body<D>> body = test::box_body<D>(test::cube<D>(6), 0.5);
+  std::shared_ptr<const Body<D>> body = test::body_with_layer_on_top<D>(test::cube<D>(6), 0.5);
   std::vector<double> slope = test::random_values(body->points().volume.size(), 5);
   DarcySystem<D> system = make();
 
@@ -20,6 +20,7 @@ struct Setting {
     PoreBoundary<D> boundary(*body);
     boundary.pressure(0, 0.4);
     boundary.pressure(3, -0.2);
+    boundary.pressure(2 * D - 1, 0.3);  // of the layer
     boundary.source(3, 0.7);
     return test::darcy_system<D>(*body, boundary);
   }

@@ -1,14 +1,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "core/time/forward_euler.hpp"
-#include "modules/pore_flow/conservative_flow.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
 #include "modules/pore_flow/linear_storage.hpp"
+#include "modules/pore_flow/make_flow.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
+#include "modules/pore_flow/smoothed_euler.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac::test {
@@ -27,23 +31,59 @@ template <int D>
 LinearExactOperator<D, DarcyLaw<D>> flow_operator(const Body<D>& body,
                                                   const PoreBoundary<D>& boundary,
                                                   double mobility) {
-  const auto family = body.family(boundary.mirrored());
+  const auto family = body.family(boundary.mirrored(), boundary.sealed_layers());
   return {family, boundary.mirror_condition(*family), DarcyLaw<D>{mobility}};
 }
 
+/// The equations of a rock that is the same everywhere.
 template <int D>
-DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary,
-                            const Rock& rock = some_rock) {
-  auto flow = flow_operator<D>(body, boundary, rock.mobility);
+DarcySystem<D> darcy_system(const PoreBoundary<D>& boundary, FlowScheme scheme,
+                            LinearExactOperator<D, DarcyLaw<D>> flow, const Rock& rock) {
+  const std::vector<HeldPoint> held = boundary.held_points(flow.mirror());
   const ScheduledVector pressures = boundary.face_pressures(flow.mirror());
   ScheduledVector sources(0);
   if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
   PoreMaterials materials{{{rock.biot_coefficient, 0.2, 0.0, rock.storage}},
-                          std::vector<std::uint8_t>(body.points().size(), 0)};
-  return {std::make_unique<ConservativeFlow<D, DarcyLaw<D>>>(std::move(flow)),
+                          std::vector<std::uint8_t>(flow.family().point_count, 0)};
+  return {make_flow(scheme, std::move(flow)),
           std::make_unique<LinearStorage>(std::move(materials)),
           PoreFluid{.bulk_modulus = 1.0, .viscosity = 1.0, .density = rock.fluid_density},
-          pressures, sources};
+          pressures,
+          sources,
+          {},
+          held};
+}
+
+template <int D>
+DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary,
+                            const Rock& rock = some_rock,
+                            FlowScheme scheme = FlowScheme::conservative) {
+  return darcy_system(boundary, scheme, flow_operator<D>(body, boundary, rock.mobility), rock);
+}
+
+constexpr std::array schemes = {FlowScheme::conservative, FlowScheme::bond, FlowScheme::nested};
+
+inline const char* name_of(FlowScheme scheme) {
+  constexpr std::array names = {"conservative", "bond", "nested"};
+  return names[static_cast<std::size_t>(scheme)];
+}
+
+/// A box on a lattice whose last face, at the top, has a bonded layer behind it.
+template <int D>
+std::shared_ptr<const Body<D>> body_with_layer_on_top(const std::array<int, D>& counts,
+                                                      double spacing) {
+  return layered_body<D>(counts, spacing, face_bit(2 * D - 1));
+}
+
+/// A column of height 1, of pressure 1 at the start, drained at z = 1 and sealed at z = 0:
+/// Terzaghi's series.
+inline double drained_column(double z, double time_factor) {
+  double p = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const double k = (n + 0.5) * std::numbers::pi;
+    p += 2.0 / k * (n % 2 == 0 ? 1.0 : -1.0) * std::cos(k * z) * std::exp(-k * k * time_factor);
+  }
+  return p;
 }
 
 enum class Method { forward_euler, direct, krylov };

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "modules/pore_flow/bond_flow.hpp"
+#include "modules/pore_flow/conservative_flow.hpp"
+#include "modules/pore_flow/nested_flow.hpp"
+
+namespace perifrac {
+
+enum class FlowScheme { conservative, bond, nested };
+
+/// The flow operator that a scheme makes of the same families, images and law.
+template <int D, class Law>
+std::unique_ptr<FlowOperator<D>> make_flow(FlowScheme scheme, LinearExactOperator<D, Law> op) {
+  switch (scheme) {
+    case FlowScheme::bond:
+      return std::make_unique<BondFlow<D, Law>>(std::move(op));
+    case FlowScheme::nested:
+      return std::make_unique<NestedFlow<D, Law>>(std::move(op));
+    default:
+      return std::make_unique<ConservativeFlow<D, Law>>(std::move(op));
+  }
+}
+
+}  // namespace perifrac
