@@ -26,7 +26,9 @@ MandelProblem read_problem(const Section& scene) {
     scene.fail("reference.type", "Mandel's problem is plane", "dimension: 2");
   }
   require_word(scene, "body.shape", "box");
-  require_word(scene, "solid.type", "quasi_static");
+  if (!scene.has("solid") || scene.word("solid.type") != "dynamic") {
+    require_word(scene, "solid.type", "quasi_static");
+  }
   require_word(scene, "pore_flow.type", "darcy");
   require_word(scene, "solid.boundary.left.type", "roller");
   require_word(scene, "solid.boundary.bottom.type", "roller");

@@ -16,7 +16,9 @@ namespace perifrac::test {
 
 namespace {
 
-const std::string scene_file = PERIFRAC_SOURCE_DIR "/configs/mandel.yaml";
+std::string scene_file(const std::string& name) {
+  return std::string(PERIFRAC_SOURCE_DIR "/configs/") + name + ".yaml";
+}
 
 }  // namespace
 
@@ -35,14 +37,15 @@ double MandelRun::largest_plate_error() const {
 }
 
 Simulation make_mandel(const std::vector<std::string>& overrides) {
-  Simulation simulation = make_simulation(read_scene(scene_file, overrides, scene_catalogue()));
+  Simulation simulation =
+      make_simulation(read_scene(scene_file("mandel"), overrides, scene_catalogue()));
   simulation.manager->initialize(0.0);
   return simulation;
 }
 
-MandelRun run_mandel(const std::vector<std::string>& overrides) {
+MandelRun run_mandel(const std::vector<std::string>& overrides, const std::string& scene) {
   RunRequest request;
-  request.scene = scene_file;
+  request.scene = scene_file(scene);
   request.overrides = overrides;
   request.output = fmt::format("{}mandel_run_{}", testing::TempDir(), getpid());
   request.report = false;
