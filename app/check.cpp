@@ -77,7 +77,7 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
   const Section scene = read_scene(scene_file, overrides, scene_catalogue());
   Simulation simulation = make_simulation(scene);
   CouplingManager& manager = *simulation.manager;
-  manager.initialize(0.0);
+  initialize(scene, simulation);
   read_output_times(scene.at("output"), simulation.end);
   const Recorder recorder(scene, "", simulation);
   ArrayList list;

@@ -8,6 +8,7 @@ namespace perifrac {
 const std::vector<ModuleType>& module_types() {
   static const std::vector<ModuleType> types = {
       quasi_static_solid_type(),
+      dynamic_solid_type(),
       rigid_solid_type(),
       darcy_type(),
   };

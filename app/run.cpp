@@ -143,7 +143,7 @@ int run_scene(const RunRequest& request) {
   const Section scene = read_scene(request.scene, request.overrides, scene_catalogue());
   const std::string text = scene_text(request);
   Simulation simulation = make_simulation(scene);
-  simulation.manager->initialize(0.0);
+  initialize(scene, simulation);
   const std::vector<double> outputs =
       read_output_times(scene.at("output"), simulation.end, read_until(request.until));
   simulation.end = outputs.back();

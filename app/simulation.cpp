@@ -70,6 +70,16 @@ Simulation make_simulation(const Section& scene) {
   return simulation;
 }
 
+void initialize(const Section& scene, Simulation& simulation) {
+  simulation.manager->initialize(0.0);
+  if (simulation.manager->split_is_unusable()) {
+    scene.fail("coupling.split",
+               fmt::format("`{}` suits none of the modules that depend on each other",
+                           scene.word("coupling.split")),
+               "automatic; fixed_stress for a quasi-static solid, undrained for a dynamic one");
+  }
+}
+
 std::vector<Field> fields_of(const CouplingManager& manager) {
   std::vector<Field> fields;
   for (const ModuleSlot& slot : manager.modules()) {

@@ -22,6 +22,10 @@ struct Simulation {
 /// Builds all that the scene calls for and nothing else. Throws InputError.
 Simulation make_simulation(const Section& scene);
 
+/// Makes it ready at t = 0. Throws InputError where no modules can use the scene's split, and
+/// NumericalError.
+void initialize(const Section& scene, Simulation& simulation);
+
 /// An out-port that lives on points.
 struct Field {
   PhysicsModule* module;

@@ -13,6 +13,10 @@ bool carries_slope(const Link& link) {
   return !link.source().module->port(link.source().port).slope.empty();
 }
 
+bool takes_slope(const Link& link) {
+  return !link.target().module->port(link.target().port).slope.empty();
+}
+
 bool are_opposite(const Link& a, const Link& b) {
   return a.source().module == b.target().module && a.target().module == b.source().module;
 }
@@ -59,9 +63,7 @@ void link_writer(std::span<ModuleSlot> modules, std::size_t target, PortId in,
   }
 }
 
-}  // namespace
-
-std::vector<Link> connect(std::span<ModuleSlot> modules, Split split) {
+std::vector<Link> plain_links(std::span<ModuleSlot> modules) {
   std::vector<Link> links;
   for (std::size_t target = 0; target < modules.size(); ++target) {
     const auto ports = modules[target].module->ports();
@@ -71,14 +73,44 @@ std::vector<Link> connect(std::span<ModuleSlot> modules, Split split) {
       }
     }
   }
-  if (split == Split::fixed_stress) {
-    for (const CoupledPair& pair : coupled_pairs(links)) {
-      const auto use_slope = [](Link& link, const Link& partner) {
-        const PortView input = link.target().module->port(link.target().port);
-        if (!input.slope.empty()) link.use_slope(partner.target().port);
-      };
-      use_slope(links[pair.first], links[pair.second]);
-      use_slope(links[pair.second], links[pair.first]);
+  return links;
+}
+
+/// Puts the later module of a pair first if it can add the earlier one's slope within its window;
+/// returns it, or nothing.
+const PhysicsModule* put_undrained_first(std::span<ModuleSlot> modules,
+                                         std::span<const Link> links) {
+  for (const CoupledPair& pair : coupled_pairs(links)) {
+    const Link& link = links[links[pair.first].lagged() ? pair.second : pair.first];
+    if (!carries_slope(link) || !takes_slope(link)) continue;
+    const auto place = [&](const LinkEnd& end) {
+      return std::ranges::find_if(
+          modules, [&](const ModuleSlot& slot) { return slot.module.get() == end.module; });
+    };
+    const auto later = place(link.target());
+    std::rotate(place(link.source()), later, later + 1);
+    return link.target().module;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<Link> connect(std::span<ModuleSlot> modules, Split split) {
+  std::vector<Link> links = plain_links(modules);
+  if (split == Split::drained) return links;
+  const PhysicsModule* moved = nullptr;
+  if (split != Split::fixed_stress) {
+    moved = put_undrained_first(modules, links);
+    if (moved != nullptr) links = plain_links(modules);
+  }
+  for (const CoupledPair& pair : coupled_pairs(links)) {
+    const bool first_is_lagged = links[pair.first].lagged();
+    Link& link = links[first_is_lagged ? pair.first : pair.second];
+    const Link& partner = links[first_is_lagged ? pair.second : pair.first];
+    const bool undrained = link.target().module == moved;
+    if (carries_slope(link) && takes_slope(link) && (undrained || split != Split::undrained)) {
+      link.use_slope(partner.target().port, undrained);
     }
   }
   return links;
@@ -88,9 +120,9 @@ std::vector<CoupledPair> coupled_pairs(std::span<const Link> links) {
   std::vector<CoupledPair> pairs;
   std::vector<bool> paired(links.size(), false);
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!carries_slope(links[i])) continue;
     for (std::size_t j = i + 1; j < links.size(); ++j) {
-      if (!are_opposite(links[i], links[j]) || !carries_slope(links[j])) continue;
+      if (!are_opposite(links[i], links[j])) continue;
+      if (!carries_slope(links[i]) && !carries_slope(links[j])) continue;
       if (paired[i] || paired[j]) {
         throw std::logic_error(links[i].path() + ": its slope could refer to two ports");
       }
@@ -104,6 +136,7 @@ std::vector<CoupledPair> coupled_pairs(std::span<const Link> links) {
 double coupling_strength(const Link& first, const Link& second) {
   const PortView a = first.source().module->port(first.source().port);
   const PortView b = second.source().module->port(second.source().port);
+  if (a.slope.empty() || b.slope.empty()) return 0.0;
   if (!a.points->same_points(*b.points)) return largest_size(a.slope) * largest_size(b.slope);
   double largest = 0.0;
   for (std::size_t i = 0; i < a.slope.size(); ++i) {

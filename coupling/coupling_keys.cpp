@@ -9,6 +9,13 @@ namespace {
 constexpr double first_part = 1e-5;
 constexpr double largest_part = 0.02;
 
+Split split(const std::string& word) {
+  if (word == "drained") return Split::drained;
+  if (word == "fixed_stress") return Split::fixed_stress;
+  if (word == "undrained") return Split::undrained;
+  return Split::automatic;
+}
+
 AccelerationType acceleration_type(const std::string& word) {
   if (word == "aitken") return AccelerationType::aitken;
   if (word == "anderson") return AccelerationType::anderson;
@@ -19,6 +26,12 @@ AccelerationType acceleration_type(const std::string& word) {
 
 const KeyTable& coupling_keys() {
   static const KeyTable keys = {
+      {.path = "window.type",
+       .type = KeyType::word,
+       .fallback = "schedule",
+       .words = {"schedule", "one_step"},
+       .meaning = "schedule: windows grow from the first to the largest. one_step: every window is "
+                  "the shortest stable step of any explicit module, at most the largest"},
       {.path = "window.first",
        .unit = "s",
        .range = "(0, inf)",
@@ -34,10 +47,11 @@ const KeyTable& coupling_keys() {
        .meaning = "Longest window; left out: a fiftieth of the simulated time"},
       {.path = "split",
        .type = KeyType::word,
-       .fallback = "fixed_stress",
-       .words = {"drained", "fixed_stress"},
+       .fallback = "automatic",
+       .words = {"drained", "fixed_stress", "undrained", "automatic"},
        .meaning = "What is sent between modules that depend on each other: plain values, or values "
-                  "with the slope of the sender's first answer"},
+                  "with the slope of the sender's first answer, to pore flow (fixed_stress) or to "
+                  "an explicit solid (undrained); automatic: whichever the solid can take"},
       {.path = "iterations.max",
        .type = KeyType::integer,
        .range = "[1, inf)",
@@ -74,7 +88,8 @@ CouplingOptions read_coupling_options(const Section& coupling, double duration) 
         coupling.has("window.first") ? options.first_window : options.largest_window;
     options.first_window = options.largest_window = given;
   }
-  options.split = coupling.word("split") == "drained" ? Split::drained : Split::fixed_stress;
+  if (coupling.word("window.type") == "one_step") options.window = WindowType::one_step;
+  options.split = split(coupling.word("split"));
   options.max_iterations = coupling.integer("iterations.max");
   options.tolerance = coupling.number("iterations.tolerance");
   options.acceleration = acceleration_type(coupling.word("acceleration"));

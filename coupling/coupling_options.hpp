@@ -6,16 +6,24 @@ namespace perifrac {
 enum class Split {
   drained,       ///< plain values
   fixed_stress,  ///< value and slope, so that the receiver follows the sender's first answer
+  undrained,     ///< the same with the other module first, on what the fluid content was
+  automatic,     ///< each pair: undrained where it can be, else fixed_stress
+};
+
+enum class WindowType {
+  schedule,  ///< from the first to the largest
+  one_step,  ///< the shortest of the modules' own stable steps
 };
 
 enum class AccelerationType { none, aitken, anderson };
 
 /// The `coupling` section of a scene.
 struct CouplingOptions {
+  WindowType window = WindowType::schedule;
   double first_window;    ///< [s]
   double window_growth;   ///< factor from one window to the next
   double largest_window;  ///< [s]
-  Split split = Split::fixed_stress;
+  Split split = Split::automatic;
   int max_iterations = 1;   ///< 1: one pass a window, on extrapolated inputs
   double tolerance = 1e-6;  ///< relative change of what is exchanged, per link
   AccelerationType acceleration = AccelerationType::none;

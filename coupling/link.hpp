@@ -30,8 +30,8 @@ struct LinkEnd {
 ///
 /// A link is lagged where its source comes after its target in the order of advancing: the target
 /// then starts on a prediction. An intensive value is extrapolated with the rate of the last
-/// window, so that one pass is second order in the window. An extensive one is the total of the
-/// last window: late, but in one-pass nothing of it is lost.
+/// window, so that one pass is second order in the window; or it is held. An extensive one is the
+/// total of the last window: late, but in one-pass nothing of it is lost.
 ///
 /// All that is held lies on the source's points and is mapped when delivered, so either end may
 /// insert, remove or reorder points at any time.
@@ -54,8 +54,12 @@ class Link {
   bool lagged() const { return lagged_; }
 
   /// Send intercept and slope from now on; `counter` is the source's in-port that its slope
-  /// refers to.
-  void use_slope(PortId counter) { counter_ = counter; }
+  /// refers to. `hold`: the first pass of a window gets the intercept as it stands at its
+  /// beginning.
+  void use_slope(PortId counter, bool hold = false) {
+    counter_ = counter;
+    hold_ = hold;
+  }
   bool uses_slope() const { return counter_.has_value(); }
 
   /// Reads the source as it stands, at rest: the first exchange, before any window.
@@ -108,6 +112,7 @@ class Link {
   LinkEnd target_;
   bool lagged_;
   std::optional<PortId> counter_;
+  bool hold_ = false;
 
   Sample accepted_;
   Sample reached_;

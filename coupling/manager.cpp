@@ -19,7 +19,8 @@ CouplingManager::CouplingManager(std::vector<ModuleSlot> modules, const Coupling
     : options_(options),
       modules_(std::move(modules)),
       ledger_(modules_),
-      schedule_(options.first_window, options.window_growth, options.largest_window) {}
+      schedule_(options.window, options.first_window, options.window_growth,
+                options.largest_window) {}
 
 void CouplingManager::initialize(double t) {
   for (ModuleSlot& slot : modules_) slot.module->initialize(t);
@@ -29,6 +30,11 @@ void CouplingManager::initialize(double t) {
   ledger_.start();
   time_ = t;
   step_ = 0;
+}
+
+bool CouplingManager::split_is_unusable() const {
+  return options_.split != Split::drained && !coupled_pairs(links_).empty() &&
+         std::ranges::none_of(links_, &Link::uses_slope);
 }
 
 std::vector<std::string> CouplingManager::warnings() const {
@@ -43,6 +49,12 @@ std::vector<std::string> CouplingManager::warnings() const {
     const Link& first = links_[pair.first];
     const Link& second = links_[pair.second];
     const double strength = coupling_strength(first, second);
+    if (strength == 0.0) {
+      warnings.push_back(fmt::format(
+          "split `drained` is likely to diverge: a window of {} and {} leaves out how the one "
+          "answers the other's inertia; choose `split: undrained`",
+          first.path(), second.path()));
+    }
     if (strength < limit) continue;
     warnings.push_back(fmt::format(
         "split `drained` is likely to diverge: the coupling strength of {} and {} is {:.3g}, and "
@@ -55,14 +67,14 @@ std::vector<std::string> CouplingManager::warnings() const {
 
 void CouplingManager::settle() {
   solver_->solve({time_, time_}, settling);
-  schedule_.start_over();
+  schedule_.start_over(stable_time_step());
 }
 
 double CouplingManager::advance(double stop) {
-  const double end = schedule_.end(time_, stop, stable_time_step());
+  const double end = schedule_.end(time_, stop);
   time_ = solver_->solve({time_, end}, {options_.max_iterations, options_.tolerance});
   ++step_;
-  if (time_ == end) schedule_.grow();
+  if (time_ == end) schedule_.grow(stable_time_step());
   return time_;
 }
 
@@ -83,6 +95,7 @@ void CouplingManager::visit_state(StateVisitor& visitor) {
 
 double CouplingManager::stable_time_step() const {
   double step = std::numeric_limits<double>::infinity();
+  if (options_.window != WindowType::one_step) return step;
   for (const ModuleSlot& slot : modules_) step = std::min(step, slot.module->stable_time_step());
   return step;
 }

@@ -29,6 +29,9 @@ class CouplingManager {
   /// Throws std::logic_error where ports do not fit.
   void initialize(double t);
 
+  /// True where modules depend on each other and none of them can use the split that was asked for.
+  bool split_is_unusable() const;
+
   /// What will probably fail, one sentence each, from the state as initialised.
   std::vector<std::string> warnings() const;
 
@@ -57,6 +60,7 @@ class CouplingManager {
   const CouplingWork& work() const { return solver_->work(); }
 
  private:
+  /// The shortest of the modules' own; infinity where no window asks for it.
   double stable_time_step() const;
 
   CouplingOptions options_;

@@ -4,18 +4,23 @@
 
 namespace perifrac {
 
-WindowSchedule::WindowSchedule(double first, double growth, double largest)
-    : first_(first), growth_(growth), largest_(largest), length_(first) {}
+WindowSchedule::WindowSchedule(WindowType type, double first, double growth, double largest)
+    : type_(type), first_(first), growth_(growth), largest_(largest), length_(first) {}
 
-double WindowSchedule::end(double t, double stop, double stable) const {
+double WindowSchedule::end(double t, double stop) const {
   // Rounding in t must not make a sliver of what was meant as one whole window.
   constexpr double slack = 1.0 + 1e-9;
-  const double length = std::min(length_, stable);
   const double rest = stop - t;
-  if (rest <= length * (length_ <= stable ? slack : 1.0)) return stop;
-  return t + (rest < 2.0 * length ? 0.5 * rest : length);
+  if (rest <= length_ * slack) return stop;
+  return t + (rest < 2.0 * length_ ? 0.5 * rest : length_);
 }
 
-void WindowSchedule::grow() { length_ = std::min(length_ * growth_, largest_); }
+void WindowSchedule::grow(double stable) {
+  length_ = std::min(type_ == WindowType::one_step ? stable : length_ * growth_, largest_);
+}
+
+void WindowSchedule::start_over(double stable) {
+  length_ = type_ == WindowType::one_step ? std::min(stable, largest_) : first_;
+}
 
 }  // namespace perifrac

@@ -1,27 +1,30 @@
 #pragma once
 
 #include "core/state/state_visitor.hpp"
+#include "coupling/coupling_options.hpp"
 
 namespace perifrac {
 
-/// Chooses the windows: from `first` [s] by the factor `growth` to `largest` [s].
+/// Chooses the windows: from `first` [s] by the factor `growth` to `largest` [s]; or one explicit
+/// step of the modules each, at most `largest`.
 class WindowSchedule {
  public:
-  WindowSchedule(double first, double growth, double largest);
+  WindowSchedule(WindowType type, double first, double growth, double largest);
 
-  /// End [s] of the window that begins at `t` and must not step over `stop`, nor be longer than
-  /// `stable` [s]. `stop` is hit exactly, and a rest of less than two windows is halved rather than
-  /// leaving a sliver.
-  double end(double t, double stop, double stable) const;
+  /// End [s] of the window that begins at `t` and must not step over `stop`. `stop` is hit exactly,
+  /// and a rest of less than two windows is halved rather than leaving a sliver.
+  double end(double t, double stop) const;
 
-  /// The window was run to its end: the next may be longer.
-  void grow();
+  /// The window was run to its end: the next may be longer. `stable` is the shortest of the
+  /// modules' own stable steps now [s].
+  void grow(double stable);
   /// A sudden load: what follows is as fast as at the start.
-  void start_over() { length_ = first_; }
+  void start_over(double stable);
 
   void visit_state(StateVisitor& visitor) { visitor.visit("window_length", length_); }
 
  private:
+  WindowType type_;
   double first_;
   double growth_;
   double largest_;

@@ -174,8 +174,9 @@ void WindowSolver::fail(double t, int passes, const char* problem) const {
   for (const CoupledPair& pair : coupled_pairs(links_)) {
     const Link& first = links_[pair.first];
     const Link& second = links_[pair.second];
-    if (&first == worst || &second == worst) {
-      strength = fmt::format(", coupling strength {:.3g}", coupling_strength(first, second));
+    const double value = coupling_strength(first, second);
+    if ((&first == worst || &second == worst) && value > 0.0) {
+      strength = fmt::format(", coupling strength {:.3g}", value);
     }
   }
   throw NumericalError(

@@ -25,7 +25,8 @@ class PhysicsModule {
   /// Makes the state ready at time t [s], before anything is exchanged.
   virtual void initialize(double t) = 0;
 
-  /// The longest stable window [s]; infinity where sub-cycling or implicitness leaves no limit.
+  /// The longest stable step of its own [s], with which it sub-cycles in any window; infinity where
+  /// implicit. A scene may ask for windows of one such step.
   virtual double stable_time_step() const = 0;
 
   /// Advances over the window with steps of its own; returns the time reached [s]. Less than

@@ -298,7 +298,7 @@ CvodeIntegrator::CvodeIntegrator(OdeSystem& system, NewtonMatrix& matrix, double
 CvodeIntegrator::~CvodeIntegrator() = default;
 void CvodeIntegrator::reset(double t, std::span<const double> y) { cvode_->reset(t, y); }
 void CvodeIntegrator::advance(double t_end, std::span<double> y) { cvode_->advance(t_end, y); }
-double CvodeIntegrator::stable_step() const { return std::numeric_limits<double>::infinity(); }
+double CvodeIntegrator::longest_step() const { return std::numeric_limits<double>::infinity(); }
 IntegratorStatistics CvodeIntegrator::statistics() const { return cvode_->statistics(); }
 
 }  // namespace perifrac

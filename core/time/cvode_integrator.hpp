@@ -20,7 +20,7 @@ class CvodeIntegrator final : public Integrator {
 
   void reset(double t, std::span<const double> y) override;
   void advance(double t_end, std::span<double> y) override;
-  double stable_step() const override;
+  double longest_step() const override;
   IntegratorStatistics statistics() const override;
 
  private:

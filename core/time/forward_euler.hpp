@@ -9,8 +9,9 @@
 
 namespace perifrac {
 
-/// y <- y + h f(t, y) in equal sub-steps, for systems whose J has real eigenvalues <= 0
-/// (diffusion). The stable limit is 2 / |largest eigenvalue|.
+/// y <- y + h f(t + h, y) in equal sub-steps, for systems whose J has real eigenvalues <= 0
+/// (diffusion). Inputs of f, which may follow what y did to others, are those of the sub-step's
+/// end. The stable limit is 2 / |largest eigenvalue|.
 class ForwardEuler final : public Integrator {
  public:
   /// The system must outlive the integrator. A sub-step is at most safety (0 to 1) times the
@@ -19,7 +20,9 @@ class ForwardEuler final : public Integrator {
 
   void reset(double t, std::span<const double> y) override;
   void advance(double t_end, std::span<double> y) override;
-  double stable_step() const override { return stable_step_; }
+  double longest_step() const override { return safety_ * stable_step_; }
+  /// 2 / |largest eigenvalue of J| [s].
+  double stable_step() const { return stable_step_; }
   IntegratorStatistics statistics() const override { return statistics_; }
 
  private:

@@ -30,8 +30,9 @@ class Integrator {
   /// Throws NumericalError; y is then not to be used.
   virtual void advance(double t_end, std::span<double> y) = 0;
 
-  /// The longest stable step of its own [s], known after reset; infinity where there is no limit.
-  virtual double stable_step() const = 0;
+  /// The longest step that stability lets it take [s], known after reset; infinity where there is
+  /// no limit.
+  virtual double longest_step() const = 0;
 
   virtual IntegratorStatistics statistics() const = 0;
 };

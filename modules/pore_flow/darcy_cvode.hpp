@@ -14,7 +14,7 @@ class DarcyCvode final : public Integrator {
 
   void reset(double t, std::span<const double> y) override { cvode_.reset(t, y); }
   void advance(double t_end, std::span<double> y) override { cvode_.advance(t_end, y); }
-  double stable_step() const override { return cvode_.stable_step(); }
+  double longest_step() const override { return cvode_.longest_step(); }
   IntegratorStatistics statistics() const override { return cvode_.statistics(); }
 
  private:

@@ -109,7 +109,8 @@ void DarcyFlow<D>::initialize(double t) {
 
 template <int D>
 double DarcyFlow<D>::stable_time_step() const {
-  return std::numeric_limits<double>::infinity();  // sub-cycles inside a window
+  if (restart_integrator_) integrator_->reset(time_, unknowns_);
+  return integrator_->longest_step();
 }
 
 template <int D>

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/geometry/face_conditions.hpp"
 #include "core/time/forward_euler.hpp"
 #include "modules/pore_flow/anisotropic_darcy_law.hpp"
@@ -40,10 +42,7 @@ void check_nested(const Section& section, const Body<D>& body) {
     section.fail("nested.smoothing", "smoothing follows the steps of the explicit integrator",
                  "none, or the explicit integrator");
   }
-  if (smoothing == "boundary" && body.faces().empty()) {
-    section.fail("nested.smoothing", "a ball has no faces", "none or everywhere");
-  }
-  for (const auto& [face, type, path] : read_face_conditions(section, body.faces())) {
+  for (const auto& [face, type, path] : read_face_conditions(section, body.faces(), {})) {
     if (type == "flux" && body.layer(face).empty()) {
       section.fail(path + ".type", "operator 'nested' takes no inflow at a face",
                    "sealed, pressure, or a bonded layer behind the face");
@@ -134,7 +133,13 @@ Discretisation<D> discretise(const Section& section, const Body<D>& body,
 template <int D>
 std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
-  if (read_scheme(section) == FlowScheme::nested) check_nested(section, *body);
+  const FlowScheme scheme = read_scheme(section);
+  if (scheme != FlowScheme::conservative && std::ranges::any_of(body->faces(), &Face::curved)) {
+    section.fail("operator",
+                 fmt::format("'{}' on a body with a curved face", section.word("operator")),
+                 "conservative, or a body of shape box");
+  }
+  if (scheme == FlowScheme::nested) check_nested(section, *body);
   const PoreBoundary<D> boundary = read_pore_boundary<D>(section, *body);
   const PoreFluid fluid = read_pore_fluid(section);
   std::vector<std::uint8_t> region = region_of_points<D>(section, body->regions(), body->points());

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 
+#include "core/time/equal_steps.hpp"
 #include "core/time/forward_euler.hpp"
 #include "modules/pore_flow/darcy_system.hpp"
 
@@ -12,8 +12,7 @@ namespace perifrac {
 template <int D>
 class SmoothedEuler final : public Integrator {
  public:
-  SmoothedEuler(DarcySystem<D>& system, double safety)
-      : system_(system), safety_(safety), euler_(system, safety) {}
+  SmoothedEuler(DarcySystem<D>& system, double safety) : system_(system), euler_(system, safety) {}
 
   void reset(double t, std::span<const double> y) override {
     euler_.reset(t, y);
@@ -22,22 +21,20 @@ class SmoothedEuler final : public Integrator {
 
   void advance(double t_end, std::span<double> y) override {
     const double begin = t_, length = t_end - begin;
-    // A little more than enough, so that none of the steps is divided again.
-    const double steps =
-        std::max(1.0, std::ceil(length / (safety_ * euler_.stable_step()) * (1.0 + 1e-9)));
-    for (double n = 1.0; n <= steps; ++n) {
-      t_ = n == steps ? t_end : begin + n / steps * length;
+    const std::int64_t steps = equal_steps(length, euler_.longest_step());
+    for (std::int64_t n = 1; n <= steps; ++n) {
+      t_ =
+          n == steps ? t_end : begin + static_cast<double>(n) / static_cast<double>(steps) * length;
       euler_.advance(t_, y);
       system_.smooth(t_, y);
     }
   }
 
-  double stable_step() const override { return euler_.stable_step(); }
+  double longest_step() const override { return euler_.longest_step(); }
   IntegratorStatistics statistics() const override { return euler_.statistics(); }
 
  private:
   DarcySystem<D>& system_;
-  double safety_;
   double t_ = 0.0;
   ForwardEuler euler_;
 };

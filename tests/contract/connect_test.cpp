@@ -52,13 +52,15 @@ TEST(Connect, RefusesPortsThatDoNotFit) {
   }
 }
 
-TEST(Connect, OnlyFixedStressSendsSlopes) {
-  const std::vector<Port> one = {{"p", "Pa", PortDirection::in},
-                                 {"theta", "1", PortDirection::out}};
-  const std::vector<Port> two = {{"p", "Pa", PortDirection::out},
-                                 {"theta", "1", PortDirection::in}};
+const std::vector<Port> one = {{"p", "Pa", PortDirection::in}, {"theta", "1", PortDirection::out}};
+const std::vector<Port> two = {{"p", "Pa", PortDirection::out}, {"theta", "1", PortDirection::in}};
+
+TEST(Connect, FixedStressSendsTheSlopeToTheFirstAndDrainedSendsNone) {
   auto modules = bare({one, two}, true);
-  for (const Link& link : connect(modules, Split::fixed_stress)) EXPECT_TRUE(link.uses_slope());
+  for (const Link& link : connect(modules, Split::fixed_stress)) {
+    EXPECT_EQ(link.uses_slope(), link.lagged());
+  }
+  EXPECT_EQ(modules[0].name, "a");
   const auto drained = connect(modules, Split::drained);
   for (const Link& link : drained) EXPECT_FALSE(link.uses_slope());
   ASSERT_EQ(coupled_pairs(drained).size(), 1u);
@@ -66,6 +68,36 @@ TEST(Connect, OnlyFixedStressSendsSlopes) {
 
   auto without = bare({one, two}, false);
   for (const Link& link : connect(without, Split::fixed_stress)) EXPECT_FALSE(link.uses_slope());
+}
+
+TEST(Connect, UndrainedPutsTheModuleThatAddsTheSlopeFirst) {
+  for (const Split split : {Split::undrained, Split::automatic}) {
+    auto modules = bare({{heat_out}, two, {heat_in}, one}, true);
+    const auto links = connect(modules, split);
+    EXPECT_EQ(modules[0].name + modules[1].name + modules[2].name + modules[3].name, "adbc");
+    for (const Link& link : links) {
+      EXPECT_EQ(link.uses_slope(), link.name() == "p");
+      EXPECT_EQ(link.lagged(), link.name() == "p") << link.path();
+    }
+  }
+}
+
+/// The later module adds no slope: nothing is moved, and only `automatic` falls back.
+TEST(Connect, WithoutAReceiverOfTheSlopeAutomaticIsFixedStress) {
+  const auto pair = [] {
+    auto modules = bare({two, one}, true);
+    auto& solid = static_cast<fake::Socket&>(*modules[1].module);
+    solid.at[0].slope.clear();
+    return modules;
+  };
+  for (const Split split : {Split::undrained, Split::automatic}) {
+    auto modules = pair();
+    const auto links = connect(modules, split);
+    EXPECT_EQ(modules[0].name, "a");
+    for (const Link& link : links) {
+      EXPECT_EQ(link.uses_slope(), split == Split::automatic && link.name() == "theta");
+    }
+  }
 }
 
 TEST(Connect, RefusesASlopeThatCouldReferToTwoPorts) {

@@ -29,7 +29,8 @@ TEST(CouplingKeys, DefaultsFollowFromTheSimulatedTime) {
   EXPECT_DOUBLE_EQ(options.first_window, 1e-3);
   EXPECT_DOUBLE_EQ(options.window_growth, 1.1);
   EXPECT_DOUBLE_EQ(options.largest_window, 2.0);
-  EXPECT_EQ(options.split, Split::fixed_stress);
+  EXPECT_EQ(options.window, WindowType::schedule);
+  EXPECT_EQ(options.split, Split::automatic);
   EXPECT_EQ(options.max_iterations, 1);
   EXPECT_DOUBLE_EQ(options.tolerance, 1e-4);
   EXPECT_EQ(options.acceleration, AccelerationType::anderson);
@@ -38,13 +39,14 @@ TEST(CouplingKeys, DefaultsFollowFromTheSimulatedTime) {
 TEST(CouplingKeys, ReadsEachKey) {
   const CouplingOptions options = read(
       "coupling:\n"
-      "  window: {first: 2 ms, growth: 1.5, largest: 0.5 s}\n"
+      "  window: {type: one_step, first: 2 ms, growth: 1.5, largest: 0.5 s}\n"
       "  split: drained\n"
       "  iterations: {max: 30, tolerance: 1e-8}\n"
       "  acceleration: anderson\n");
   EXPECT_DOUBLE_EQ(options.first_window, 2e-3);
   EXPECT_DOUBLE_EQ(options.window_growth, 1.5);
   EXPECT_DOUBLE_EQ(options.largest_window, 0.5);
+  EXPECT_EQ(options.window, WindowType::one_step);
   EXPECT_EQ(options.split, Split::drained);
   EXPECT_EQ(options.max_iterations, 30);
   EXPECT_DOUBLE_EQ(options.tolerance, 1e-8);

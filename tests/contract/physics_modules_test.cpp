@@ -2,6 +2,7 @@
 
 #include "app/register_modules.hpp"
 #include "app/simulation.hpp"
+#include "core/errors.hpp"
 #include "tests/contract/module_contract.hpp"
 #include "tests/contract/scene_text.hpp"
 
@@ -52,6 +53,8 @@ const std::vector<Variant>& variants() {
               {"solid.material.type=lps"}),
       variant("quasi_static_confined", "solid/quasi_static", box_2d + quasi_static_2d,
               {"solid.confining_stress=[2 MPa, 3 MPa]"}),
+      variant("dynamic_2d", "solid/dynamic", box_2d + dynamic_2d),
+      variant("dynamic_3d", "solid/dynamic", box_3d + dynamic_3d),
       variant("rigid", "solid/rigid", box_2d + rigid),
       variant("darcy_cvode_2d", "pore_flow/darcy", box_2d + darcy),
       variant("darcy_cvode_3d", "pore_flow/darcy", box_3d + darcy),
@@ -103,36 +106,117 @@ TEST(ModuleContract, CoversEveryRegisteredModule) {
   }
 }
 
-/// Every solid beside every pore flow, each also alone: it runs, with finite results, and only what
-/// is named exists.
-TEST(SwapMatrix, EveryCombinationRuns) {
-  const std::string lps =
-      std::string(quasi_static_2d).replace(quasi_static_2d.find("{bulk"), 1, "{type: lps, ");
-  const std::vector<std::string> solids = {"", rigid, quasi_static_2d, lps};
-  const std::vector<std::vector<std::string>> flows = {
-      {},
-      {"pore_flow.integrator.type=explicit"},
-      {"pore_flow.integrator.type=cvode"},
-      {"pore_flow.operator=bond"},
-      {"pore_flow.integrator.linear_solver=krylov"}};
-  for (const std::string& solid : solids) {
+/// The same solid of linear peridynamic material.
+std::string with_lps(std::string solid) {
+  return solid.replace(solid.find("material: {"), 11, "material: {type: lps, ");
+}
+
+const std::vector<std::vector<std::string>> flows = {{},
+                                                     {"pore_flow.integrator.type=explicit"},
+                                                     {"pore_flow.integrator.type=cvode"},
+                                                     {"pore_flow.operator=bond"},
+                                                     {"pore_flow.integrator.linear_solver=krylov"}};
+
+/// The splits that the two can use.
+std::vector<std::string> splits_for(const std::string& solid, bool flow) {
+  const std::vector<std::string> all = {"automatic", "drained", "fixed_stress", "undrained"};
+  if (!flow || solid.empty() || solid == rigid) return all;
+  const bool dynamic = solid == dynamic_2d || solid == with_lps(dynamic_2d);
+  return {"automatic", "drained", dynamic ? "undrained" : "fixed_stress"};
+}
+
+void expect_to_run(const Section& scene, int modules, int links) {
+  Simulation simulation = make_simulation(scene);
+  CouplingManager& manager = *simulation.manager;
+  initialize(scene, simulation);
+  manager.settle();
+  for (int window = 0; window < 3; ++window) manager.advance(1.0);
+  EXPECT_EQ(manager.modules().size(), modules);
+  EXPECT_EQ(manager.links().size(), links);
+  for (const Field& field : fields_of(manager)) {
+    for (const double value : field.values()) ASSERT_TRUE(std::isfinite(value));
+  }
+  if (const auto mass = manager.ledger().mass()) {
+    EXPECT_LT(mass->relative_error, 1e-12);
+  }
+}
+
+/// Every solid beside every pore flow, each also alone, under every split: it runs, with finite
+/// results, and only what is named exists; or it is refused.
+TEST(SwapMatrix, EveryCombinationRunsOrIsRefused) {
+  for (const std::string& solid : {std::string(), rigid, quasi_static_2d, with_lps(quasi_static_2d),
+                                   dynamic_2d, with_lps(dynamic_2d)}) {
     for (const auto& flow : flows) {
       if (solid.empty() && flow.empty()) continue;
-      SCOPED_TRACE(solid + (flow.empty() ? "no pore flow" : flow[0]));
-      const Section scene = read_scene_text(box_2d + solid + (flow.empty() ? "" : darcy), flow);
-      Simulation simulation = make_simulation(scene);
-      CouplingManager& manager = *simulation.manager;
-      manager.initialize(0.0);
-      manager.settle();
-      for (int window = 0; window < 3; ++window) manager.advance(1.0);
-      EXPECT_EQ(manager.modules().size(), (solid.empty() ? 0u : 1u) + (flow.empty() ? 0u : 1u));
-      EXPECT_EQ(manager.links().size(), solid.size() > rigid.size() && !flow.empty() ? 2u : 0u);
-      for (const Field& field : fields_of(manager)) {
-        for (const double value : field.values()) ASSERT_TRUE(std::isfinite(value));
+      for (const char* split : {"automatic", "drained", "fixed_stress", "undrained"}) {
+        SCOPED_TRACE(solid + (flow.empty() ? "no pore flow " : flow[0] + " ") + split);
+        std::vector<std::string> overrides = flow;
+        overrides.push_back(std::string("coupling.split=") + split);
+        const Section scene =
+            read_scene_text(box_2d + solid + (flow.empty() ? "" : darcy), overrides);
+        const bool coupled = !flow.empty() && !solid.empty() && solid != rigid;
+        if (std::ranges::count(splits_for(solid, !flow.empty()), split) == 0) {
+          Simulation simulation = make_simulation(scene);
+          EXPECT_THROW(initialize(scene, simulation), InputError);
+          continue;
+        }
+        expect_to_run(scene, !solid.empty() + !flow.empty(), coupled ? 2 : 0);
       }
-      if (!flow.empty()) {
-        EXPECT_LT(manager.ledger().mass()->relative_error, 1e-12);
+    }
+  }
+}
+
+TEST(SwapMatrix, WindowsOfOneStepAreTheShortestExplicitStep) {
+  for (const char* type : {"explicit", "cvode"}) {
+    const Section scene = read_scene_text(
+        box_2d + dynamic_2d + darcy,
+        {"coupling.window.type=one_step", std::string("pore_flow.integrator.type=") + type});
+    Simulation simulation = make_simulation(scene);
+    CouplingManager& manager = *simulation.manager;
+    initialize(scene, simulation);
+    manager.settle();
+    double shortest = 1.0;
+    for (const ModuleSlot& slot : manager.modules()) {
+      shortest = std::min(shortest, slot.module->stable_time_step());
+    }
+    EXPECT_NEAR(manager.advance(1.0), shortest, 1e-15);
+    for (int window = 0; window < 9; ++window) manager.advance(1.0);
+    for (const ModuleSlot& slot : manager.modules()) {
+      const auto ports = slot.module->ports();
+      const auto steps = std::ranges::find(ports, "integrator_steps", &Port::name);
+      if (slot.name == "solid") {
+        EXPECT_EQ(slot.module->port(steps - ports.begin()).value[0], 10.0);
       }
+    }
+  }
+}
+
+/// Saved, restored into another simulation, and run on: as if never stopped, bit for bit.
+TEST(PhysicsRestart, DynamicSolidBesidePoreFlow) {
+  for (const char* window : {"schedule", "one_step"}) {
+    for (const char* type : {"explicit", "cvode"}) {
+      const Section scene = read_scene_text(box_2d + dynamic_2d + darcy,
+                                            {std::string("coupling.window.type=") + window,
+                                             std::string("pore_flow.integrator.type=") + type});
+      const auto fields = [](CouplingManager& manager) {
+        Snapshot state;
+        state.save([&](StateVisitor& visitor) { manager.visit_state(visitor); });
+        return state;
+      };
+      Simulation whole = make_simulation(scene), restarted = make_simulation(scene);
+      initialize(scene, whole);
+      whole.manager->settle();
+      for (int i = 0; i < 5; ++i) whole.manager->advance(1.0);
+      const Snapshot middle = fields(*whole.manager);
+      whole.manager->restart_point();
+      initialize(scene, restarted);
+      middle.restore([&](StateVisitor& visitor) { restarted.manager->visit_state(visitor); });
+      restarted.manager->restart_point();
+      for (Simulation* run : {&whole, &restarted}) {
+        for (int i = 0; i < 5; ++i) run->manager->advance(1.0);
+      }
+      EXPECT_EQ(fields(*restarted.manager).fields(), fields(*whole.manager).fields())
+          << window << ' ' << type;
     }
   }
 }

@@ -50,6 +50,18 @@ solid:
     left: {type: fixed}
     top: {type: rigid_plate, force: 1 MN}
 )";
+/// quasi_static_2d with one word, and one key, changed.
+inline const std::string dynamic_2d = [] {
+  std::string text = quasi_static_2d;
+  const std::string word = "quasi_static\n";
+  return text.replace(text.find(word), word.size(),
+                      "dynamic\n  density: 2000 kg/m^3\n  damping: 5 1/s\n");
+}();
+inline const std::string dynamic_3d = [] {
+  std::string text = quasi_static_3d;
+  const std::string word = "quasi_static\n";
+  return text.replace(text.find(word), word.size(), "dynamic\n  density: 2000 kg/m^3\n");
+}();
 inline const std::string rigid = R"(
 solid: {type: rigid}
 )";

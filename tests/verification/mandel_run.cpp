@@ -12,7 +12,9 @@ namespace perifrac::test {
 
 namespace {
 
-const std::string scene_file = PERIFRAC_SOURCE_DIR "/configs/mandel.yaml";
+std::string scene_file(const std::string& name) {
+  return std::string(PERIFRAC_SOURCE_DIR "/configs/") + name + ".yaml";
+}
 
 }  // namespace
 
@@ -31,14 +33,15 @@ double MandelRun::largest_plate_error() const {
 }
 
 Simulation make_mandel(const std::vector<std::string>& overrides) {
-  Simulation simulation = make_simulation(read_scene(scene_file, overrides, scene_catalogue()));
+  Simulation simulation =
+      make_simulation(read_scene(scene_file("mandel"), overrides, scene_catalogue()));
   simulation.manager->initialize(0.0);
   return simulation;
 }
 
-MandelRun run_mandel(const std::vector<std::string>& overrides) {
+MandelRun run_mandel(const std::vector<std::string>& overrides, const std::string& scene) {
   MandelRun run;
-  const auto [exit_code, summary] = run_config("mandel", overrides);
+  const auto [exit_code, summary] = run_config(scene, overrides);
   run.exit_code = exit_code;
   for (const auto& row : summary["reference"]["table"]) {
     run.rows.push_back({row["dimensionless_time"], row["pressure_error"], row["plate_error"]});

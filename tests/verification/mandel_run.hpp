@@ -28,8 +28,9 @@ struct MandelRun {
   double largest_plate_error() const;
 };
 
-/// Runs configs/mandel.yaml with `--set` overrides as `perifrac run` does.
-MandelRun run_mandel(const std::vector<std::string>& overrides);
+/// Runs configs/<scene>.yaml with `--set` overrides as `perifrac run` does.
+MandelRun run_mandel(const std::vector<std::string>& overrides,
+                     const std::string& scene = "mandel");
 
 /// The simulation that it makes, initialised.
 Simulation make_mandel(const std::vector<std::string>& overrides);

@@ -74,6 +74,18 @@ INSTANTIATE_TEST_SUITE_P(
                             with(iterated, {"pore_flow.integrator.type=explicit"})}),
     [](const auto& info) { return info.param.name; });
 
+TEST(Mandel, DynamicSolidMeetsItsLimits) {
+  const MandelRun run =
+      run_mandel({"time.end=8.2665 s", "output.times=[1.6533 s]"}, "mandel_dynamic");
+  print("dynamic", run);
+  EXPECT_EQ(run.rows.size(), 2u);
+  EXPECT_LE(run.largest_pressure_error(0.01, 0.01), 1e-2);
+  EXPECT_LE(run.largest_pressure_error(0.05, 0.05), 4e-3);
+  EXPECT_LE(run.largest_plate_error(), 2e-3);
+  EXPECT_LE(run.mass_error, 1e-12);
+  EXPECT_LE(run.energy_error, 1e-2);
+}
+
 TEST(Mandel, HalfTheSpacingIsFourTimesAsGood) {
   const MandelRun coarse = run_mandel({"time.end=1.6533 s", "output.times=[]"});
   const MandelRun fine = run_mandel({"body.spacing=0.5 m", "time.end=1.6533 s", "output.times=[]"});

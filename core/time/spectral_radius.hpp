@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+namespace perifrac {
+
+/// product = J v, both of one length.
+using MatrixProduct = std::function<void(std::span<const double> v, std::span<double> product)>;
+
+/// Upper bound of the largest |eigenvalue| of a matrix J of `size` rows by power iteration, of its
+/// first `coupled` rows and columns alone: the others must not act on them. The top of a lattice
+/// operator's spectrum is crowded: the vector hardly converges, but the growth per iteration does,
+/// from below, so the bound adds a margin over the tolerance and what slow convergence hides.
+/// Throws NumericalError, in the name of the field, where it is not found.
+double spectral_radius(std::string_view field, double t, std::size_t size, std::size_t coupled,
+                       const MatrixProduct& times);
+
+}  // namespace perifrac

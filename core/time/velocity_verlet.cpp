@@ -1,0 +1,89 @@
+#include "core/time/velocity_verlet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "core/operators/bond_traversal.hpp"
+#include "core/time/equal_steps.hpp"
+#include "core/time/spectral_radius.hpp"
+
+namespace perifrac {
+
+VelocityVerlet::VelocityVerlet(SecondOrderSystem& system, double damping, double safety)
+    : system_(system), damping_(damping), safety_(safety) {}
+
+void VelocityVerlet::evaluate(double t, Motion& motion) {
+  motion.acceleration.resize(motion.position.size());
+  system_.force(t, motion.position, motion.acceleration);
+  const double* const mass = system_.mass().data();
+  double* const a = motion.acceleration.data();
+  for_each_point(static_cast<Index>(motion.acceleration.size()), [=](Index i) { a[i] /= mass[i]; });
+}
+
+void VelocityVerlet::advance(double begin, double end, Motion& motion) {
+  if (end == begin) return;
+  const std::int64_t steps = equal_steps(end - begin, longest_step(begin));
+  const double length = (end - begin) / static_cast<double>(steps);
+  for (std::int64_t n = 1; n <= steps; ++n) {
+    step(n == steps ? end : begin + static_cast<double>(n) * length, length, motion);
+  }
+  steps_ += steps;
+  const auto bad =
+      std::ranges::find_if_not(motion.position, [](double x) { return std::isfinite(x); });
+  if (bad != motion.position.end()) {
+    throw NumericalError(std::string(system_.name()), system_.place(bad - motion.position.begin()),
+                         end, "a value is not finite");
+  }
+}
+
+/// One step of `length` that ends at t.
+void VelocityVerlet::step(double t, double length, Motion& motion) {
+  const double factor = std::exp(-0.5 * damping_ * length);
+  damp(factor, motion);
+  kick(0.5 * length, motion);
+  const double* const v = motion.velocity.data();
+  double* const y = motion.position.data();
+  for_each_point(static_cast<Index>(motion.position.size()),
+                 [=](Index i) { y[i] += length * v[i]; });
+  evaluate(t, motion);
+  kick(0.5 * length, motion);
+  damp(factor, motion);
+}
+
+void VelocityVerlet::damp(double factor, Motion& motion) const {
+  if (damping_ == 0.0) return;
+  const double before = kinetic_energy(system_.mass(), motion.velocity);
+  motion.damped_energy += (1.0 - factor * factor) * before;
+  for (double& v : motion.velocity) v *= factor;
+}
+
+void VelocityVerlet::kick(double length, Motion& motion) const {
+  const double* const a = motion.acceleration.data();
+  double* const v = motion.velocity.data();
+  for_each_point(static_cast<Index>(motion.velocity.size()),
+                 [=](Index i) { v[i] += length * a[i]; });
+}
+
+double VelocityVerlet::stable_step(double t) {
+  if (limit_version_ != system_.stiffness_version()) {
+    const std::span<const double> mass = system_.mass();
+    const double largest =
+        spectral_radius(system_.name(), t, mass.size(), mass.size(),
+                        [&](std::span<const double> v, std::span<double> product) {
+                          system_.stiffness_times(v, product);
+                          for (std::size_t i = 0; i < mass.size(); ++i) product[i] /= mass[i];
+                        });
+    stable_step_ = 2.0 / std::sqrt(largest);  // infinity where nothing pulls back
+    limit_version_ = system_.stiffness_version();
+  }
+  return stable_step_;
+}
+
+double kinetic_energy(std::span<const double> mass, std::span<const double> velocity) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mass.size(); ++i) sum += 0.5 * mass[i] * velocity[i] * velocity[i];
+  return sum;
+}
+
+}  // namespace perifrac

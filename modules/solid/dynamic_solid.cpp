@@ -1,0 +1,135 @@
+#include "modules/solid/dynamic_solid.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const PointSet whole_body{.name = "solid"};
+
+}  // namespace
+
+template <int D>
+DynamicSolid<D>::DynamicSolid(std::shared_ptr<const Body<D>> body,
+                              std::shared_ptr<ElasticOperator<D>> elastic,
+                              const SolidBoundary<D>& boundary, double density, double damping,
+                              double safety)
+    : body_(std::move(body)),
+      system_(std::make_unique<ElasticDynamics<D>>(*body_, std::move(elastic), boundary, density)),
+      verlet_(std::make_unique<VelocityVerlet>(*system_, damping, safety)) {
+  const auto vector = [](const char* name, const char* unit) {
+    return Port{name, unit, PortDirection::out, PortKind::intensive, PortRole::field, D};
+  };
+  const auto energy = [](const char* name, PortRole role) {
+    return Port{name, unit_of_total("J", D), PortDirection::out, PortKind::extensive, role};
+  };
+  ports_ = {
+      {"pore_stress", "Pa", PortDirection::in},
+      vector("displacement", "m"),
+      vector("velocity", "m/s"),
+      {"dilatation", "1", PortDirection::out},
+      energy("elastic_energy", PortRole::energy_stored),
+      energy("kinetic_energy", PortRole::energy_stored),
+      energy("external_work", PortRole::energy_gained),
+      energy("damped_energy", PortRole::energy_dissipated),
+      {"integrator_steps", "1", PortDirection::out, PortKind::extensive, PortRole::work},
+  };
+  const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
+  for (const auto& plate : boundary.plates(mirror)) {
+    ports_.push_back({plate.face + "_plate_displacement", "m", PortDirection::out});
+  }
+}
+
+template <int D>
+std::span<const Port> DynamicSolid<D>::ports() const {
+  return ports_;
+}
+
+template <int D>
+PortView DynamicSolid<D>::port(PortId id) {
+  const PointSet* const points = &body_->point_set();
+  const std::size_t count = body_->points().size();
+  switch (id) {
+    case pore_stress:
+      pore_stress_.resize(count);
+      pore_stress_rate_.resize(count);
+      pore_stress_slope_.resize(count);
+      return {points, pore_stress_, pore_stress_rate_, pore_stress_slope_};
+    case displacement:
+      return {points, std::span(system_->unknowns()).first(D * count)};
+    case velocity:
+      velocity_.resize(D * count);
+      system_->point_velocity(time_, verlet_->longest_step(time_), motion_.velocity, velocity_);
+      return {points, velocity_};
+    case dilatation:
+      return {points, system_->dilatation()};
+    default:
+      if (id >= first_plate) {
+        const Index unknown = system_->plate_unknowns()[id - first_plate];
+        return {&whole_body, {&system_->unknowns()[unknown], 1}};
+      }
+      double& value = scalars_[id - elastic_energy];
+      value = scalar(id);
+      return {&whole_body, {&value, 1}};
+  }
+}
+
+template <int D>
+double DynamicSolid<D>::scalar(PortId id) {
+  switch (id) {
+    case elastic_energy:
+      return system_->elastic_energy();
+    case kinetic_energy:
+      return perifrac::kinetic_energy(system_->mass(), motion_.velocity);
+    case external_work:
+      return system_->external_work();
+    case damped_energy:
+      return motion_.damped_energy;
+    default:
+      return static_cast<double>(verlet_->steps());
+  }
+}
+
+template <int D>
+void DynamicSolid<D>::initialize(double t) {
+  time_ = t;
+  system_->start();
+  const std::size_t size = system_->mass().size();
+  motion_ = {std::vector<double>(size, 0.0), std::vector<double>(size, 0.0), {}};
+}
+
+template <int D>
+double DynamicSolid<D>::stable_time_step() const {
+  return verlet_->longest_step(time_);
+}
+
+template <int D>
+double DynamicSolid<D>::advance(const TimeWindow& window) {
+  system_->set_pore_stress({pore_stress_, pore_stress_rate_, pore_stress_slope_, window.end});
+  // An input may jump where windows meet. The step before must end with the old one and this step
+  // begin with the new: one force for both feeds energy into the fastest vibrations.
+  const bool jumps = !pore_stress_.empty() || !(window.length() > 0.0);
+  if (jumps || motion_.acceleration.empty()) verlet_->evaluate(window.begin, motion_);
+  verlet_->advance(window.begin, window.end, motion_);
+  time_ = window.end;
+  return window.end;
+}
+
+template <int D>
+void DynamicSolid<D>::visit_state(StateVisitor& visitor) {
+  system_->visit_state(visitor);
+  visitor.visit("velocity", motion_.velocity);
+  visitor.visit("acceleration", motion_.acceleration);
+  visitor.visit("damped_energy", motion_.damped_energy);
+}
+
+template <int D>
+void DynamicSolid<D>::on_restored(double t) {
+  time_ = t;
+  motion_.position = system_->position();
+  system_->derive();
+}
+
+template class DynamicSolid<2>;
+template class DynamicSolid<3>;
+
+}  // namespace perifrac

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/geometry/body.hpp"
+#include "core/module/physics_module.hpp"
+#include "core/time/velocity_verlet.hpp"
+#include "modules/solid/elastic_dynamics.hpp"
+
+namespace perifrac {
+
+/// A linear elastic solid with inertia, by velocity Verlet in as many equal steps as a window
+/// needs; no matrix. At rest and undeformed at the start. Small strain. In a window of no length
+/// nothing with a mass moves: loads act from then on.
+///
+/// Ports: in `pore_stress` [Pa], with rate and slope; out `displacement` [m], `velocity` [m/s],
+/// `dilatation`, `elastic_energy`, `kinetic_energy`, `external_work`, `damped_energy` [J] (per
+/// metre in 2D), `integrator_steps`, and for each rigid plate `<face>_plate_displacement` [m],
+/// along its axis.
+template <int D>
+class DynamicSolid final : public PhysicsModule {
+ public:
+  /// density [kg/m^3]; damping [1/s] of all velocities; a step is at most safety (0 to 1) times the
+  /// stable limit. The operator's mirror condition is the boundary's.
+  DynamicSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<ElasticOperator<D>> elastic,
+               const SolidBoundary<D>& boundary, double density, double damping, double safety);
+
+  std::span<const Port> ports() const override;
+  PortView port(PortId id) override;
+  void initialize(double t) override;
+  double stable_time_step() const override;
+  double advance(const TimeWindow& window) override;
+  void visit_state(StateVisitor& visitor) override;
+  void on_restored(double t) override;
+
+ private:
+  enum Id : PortId {
+    pore_stress,
+    displacement,
+    velocity,
+    dilatation,
+    elastic_energy,
+    kinetic_energy,
+    external_work,
+    damped_energy,
+    integrator_steps,
+    first_plate
+  };
+
+  double scalar(PortId id);
+
+  std::shared_ptr<const Body<D>> body_;
+  std::vector<Port> ports_;
+  std::unique_ptr<ElasticDynamics<D>> system_;
+  std::unique_ptr<VelocityVerlet> verlet_;
+  double time_ = 0.0;  ///< [s]
+  Motion motion_;      ///< no acceleration until the first window finds it
+
+  std::vector<double> pore_stress_;  ///< input and its companions; empty until somebody links it
+  std::vector<double> pore_stress_rate_;
+  std::vector<double> pore_stress_slope_;
+  std::vector<double> velocity_;  ///< of the points; empty until somebody asks
+  std::array<double, first_plate - elastic_energy> scalars_{};
+};
+
+}  // namespace perifrac
