@@ -10,7 +10,7 @@ namespace {
 
 KeyTable top_level_keys() {
   return {
-      {.path = "title", .type = KeyType::text, .fallback = "", .meaning = "Name for reports."},
+      {.path = "title", .type = KeyType::text, .meaning = "Name for reports."},
       {.path = "dimension",
        .type = KeyType::integer,
        .range = "[2, 3]",

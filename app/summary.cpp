@@ -94,7 +94,10 @@ nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const Reference* reference, RunOutcome outcome, double seconds) {
   const CouplingManager& manager = *simulation.manager;
   nlohmann::json result = {
-      {"scene", {{"title", scene.text("title")}, {"path", scene_file}, {"text", scene_text}}},
+      {"scene",
+       {{"title", scene.has("title") ? scene.text("title") : ""},
+        {"path", scene_file},
+        {"text", scene_text}}},
       {"version", version},
       {"build", {{"sparse factor", SparseCholesky::backend()}, {"compiler", __VERSION__}}},
       {"dimension", scene.integer("dimension")},

@@ -189,7 +189,9 @@ Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored) {
     if (ghost < 0) continue;
     part.ghost_source.push_back(family.ghost_source[ghost]);
     part.ghost_faces.push_back(family.ghost_faces[ghost]);
+    part.ghost_axes.push_back(family.ghost_axes[ghost]);
   }
+  part.curved = family.curved;
   part.offset.push_back(0);
   for (Index i = 0; i < family.point_count; ++i) {
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {

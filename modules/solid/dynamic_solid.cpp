@@ -27,6 +27,7 @@ DynamicSolid<D>::DynamicSolid(std::shared_ptr<const Body<D>> body,
       vector("displacement", "m"),
       vector("velocity", "m/s"),
       {"dilatation", "1", PortDirection::out},
+      {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, D * D},
       energy("elastic_energy", PortRole::energy_stored),
       energy("kinetic_energy", PortRole::energy_stored),
       energy("external_work", PortRole::energy_gained),
@@ -62,6 +63,10 @@ PortView DynamicSolid<D>::port(PortId id) {
       return {points, velocity_};
     case dilatation:
       return {points, system_->dilatation()};
+    case effective_stress:
+      effective_stress_.resize(D * D * count);
+      system_->effective_stress(effective_stress_);
+      return {points, effective_stress_};
     default:
       if (id >= first_plate) {
         const Index unknown = system_->plate_unknowns()[id - first_plate];

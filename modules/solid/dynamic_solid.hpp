@@ -17,9 +17,9 @@ namespace perifrac {
 /// nothing with a mass moves: loads act from then on.
 ///
 /// Ports: in `pore_stress` [Pa], with rate and slope; out `displacement` [m], `velocity` [m/s],
-/// `dilatation`, `elastic_energy`, `kinetic_energy`, `external_work`, `damped_energy` [J] (per
-/// metre in 2D), `integrator_steps`, and for each rigid plate `<face>_plate_displacement` [m],
-/// along its axis.
+/// `dilatation`, `effective_stress` [Pa] (as QuasiStaticSolid), `elastic_energy`, `kinetic_energy`,
+/// `external_work`, `damped_energy` [J] (per metre in 2D), `integrator_steps`, and for each rigid
+/// plate `<face>_plate_displacement` [m], along its axis.
 template <int D>
 class DynamicSolid final : public PhysicsModule {
  public:
@@ -42,6 +42,7 @@ class DynamicSolid final : public PhysicsModule {
     displacement,
     velocity,
     dilatation,
+    effective_stress,
     elastic_energy,
     kinetic_energy,
     external_work,
@@ -62,7 +63,8 @@ class DynamicSolid final : public PhysicsModule {
   std::vector<double> pore_stress_;  ///< input and its companions; empty until somebody links it
   std::vector<double> pore_stress_rate_;
   std::vector<double> pore_stress_slope_;
-  std::vector<double> velocity_;  ///< of the points; empty until somebody asks
+  std::vector<double> velocity_;          ///< of the points; empty until somebody asks
+  std::vector<double> effective_stress_;  ///< likewise
   std::array<double, first_plate - elastic_energy> scalars_{};
 };
 

@@ -58,6 +58,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   /// All displacements: D blocks of points, then face values [m].
   std::vector<double>& unknowns() { return unknowns_; }
   std::vector<double>& dilatation() { return dilatation_; }
+  void effective_stress(std::span<double> stress) { elastic_->stress(unknowns_, stress); }
   double elastic_energy();                                 ///< without pore stress [J]
   double external_work() const { return external_work_; }  ///< [J]
   /// An unknown that each rigid plate moves, in the boundary's order.

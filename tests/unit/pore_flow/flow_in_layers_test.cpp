@@ -108,7 +108,7 @@ TEST(FlowInLayers, KeepMassAndPressureWhileTheyAreSqueezed) {
       moved = std::max(moved, std::abs(gained));
       drift = std::max(drift, std::abs(scalar(flow, "pore_fluid_mass") - before - gained));
     }
-    EXPECT_GT(moved, 1.0);
+    EXPECT_GT(moved, 0.5) << "too little for the drift to mean something";
     EXPECT_LT(drift, 1e-12 * moved) << static_cast<int>(method);
 
     // The layer's fluid has followed its pressure and dilatation.

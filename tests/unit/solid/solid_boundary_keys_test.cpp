@@ -91,8 +91,8 @@ TEST(SolidBoundaryKeys, AllowPressureAloneOnASphere) {
   for (const std::string type :
        {"roller", "fixed", "rigid_plate, force: 1", "traction, traction: [1, 1]"}) {
     EXPECT_THAT(complaint(body, "boundary: {surface: {type: " + type + "}}"),
-                HasSubstr("solid.boundary.surface.type: no " + type.substr(0, type.find(',')) +
-                          " on the surface of a ball; expected free or pressure"));
+                HasSubstr("solid.boundary.surface.type: '" + type.substr(0, type.find(',')) +
+                          "' on a curved face; expected one of: free, pressure"));
   }
   EXPECT_EQ(complaint(body, "boundary: {surface: {type: free}}"), "none");
   const std::string pressure = "surface: {type: pressure, pressure: 1 MPa}";
