@@ -29,11 +29,15 @@ class SecondOrderSystem {
   /// keep accounts of what is done on it.
   virtual void force(double t, std::span<const double> y, std::span<double> force) = 0;
 
-  /// product = K v, without forming K.
+  /// product = K v, without forming K; K may be one of reference that the present stiffness exceeds
+  /// by stiffness_growth() at most.
   virtual void stiffness_times(std::span<const double> v, std::span<double> product) = 0;
 
   /// Rises whenever K becomes another matrix.
   virtual std::uint64_t stiffness_version() const = 0;
+
+  /// A bound, at least 1, of how much stiffer than K the system is now.
+  virtual double stiffness_growth() const { return 1.0; }
 };
 
 }  // namespace perifrac

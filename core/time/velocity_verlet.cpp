@@ -77,7 +77,7 @@ double VelocityVerlet::stable_step(double t) {
     stable_step_ = 2.0 / std::sqrt(largest);  // infinity where nothing pulls back
     limit_version_ = system_.stiffness_version();
   }
-  return stable_step_;
+  return stable_step_ / std::sqrt(system_.stiffness_growth());
 }
 
 double kinetic_energy(std::span<const double> mass, std::span<const double> velocity) {

@@ -74,11 +74,27 @@ template <int D>
 void ElasticDynamics<D>::set_pore_stress(const PoreStressInput& input) {
   pore_ = input;
   if (std::ranges::equal(input.slope, pore_slope_)) return;
-  if (pore_slope_.empty() && std::ranges::all_of(input.slope, [](double s) { return s == 0.0; }))
-    return;
+  if (reference_slope_.empty()) {
+    if (std::ranges::all_of(input.slope, [](double s) { return s == 0.0; })) return;
+    reference_slope_.assign(input.slope.begin(), input.slope.end());
+    note_reference();
+  }
   pore_slope_.assign(input.slope.begin(), input.slope.end());
-  no_pore_stress_.assign(pore_slope_.size(), 0.0);
   plate_rows_known_ = false;
+  growth_ = 1.0;
+  for (std::size_t i = 0; i < pore_slope_.size(); ++i) {
+    if (reference_slope_[i] != 0.0) {
+      growth_ = std::max(growth_, pore_slope_[i] / reference_slope_[i]);
+    }
+  }
+}
+
+/// The stiffness of reference is another one only if the slope in it is.
+template <int D>
+void ElasticDynamics<D>::note_reference() {
+  if (reference_slope_ == noted_slope_) return;
+  noted_slope_ = reference_slope_;
+  no_pore_stress_.assign(noted_slope_.size(), 0.0);
   ++version_;
 }
 
@@ -118,7 +134,7 @@ template <int D>
 void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<double> product) {
   expand(v, {}, trial_);
   place_plates({}, {}, trial_);
-  apply(trial_, {no_pore_stress_, pore_slope_}, inner_, scratch_);
+  apply(trial_, {no_pore_stress_, reference_slope_}, inner_, scratch_);
   gather(inner_, product);
 }
 
@@ -200,6 +216,7 @@ void ElasticDynamics<D>::start() {
   unknowns_.assign(owner_.size(), 0.0);
   external_force_.assign(owner_.size(), 0.0);
   external_work_ = 0.0;
+  reference_slope_.clear();
   dilatation_.assign(body_.points().size(), 0.0);
 }
 
@@ -208,10 +225,12 @@ void ElasticDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("displacement", unknowns_);
   visitor.visit("external_force", external_force_);
   visitor.visit("external_work", external_work_);
+  visitor.visit("pore_slope_of_reference", reference_slope_);
 }
 
 template <int D>
 void ElasticDynamics<D>::derive() {
+  note_reference();
   apply(unknowns_, {}, inner_, dilatation_);
 }
 

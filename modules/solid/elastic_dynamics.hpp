@@ -41,6 +41,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   void force(double t, std::span<const double> y, std::span<double> force) override;
   void stiffness_times(std::span<const double> v, std::span<double> product) override;
   std::uint64_t stiffness_version() const override { return version_; }
+  double stiffness_growth() const override { return growth_; }
 
   /// Takes the input of the next window; spans must stay valid while it is integrated. The slope
   /// is part of the stiffness.
@@ -86,6 +87,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   void find_plate_rows();
   void gather(std::span<const double> all, std::span<double> y) const;
   void find_pore_stress(double t);
+  void note_reference();
 
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
@@ -110,7 +112,12 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   PoreStressInput pore_;
   std::vector<double> pore_stress_;  ///< at the time of the last force, slope apart
-  std::vector<double> pore_slope_;   ///< of the stiffness; empty until one is told
+  std::vector<double> pore_slope_;   ///< of the present window; empty until one is told
+  /// The first that was told, part of the stiffness of reference: a fluid whose storage follows its
+  /// pressure changes the slope in every window, and the stable step is not to be sought each time.
+  std::vector<double> reference_slope_;
+  std::vector<double> noted_slope_;  ///< the one that version_ belongs to
+  double growth_ = 1.0;
   std::vector<double> no_pore_stress_;
 
   Eigen::VectorXd prescribed_now_, load_now_;             // workspace
