@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs permeability bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper permeability bench clean
 
 SCENE ?= configs/mandel.yaml
 BUILD := build/release
@@ -10,6 +10,7 @@ help:
 	@echo 'make run        install, build, run $(SCENE), say where the picture is'
 	@echo 'make test       install, build, run all tests but the slow ones'
 	@echo 'make test-slow  the slow verification runs'
+	@echo 'make paper      the figures of the paper, its scheme beside ours (some 15 minutes)'
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
 	@echo 'make permeability  explicit against cvode, 1e-20 to 1e-8 m^2: docs/permeability.md'
@@ -40,6 +41,9 @@ check-style:
 
 bench: build
 	$(BUILD)/bin/perifrac_bench
+
+paper: perifrac
+	@/usr/bin/python3 docs/paper/figures.py $(PERIFRAC)
 
 docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md

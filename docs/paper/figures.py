@@ -121,7 +121,9 @@ class Runs:
         return frames
 
     def frame_at(self, name: str, when: float) -> Frame | None:
-        """The frame within 2 % (or 20 ms) of a time, if the run came that far."""
+        """The frame within 2 % (or 20 ms) of a time, if the run came that far; at 0 the first with all the load."""
+        if when == 0.0:
+            return next(f for f in self.frames(name) if f.time > SCHEMES[name].loaded_at - 1e-9)
         nearest = min(self.frames(name), key=lambda frame: abs(frame.time - when))
         return nearest if abs(nearest.time - when) <= max(0.02 * when, 0.02) else None
 
@@ -219,19 +221,19 @@ def fig06(runs: Runs, images: Path, errors: Errors) -> None:
 def settlement(runs: Runs, name: str) -> tuple[np.ndarray, np.ndarray]:
     """Times and degree of consolidation, from the top's settlement in the frames.
 
-    The undrained settlement is taken off, as the paper does, by the analytic value."""
+    The undrained settlement is taken off, as the paper does, by its exact value."""
     times, degrees = [], []
-    undrained = -(COLUMN.load - COLUMN.biot * COLUMN.initial_pressure) / COLUMN.stiffness
-    final = -COLUMN.load / COLUMN.stiffness
+    undrained = -(COLUMN.load - COLUMN.biot * COLUMN.initial_pressure) / COLUMN.stiffness * COLUMN.height
+    final = -COLUMN.load / COLUMN.stiffness * COLUMN.height
     for frame in runs.frames(name):
-        if frame.time < 0.0:
+        if frame.time < SCHEMES[name].loaded_at - 1e-9:
             continue
-        y = frame.points[:, 1]
-        top = np.flatnonzero((y < COLUMN.height) & (y > COLUMN.height - 1.2))
-        strain = frame.fields["displacement"][top, 1] / y[top]
-        # Within the last point's height the strain is that of the drained top: shift to the face.
+        y, u = frame.points[:, 1], frame.fields["displacement"][:, 1]
+        rows = sorted({round(v, 6) for v in y[(y > 0) & (y < COLUMN.height)]})[-2:]
+        below, top = (u[np.abs(y - row) < 1e-6].mean() for row in rows)
+        settled = top + (top - below) / (rows[1] - rows[0]) * (COLUMN.height - rows[1])  # at the face itself
         times.append(frame.time)
-        degrees.append((strain.mean() * np.mean(y[top]) / COLUMN.height - undrained) / (final - undrained))
+        degrees.append((settled - undrained) / (final - undrained))
     return np.array(times), np.array(degrees)
 
 
