@@ -336,7 +336,8 @@ def fig11(runs: Runs, images: Path, errors: Errors) -> None:
             scale = np.abs(SLAB.vertical_displacement([y], [1e6])[0, 0])
             errors.add("11", SCHEMES[name].label, f"u_y at {part:g} b over its final value", value / scale, exact / scale)
         axis.set_xlabel("time [s]")
-        axis.legend(fontsize=8, frameon=False)
+        axis.legend(fontsize=8, frameon=False, ncols=4, loc="upper center")
+        axis.set_ylim(-4.7, 0.0)
     axes[0].set_ylabel("u_y [um]")
     save(figure, images, "fig11")
 
