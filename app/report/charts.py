@@ -60,8 +60,12 @@ def axis(name: str, unit: str, arrays: Iterable[np.ndarray]) -> Axis:
 
 
 def spans_decades(times: np.ndarray) -> bool:
-    positive = times[times > 0]
-    return positive.size > 2 and float(positive.max() / positive.min()) > 300
+    """Whether times ask for a logarithmic axis: where all steps are alike, what happens is spread evenly."""
+    positive = np.unique(times[times > 0])
+    if positive.size < 3 or positive[-1] < 300 * positive[0]:
+        return False
+    steps = np.diff(positive)
+    return bool(np.quantile(steps, 0.9) > 3 * steps[0])
 
 
 def place_of(name: str) -> tuple[str, str]:
@@ -190,7 +194,9 @@ def history_charts(run: Run) -> list[Chart]:
         same = len({place_of(c.name)[0] for c in columns}) == 1
         names = [place_of(c.name)[1] if same else words(c.name) for c in columns]
         series = [Series(name, time, c.values, i) for i, (name, c) in enumerate(zip(names, columns))]
-        x, y = axis("time", "s", [time]), axis(title, unit, [c.values for c in columns])
+        firsts = {words(c.name).split()[0] for c in columns}
+        label = firsts.pop() if len(firsts) == 1 and not same else title
+        x, y = axis("time", "s", [time]), axis(label, unit, [c.values for c in columns])
         charts.append(
             Chart(sentence(title), x, y, series, "history", log_x=spans_decades(time), groups=names)
         )

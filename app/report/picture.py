@@ -81,7 +81,7 @@ def draw_series(axes: Axes, chart: Chart, series: Series, colour) -> None:
     at = marker_places(series, chart)
     line = "-" if chart.kind == "error" else "none"
     face = colour if chart.kind == "error" else "white"
-    axes.plot(x[at], y[at], line, marker="o", markersize=4, color=colour, linewidth=1.0,
+    axes.plot(x[at], y[at], linestyle=line, marker="o", markersize=4, color=colour, linewidth=1.0,
               markerfacecolor=face, markeredgewidth=1.1, zorder=3)  # fmt: skip
 
 

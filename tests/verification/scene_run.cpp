@@ -1,6 +1,7 @@
 #include "tests/verification/scene_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <unistd.h>
 
@@ -31,6 +32,27 @@ double SceneRun::largest(const std::string& error, double from, double to) const
     }
   }
   EXPECT_GE(largest, 0.0) << "no output between " << from << " and " << to;
+  return largest;
+}
+
+double SceneRun::figure(const std::string& name) const {
+  for (const auto& quantity : summary["reference"]["quantities"]) {
+    if (quantity["name"] == name) return quantity["max_error"];
+  }
+  ADD_FAILURE() << "no " << name;
+  return INFINITY;
+}
+
+double SceneRun::history(const std::string& name) const {
+  double largest = -1.0;
+  for (const auto& history : summary["reference"]["histories"]) {
+    if (history["name"] != name) continue;
+    for (std::size_t n = 0; n < history["time"].size(); ++n) {
+      const double computed = history["computed"][n], exact = history["exact"][n];
+      largest = std::max(largest, std::abs(computed - exact));
+    }
+  }
+  EXPECT_GE(largest, 0.0) << "no " << name;
   return largest;
 }
 

@@ -15,6 +15,11 @@ struct SceneRun {
   /// The largest error of this name among the outputs at dimensionless times `from` to `to`, both
   /// included; fails the test where there is none.
   double largest(const std::string& error, double from, double to) const;
+  /// The error of the number of this name that a history comes to; fails the test where there is
+  /// none.
+  double figure(const std::string& name) const;
+  /// The largest |computed - exact| of the history of this name.
+  double history(const std::string& name) const;
 };
 
 /// Runs configs/`name`.yaml, which prints its errors, with `--set` overrides as `perifrac run`

@@ -23,6 +23,7 @@ import mandel_run
 REPORT = Path(__file__).resolve().parents[3] / "app" / "report"
 sys.path.insert(0, str(REPORT))
 
+import charts  # noqa: E402
 import frames  # noqa: E402
 import page  # noqa: E402
 import quantities  # noqa: E402
@@ -266,6 +267,12 @@ class Parts(unittest.TestCase):
         data = {"label": "</script><!--"}
         self.assertNotIn("<", page.embedded(data))
         self.assertEqual(json.loads(page.embedded(data)), data)
+
+    def test_time_is_logarithmic_where_steps_grow(self) -> None:
+        self.assertTrue(charts.spans_decades(np.cumsum(1e-3 * 1.1 ** np.arange(100))))
+        self.assertFalse(charts.spans_decades(np.linspace(0.0, 1.0, 1001)))  # even steps, three decades
+        self.assertFalse(charts.spans_decades(np.array([0.0, 1.0, 10.0, 100.0])))
+        self.assertFalse(charts.spans_decades(np.array([0.0, 1.0])))
 
     def test_spacing_is_exact_on_lattices(self) -> None:
         axes = [np.arange(n) * 0.25 for n in (7, 4, 3)]
