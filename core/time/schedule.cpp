@@ -32,21 +32,18 @@ double Schedule::factor(double t) const {
   return factors_[n - 1] + part * (factors_[n] - factors_[n - 1]) + growth;
 }
 
-KeyTable schedule_keys(const std::string& prefix, const std::string& when) {
+KeyTable schedule_keys(const std::string& prefix) {
   return {
       {.path = prefix + "schedule.ramp",
        .unit = "s",
        .range = "(0, inf)",
-       .when = when,
        .meaning = "The value rises in proportion to time, from 0 to its full size at this time."},
       {.path = prefix + "schedule.times",
        .type = KeyType::numbers,
        .unit = "s",
-       .when = when,
        .meaning = "Times of a table, rising; constant beyond its ends."},
       {.path = prefix + "schedule.factors",
        .type = KeyType::numbers,
-       .when = when,
        .meaning = "What the value is multiplied by at these times; linear in between."},
   };
 }

@@ -31,8 +31,8 @@ class Schedule {
 };
 
 /// The keys of a schedule beside what it multiplies: `<prefix>schedule.ramp` and so on, where
-/// `prefix` is as `boundary.*.`; `when` as in Key.
-KeyTable schedule_keys(const std::string& prefix, const std::string& when = "");
+/// `prefix` is as `boundary.*.`.
+KeyTable schedule_keys(const std::string& prefix);
 
 /// Reads `<path>.schedule`, constant where it is left out. Throws InputError.
 Schedule read_schedule(const Section& section, const std::string& path);

@@ -196,7 +196,9 @@ void ElasticDynamics<D>::find_plate_rows() {
       row[plates_[q].unknown] = 0.0;
     }
     plates_[p].stiffness = entries(row);
-    for (Index i = 0; i < body_.points().size(); ++i) scratch_[i] *= body_.points().volume[i];
+    for (Index i = 0; i < body_.points().size(); ++i) {
+      scratch_[i] *= elastic_->pore_sign() * body_.points().volume[i];
+    }
     plates_[p].dilatation = entries(scratch_);
   }
   plate_compliance_ = own.inverse();

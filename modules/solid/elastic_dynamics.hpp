@@ -76,8 +76,9 @@ class ElasticDynamics final : public SecondOrderSystem {
   /// A rigid plate on a mirrored face.
   struct Plate {
     Index unknown;
-    std::vector<std::pair<Index, double>> stiffness;   ///< its row, other plates apart [N/m]
-    std::vector<std::pair<Index, double>> dilatation;  ///< d(sum V theta)/d(plate), by points
+    std::vector<std::pair<Index, double>> stiffness;  ///< its row, other plates apart [N/m]
+    std::vector<std::pair<Index, double>>
+        dilatation;  ///< what its force has of pore stress, by points
   };
 
   void expand(std::span<const double> y, std::span<const double> prescribed,

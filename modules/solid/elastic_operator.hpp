@@ -70,6 +70,9 @@ class ElasticOperator {
 
   /// Stiffness of a point against a change of volume at fixed mean stress [Pa].
   virtual double drained_bulk_modulus(Index i) const = 0;
+
+  /// 1, the pore stress pushes points apart; -1 in formulas that have its sign wrong.
+  virtual double pore_sign() const { return 1.0; }
 };
 
 }  // namespace perifrac

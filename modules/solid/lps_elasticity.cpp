@@ -29,11 +29,12 @@ template <int D>
 LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
                                 MirrorCondition<D, D> mirror,
                                 LawByRegion<IsotropicElasticity<D>> law,
-                                std::optional<Vector<D>> initial_stress)
+                                std::optional<Vector<D>> initial_stress, double pore_sign)
     : family_(std::move(family)),
       mirror_(std::move(mirror)),
       law_(std::move(law)),
       initial_stress_(initial_stress),
+      pore_sign_(pore_sign),
       field_(static_cast<std::size_t>(D) * family_->node_count()),
       dilatation_scale_(family_->point_count),
       bond_stiffness_(family_->node_count(), 0.0),
@@ -105,8 +106,8 @@ void LpsElasticity<D>::store_state(std::span<double> dilatation, PoreStressAt&& 
   for_each_point(family_->point_count, [&](Index i) {
     const double theta = dilatation_at(i);
     dilatation[i] = theta;
-    volume_state_[i] =
-        dilatation_scale_[i] * (dilatation_stiffness(i) * theta - pore_stress(i, theta));
+    volume_state_[i] = dilatation_scale_[i] *
+                       (dilatation_stiffness(i) * theta - pore_sign_ * pore_stress(i, theta));
   });
 }
 

@@ -20,10 +20,11 @@ namespace perifrac {
 template <int D>
 class LpsElasticity final : public ElasticOperator<D> {
  public:
-  /// `initial_stress`: normal stresses of the body at rest, tension positive [Pa].
+  /// `initial_stress`: normal stresses of the body at rest, tension positive [Pa]; `pore_sign`: -1
+  /// turns the pore stress, as Eq 13 is printed.
   LpsElasticity(std::shared_ptr<const Family<D>> family, MirrorCondition<D, D> mirror,
                 LawByRegion<IsotropicElasticity<D>> law,
-                std::optional<Vector<D>> initial_stress = {});
+                std::optional<Vector<D>> initial_stress = {}, double pore_sign = 1.0);
 
   Index size() const override;
   void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
@@ -33,6 +34,7 @@ class LpsElasticity final : public ElasticOperator<D> {
   Eigen::SparseMatrix<double> dilatation_matrix() const override;
   Eigen::SparseMatrix<double> gradient_matrix() const override;
   double drained_bulk_modulus(Index i) const override { return law_.at(i).drained_bulk_modulus(); }
+  double pore_sign() const override { return pore_sign_; }
 
  private:
   /// lambda - mu: the stiffness against dilatation that the bonds do not have.
@@ -54,6 +56,7 @@ class LpsElasticity final : public ElasticOperator<D> {
   MirrorCondition<D, D> mirror_;
   LawByRegion<IsotropicElasticity<D>> law_;
   std::optional<Vector<D>> initial_stress_;
+  double pore_sign_;
   std::vector<double> field_;             ///< u on real points and ghosts
   std::vector<double> dilatation_scale_;  ///< d / m_i
   std::vector<double> bond_stiffness_;    ///< c / m_i on real points; 0 on ghosts

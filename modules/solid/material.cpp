@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/geometry/region.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
 #include "modules/solid/linear_exact_elasticity.hpp"
@@ -15,9 +17,10 @@ KeyTable material_keys() {
       {.path = "material.type",
        .type = KeyType::word,
        .fallback = "linear_exact",
-       .words = {"linear_exact", "lps"},
+       .words = {"linear_exact", "lps", "lps_printed"},
        .meaning = "linear_exact: isotropic, exact for linear fields on any points; lps: the linear "
-                  "peridynamic solid, whose moduli on a lattice are off (docs/materials.md)."},
+                  "peridynamic solid, whose moduli on a lattice are off (docs/materials.md); "
+                  "lps_printed: the same with the paper's misprints, 2D, for comparison only."},
       {.path = "confining_stress",
        .type = KeyType::vector,
        .unit = "Pa",
@@ -48,6 +51,22 @@ LawByRegion<IsotropicElasticity<D>> read_laws(const Section& section, const Body
   return law;
 }
 
+/// What Eq 3 makes of a rock as it is printed: K - mu/3 where plane strain has K + mu/3.
+template <int D>
+void misprint(const Section& section, LawByRegion<IsotropicElasticity<D>>& laws) {
+  const char* const key = "material.type";
+  if (D == 3) {
+    section.fail(key, "'lps_printed' in 3D", "lps, which has nothing to correct there but a sign");
+  }
+  for (auto& law : laws.laws) {
+    law.lame_lambda -= 2.0 / 3.0 * law.shear_modulus;
+    const double modulus = law.drained_bulk_modulus();
+    if (modulus > 0.0) continue;
+    section.fail(key, fmt::format("'lps_printed' of a rock with K - mu/3 = {:g} Pa", modulus),
+                 "lps, or a larger bulk modulus");
+  }
+}
+
 /// Tension positive.
 template <int D>
 std::optional<Vector<D>> read_initial_stress(const Section& section) {
@@ -66,8 +85,12 @@ std::unique_ptr<ElasticOperator<D>> read_material(const Section& section, const 
   const auto mirror = boundary.mirror_condition(*family);
   const auto initial_stress = read_initial_stress<D>(section);
   LawByRegion<IsotropicElasticity<D>> law = read_laws<D>(section, body);
-  if (section.word("material.type") == "lps") {
-    return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law), initial_stress);
+  const std::string type = section.word("material.type");
+  if (type.starts_with("lps")) {
+    const bool printed = type == "lps_printed";
+    if (printed) misprint(section, law);
+    return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law), initial_stress,
+                                              printed ? -1.0 : 1.0);
   }
   const auto linear_exact = [&](auto law) -> std::unique_ptr<ElasticOperator<D>> {
     using Law = decltype(law);

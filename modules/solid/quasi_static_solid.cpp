@@ -58,7 +58,7 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
   load_.add(equations, boundary.loads(mirror, elastic_->gradient_matrix()));
   load_.add(-equations * stiffness_, prescribed_);
   for (Index i = 0; i < body_->points().size(); ++i) {
-    slope_.push_back(1.0 / elastic_->drained_bulk_modulus(i));
+    slope_.push_back(elastic_->pore_sign() / elastic_->drained_bulk_modulus(i));
   }
 }
 
@@ -138,7 +138,8 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
 template <int D>
 Eigen::VectorXd QuasiStaticSolid<D>::pore_force() const {
   if (pore_stress_.empty()) return Eigen::VectorXd::Zero(stiffness_.rows());
-  return dilatation_of_.transpose() * view(body_->points().volume).cwiseProduct(view(pore_stress_));
+  return elastic_->pore_sign() * dilatation_of_.transpose() *
+         view(body_->points().volume).cwiseProduct(view(pore_stress_));
 }
 
 template <int D>

@@ -292,6 +292,23 @@ TEST(LpsElasticity, IsExactForIsotropicDeformation) {
   expect_isotropic_patch<3>(4);
 }
 
+/// The sign of the pore stress decides which way a free body under pore pressure goes, in its
+/// forces as in its energy.
+TEST(LpsElasticity, TurnsThePoreStressAsItIsTold) {
+  const auto body = test::box_body<2>({7, 6}, 0.5);
+  const auto family = body->family(0);
+  const MirrorCondition<2, 2> mirror(*family);
+  const Index n = body->points().size();
+  const LawByRegion<IsotropicElasticity<2>> law{{{3.0, 2.0}}, std::vector<std::uint8_t>(n, 0)};
+  LpsElasticity<2> right(family, mirror, law), turned(family, mirror, law, {}, -1.0);
+  const std::vector<double> u(right.size(), 0.0), pore = test::random_values(n, 3);
+  std::vector<double> one(u.size()), other(u.size()), dilatation(n);
+  right.apply(u, {pore}, one, dilatation);
+  turned.apply(u, {pore}, other, dilatation);
+  EXPECT_GT(test::largest(one), 0.1);
+  for (std::size_t k = 0; k < one.size(); ++k) ASSERT_EQ(other[k], -one[k]);
+}
+
 /// The stress is what does work on a uniform gradient: sum V sigma : F = dE/dF, on any cloud.
 TEST(LpsElasticity, GivesTheStressThatWorksOnAGradient) {
   Setting<2> setting{test::box_body<2>({7, 6}, 0.5, Cloud::jittered)};

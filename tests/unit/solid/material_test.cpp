@@ -20,38 +20,38 @@
 namespace perifrac {
 namespace {
 
+/// A scene of a body's lines and a solid's keys.
+Section read(const std::string& body, const std::string& solid) {
+  const auto path =
+      std::filesystem::temp_directory_path() / fmt::format("perifrac_material_{}.yaml", getpid());
+  std::ofstream(path) << body << "solid: {type: quasi_static, " << solid << "}\n";
+  const Catalogue catalogue = {
+      {"",
+       "",
+       {{.path = "dimension", .type = KeyType::integer, .required = true, .meaning = "Of space."}}},
+      {"body", "", body_keys()},
+      {"solid", "quasi_static", material_keys()}};
+  const Section scene = read_scene(path.string(), {}, catalogue);
+  std::filesystem::remove(path);
+  return scene;
+}
+
 /// A column of 1 m by 4 m, soft above the middle, and the solid that the text describes on it.
 struct Column {
   std::shared_ptr<const Body<2>> body;
   SolidBoundary<2> boundary;
   std::shared_ptr<ElasticOperator<2>> material;
 
-  Column(double spacing, const std::string& solid) : Column(read(spacing, solid)) {}
+  Column(double spacing, const std::string& solid)
+      : Column(read("dimension: 2\nbody: {shape: box, size: [1 m, 4 m], spacing: " +
+                        fmt::to_string(spacing) + ", regions: {soft: {from: [0 m, 2 m]}}}\n",
+                    solid)) {}
 
  private:
   explicit Column(const Section& scene)
       : body(std::get<0>(make_body(scene.at("body"), 2))),
         boundary(hold(*body)),
         material(read_material<2>(scene.at("solid"), *body, boundary)) {}
-
-  static Section read(double spacing, const std::string& solid) {
-    const auto path =
-        std::filesystem::temp_directory_path() / fmt::format("perifrac_material_{}.yaml", getpid());
-    std::ofstream(path) << "dimension: 2\nbody: {shape: box, size: [1 m, 4 m], spacing: " << spacing
-                        << ", regions: {soft: {from: [0 m, 2 m]}}}\nsolid: {type: quasi_static, "
-                        << solid << "}\n";
-    const Catalogue catalogue = {{"",
-                                  "",
-                                  {{.path = "dimension",
-                                    .type = KeyType::integer,
-                                    .required = true,
-                                    .meaning = "Of space."}}},
-                                 {"body", "", body_keys()},
-                                 {"solid", "quasi_static", material_keys()}};
-    const Section scene = read_scene(path.string(), {}, catalogue);
-    std::filesystem::remove(path);
-    return scene;
-  }
 
   /// Rollers but on the top, which a plate presses with 1 Pa.
   static SolidBoundary<2> hold(const Body<2>& body) {
@@ -128,6 +128,73 @@ TEST(Material, HasTheStrainOfEachLayerWithLps) {
   expect_two_layers("lps", 7.0 + 2.0 * excess, 3.0 + excess);
 }
 
+std::string refusal(const std::string& solid) {
+  try {
+    Column(0.1, solid);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string refusal_in_3d(const std::string& type) {
+  const Section scene = read("dimension: 3\nbody: {shape: box, size: [1, 1, 1], spacing: 0.2}\n",
+                             "material: {type: " + type + ", lame_lambda: 3, shear_modulus: 2}");
+  const auto body = std::get<1>(make_body(scene.at("body"), 3));
+  try {
+    read_material<3>(scene.at("solid"), *body, SolidBoundary<3>(*body));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// What the misprints of paper Eqs 3 and 13 do: isotropic strain meets K - mu/3 in place of
+/// K + mu/3, and water under pressure pulls the rock together.
+TEST(Material, AsPrintedIsTooSoftAndShrinksUnderPorePressure) {
+  static constexpr double lambda = 3.0, mu = 2.0, bulk = lambda + 2.0 / 3.0 * mu, pressure = 0.5;
+  const auto plate_under_pressure = [](const std::string& type) {
+    Column column(0.1, "material: {type: " + type + ", lame_lambda: 3, shear_modulus: 2}");
+    QuasiStaticSolid<2> solid(column.body, column.material, column.boundary);
+    solid.initialize(0.0);
+    solid.advance({0.0, 1.0});
+    const double dry = solid.port(6).value[0];
+    std::ranges::fill(solid.port(0).value, pressure);
+    solid.advance({1.0, 2.0});
+    return solid.port(6).value[0] - dry;
+  };
+  Column right(0.1, "material: {type: lps, lame_lambda: 3, shear_modulus: 2}");
+  Column printed(0.1, "material: {type: lps_printed, lame_lambda: 3, shear_modulus: 2}");
+  EXPECT_NEAR(right.material->drained_bulk_modulus(0), bulk + mu / 3.0, 1e-14);
+  EXPECT_NEAR(printed.material->drained_bulk_modulus(0), bulk - mu / 3.0, 1e-14);
+
+  // Energy of isotropic strain: modulus / 2 theta^2 a volume, 4 m^2.
+  const auto modulus = [](const Column& column) {
+    const Points<2>& points = column.body->points();
+    const Index n = points.size();
+    Eigen::VectorXd u(column.material->size());
+    for (int a = 0; a < 2; ++a) {
+      for (Index i = 0; i < n; ++i) u[a * n + i] = points.position[a][i];
+    }
+    u.tail(u.size() - 2 * n) << 0.0, 1.0, 0.0, 4.0;  // left, right, bottom, top
+    return u.dot(column.material->assemble() * u) / (4.0 * 4.0);
+  };
+  EXPECT_NEAR(modulus(right), bulk + mu / 3.0, 1e-12);
+  EXPECT_NEAR(modulus(printed), bulk - mu / 3.0, 1e-12);
+
+  EXPECT_GT(plate_under_pressure("lps"), 0.1 * pressure);
+  EXPECT_LT(plate_under_pressure("lps_printed"), -0.1 * pressure);
+}
+
+TEST(Material, AsPrintedIsOfPlaneStrainOnly) {
+  EXPECT_THAT(refusal_in_3d("lps_printed"),
+              testing::HasSubstr("solid.material.type: 'lps_printed' in 3D"));
+  EXPECT_EQ(refusal_in_3d("lps"), "accepted");
+  EXPECT_THAT(
+      refusal("material: {type: lps_printed, bulk_modulus: 0.5, shear_modulus: 3}"),
+      testing::HasSubstr("solid.material.type: 'lps_printed' of a rock with K - mu/3 = -0.5 Pa"));
+}
+
 template <class Operator>
 bool is(const ElasticOperator<2>& material) {
   return dynamic_cast<const Operator*>(&material) != nullptr;
@@ -166,15 +233,6 @@ TEST(Material, LeavesAStressedBodyInItsPlace) {
     for (Index k = 0; k < 2 * n; ++k) ASSERT_NEAR(initial[k], 0.0, 1e-12);
     EXPECT_NEAR(initial.back(), -5.0, 1e-12);
   }
-}
-
-std::string refusal(const std::string& solid) {
-  try {
-    Column(0.1, solid);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(Material, SaysWhatIsWrongWithARegion) {
