@@ -32,7 +32,7 @@ HERE = Path(__file__).resolve().parent
 CONFIGS = HERE.parent.parent / "configs"
 
 COLUMN = Terzaghi(height=50.0, stiffness=5e9 + 4 / 3 * 4e9, storage=0.306 / 2.2e9, biot=1.0,
-                  mobility=1.02e-11 / 1e-3, load=14.62e6)  # fmt: skip
+                  mobility=1.02e-11 / 1e-3, load=14.624e6)  # fmt: skip
 SLAB = Mandel(lame_lambda=4e8, shear_modulus=4e8, storage=0.3 / 2e9 + 0.7 / 1e10, biot=1.0,
               mobility=1.019368e-11 / 1e-3, width=40.0, force=1e4)  # fmt: skip
 SLAB_HEIGHT = 20.0
