@@ -106,7 +106,7 @@ def annotate_peak(axes: Axes, chart: Chart) -> None:
     if top is None:
         return
     known = top.y[np.isfinite(top.y)]
-    if known.max() < 1.02 * max(known[0], known[-1]):
+    if known.max() <= 1.02 * max(known[0], known[-1]):
         return
     at = int(np.nanargmax(top.y))
     text = f"peak {top.y[at] * chart.y.display.factor:.4g} {chart.y.display.unit} at {time_label(top.x[at])}"
