@@ -88,15 +88,16 @@ void DarcySystem<D>::set_smoothing(PressureSmoothing<D> smoothing) {
 
 template <int D>
 void DarcySystem<D>::smooth(double t, std::span<double> y) {
+  // Of the potential: a mean of pressures would stir fluid that is at rest under its own weight.
   pressure(t, y, potential_);
-  const Eigen::VectorXd faces = face_pressures_.at(t);
-  std::copy_n(faces.data(), mirrored_faces(), potential_.begin() + points_);
+  pressure_to_potential(t);
   smoothing_->apply(potential_, smoothed_);
   const auto points = smoothing_->points();
   double made = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Index i = points[k];
-    const double change = storage_->content(t, i, smoothed_[k]) - y[i];
+    const double p = fluid_.pressure_of(smoothed_[k] - gravity(i));
+    const double change = storage_->content(t, i, p) - y[i];
     y[i] += change;
     made += volume()[i] * change;
   }

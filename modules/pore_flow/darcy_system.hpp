@@ -62,7 +62,7 @@ class DarcySystem final : public OdeSystem {
   /// Takes y at the window's beginning, after its dilatation: the rates of held points follow.
   void lead_held_points(const TimeWindow& window, std::span<const double> y);
 
-  /// Smooths the pressures of all later steps, except of held points.
+  /// Smooths the potentials of all later steps, except of held points: pressures without gravity.
   void set_smoothing(PressureSmoothing<D> smoothing);
   bool smooths() const { return smoothing_.has_value(); }
   /// Smooths them once; what that makes of fluid is the last accumulator's (paper Eq 14, last

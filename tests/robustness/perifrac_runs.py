@@ -17,6 +17,20 @@ MANDEL = HERE.parents[1] / "configs" / "mandel.yaml"
 SMALL = {"body.spacing": "2 m", "output.times": "[2 s, 5 s, 9 s]", "output.checkpoint_interval": "0 s",
          "time.end": "20 s"}
 
+# What the scenes of the other modules have that Mandel's has not: (scene, keys).
+CONFIGS = MANDEL.parent
+VARIANTS = {
+    "dynamic": (CONFIGS / "mandel_dynamic.yaml", {}),
+    "the paper's, in windows of one step": (CONFIGS / "paper" / "mandel.yaml", {"output.history_interval": "0 s"}),
+    "layers": (CONFIGS / "mandel_layers.yaml", {}),
+    "nested, smoothed": (MANDEL, {"pore_flow.operator": "nested", "pore_flow.integrator.type": "explicit"}),
+    "tait, explicit": (CONFIGS / "aquifer.yaml", {"pore_flow.fluid.equation_of_state": "tait",
+                                                  "pore_flow.integrator.type": "explicit"}),
+    "tait, cvode": (CONFIGS / "aquifer.yaml", {"pore_flow.fluid.equation_of_state": "tait"}),
+    "irregular": (MANDEL, {"body.jitter": "0.2"}),
+    "ball": (CONFIGS / "cryer.yaml", {}),
+}
+
 
 def _read_arguments():
     parser = argparse.ArgumentParser()

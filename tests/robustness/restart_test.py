@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from perifrac_runs import MANDEL, SMALL, RunTest, checkpoints, perifrac, settings
+from perifrac_runs import MANDEL, SMALL, VARIANTS, RunTest, checkpoints, perifrac, settings
 
 SCHEMES = {
     "explicit": {"pore_flow.integrator.type": "explicit"},
@@ -52,6 +52,18 @@ class Restart(RunTest):
                 parts = self.run_scene(SMALL | keys, f"{name}/parts", "--until", "5 s")
                 for end in ("9 s", "20 s"):
                     self.run_scene(SMALL | keys, parts, "--restart", checkpoints(parts)[-1], "--until", end)
+                self.assert_same_results(whole, parts)
+
+    def test_other_scenes_in_parts(self):
+        for name, (scene, keys) in VARIANTS.items():
+            with self.subTest(name):
+                spacing = "2.5 m" if name == "ball" else "2 m"
+                keys = keys | {"body.spacing": spacing, "time.end": "0.3 s", "output.times": "[0.1 s, 0.2 s]",
+                               "output.checkpoint_interval": "0 s"}
+                whole = self.run_scene(keys, f"{name}/whole", scene=scene)
+                parts = self.run_scene(keys, f"{name}/parts", "--until", "0.1 s", scene=scene)
+                for end in ("0.2 s", "0.3 s"):
+                    self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], "--until", end, scene=scene)
                 self.assert_same_results(whole, parts)
 
     def test_beyond_the_scenes_end(self):

@@ -2,7 +2,7 @@
 """Results are the same bits at any number of threads."""
 import unittest
 
-from perifrac_runs import RunTest, SMALL
+from perifrac_runs import RunTest, SMALL, VARIANTS
 
 # Enough points for every loop to be shared out.
 FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.times": "[0.02 s]",
@@ -21,6 +21,16 @@ class Threads(RunTest):
                 with self.subTest(name, threads=number):
                     other = self.run_scene(FINE | keys, f"{name}/{number}", "--threads", number)
                     self.assert_same_results(one, other)
+
+    def test_nor_in_other_scenes(self):
+        for name in ("dynamic", "the paper's, in windows of one step"):
+            scene, keys = VARIANTS[name]
+            keys = keys | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "time.end": "1 ms",
+                           "output.times": "[0.5 ms]", "output.history_interval": "0 s"}
+            one = self.run_scene(keys, f"{name}/1", "--threads", "1", scene=scene)
+            other = self.run_scene(keys, f"{name}/4", "--threads", "4", scene=scene)
+            with self.subTest(name):
+                self.assert_same_results(one, other)
 
 
 if __name__ == "__main__":

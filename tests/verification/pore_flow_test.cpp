@@ -218,8 +218,15 @@ const Overrides lateral = {
     "pore_flow.boundary.right={type: pressure, pressure: 0 Pa, hydrostatic: true}"};
 const std::string tait = "pore_flow.fluid.equation_of_state=tait";
 
+/// d(p)/d(depth) = rho(p) g, integrated by the Tait equation where the fluid is compressible.
+double hydrostatic_pressure(const Vector<2>& x, bool compressible) {
+  const double depth = 9810.0 * (20.0 - x[1]);
+  if (!compressible) return depth;
+  return 22e6 / 7.5 * (std::pow(1.0 + 6.5 * depth / 22e6, 7.5 / 6.5) - 1.0);
+}
+
 TEST(PoreGravity, LeavesHydrostaticFluidAtRest) {
-  const double weight = 9810.0, total = weight * 20.0;
+  const double total = 9810.0 * 20.0;
   for (const Overrides& sides : {Overrides{}, lateral}) {
     for (const bool compressible : {false, true}) {
       for (const bool small_steps : {false, true}) {
@@ -227,16 +234,26 @@ TEST(PoreGravity, LeavesHydrostaticFluidAtRest) {
         if (compressible) overrides.push_back(tait);
         if (small_steps) overrides.push_back(explicit_steps[0]);
         const PoreRun run(heavy_fluid, overrides);
-        // d(p)/d(depth) = rho(p) g, integrated by the Tait equation.
-        const double rest = run.error([&](const Vector<2>& x) {
-          const double depth = weight * (20.0 - x[1]);
-          if (!compressible) return depth;
-          return 22e6 / 7.5 * (std::pow(1.0 + 6.5 * depth / 22e6, 7.5 / 6.5) - 1.0);
-        });
+        const double rest =
+            run.error([&](const Vector<2>& x) { return hydrostatic_pressure(x, compressible); });
         EXPECT_LT(rest, 1e-12 * total) << sides.size() << compressible << small_steps;
         EXPECT_LT(std::abs(run.scalar("pore_fluid_gained")), 1e-8);
         EXPECT_LT(run.scalar("darcy_dissipation"), 1e-12);
       }
+    }
+  }
+}
+
+TEST(PoreGravity, LeavesHydrostaticFluidAtRestBelowALayerWithAnyOperator) {
+  for (const std::string scheme : {"conservative", "bond", "nested"}) {
+    for (const bool compressible : {false, true}) {
+      Overrides overrides = {"body.boundary={top: layer}", "pore_flow.operator=" + scheme,
+                             explicit_steps[0]};
+      if (compressible) overrides.push_back(tait);
+      const PoreRun run(heavy_fluid, overrides);
+      const double rest =
+          run.error([&](const Vector<2>& x) { return hydrostatic_pressure(x, compressible); });
+      EXPECT_LT(rest, 1e-12 * 9810.0 * 20.0) << scheme << compressible;
     }
   }
 }
