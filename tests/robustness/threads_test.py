@@ -25,8 +25,8 @@ class Threads(RunTest):
     def test_nor_in_other_scenes(self):
         for name in ("dynamic", "the paper's, in windows of one step"):
             scene, keys = VARIANTS[name]
-            keys = keys | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "time.end": "1 ms",
-                           "output.times": "[0.5 ms]", "output.history_interval": "0 s"}
+            keys = keys | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "time.end": "0.4 ms",
+                           "output.times": "[0.2 ms]", "output.history_interval": "0 s"}
             one = self.run_scene(keys, f"{name}/1", "--threads", "1", scene=scene)
             other = self.run_scene(keys, f"{name}/4", "--threads", "4", scene=scene)
             with self.subTest(name):
