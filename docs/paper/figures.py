@@ -358,6 +358,7 @@ def convergence(runs: Runs, images: Path, errors: Errors, figure_name: str, kind
             exact = SLAB.pressure([x], when[use])[:, 0] / SLAB.initial_pressure
             errors.add(figure_name, label, f"p/p0 at a/4, dx = {dx:g} m", value[use], exact)
         axis.set_xlabel("time [s]")
+        axis.set_ylim(0.4, 1.2)  # what blows up leaves the picture
         axis.legend(fontsize=8, frameon=False)
     axes[0].set_ylabel("p / p0 at x = a/4")
     save(figure, images, f"fig{figure_name}")
