@@ -94,6 +94,18 @@ void refuse_other_results(const RunRequest& request, const std::filesystem::path
       folder.string(), request.restart));
 }
 
+/// A run may end with numbers that mean nothing: the ledger knows.
+void warn_of_open_balance(const CouplingManager& manager) {
+  constexpr double noticeable = 0.05;
+  const auto energy = manager.ledger().energy();
+  if (energy && energy->relative_error > noticeable) {
+    log_warning(
+        fmt::format("the energy balance is {:.0f} % open; shorter windows or more "
+                    "coupling.iterations may close it",
+                    100.0 * energy->relative_error));
+  }
+}
+
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
 int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const double> outputs) {
   CouplingManager& manager = *simulation.manager;
@@ -161,6 +173,7 @@ int run_scene(const RunRequest& request) {
       outcome = RunOutcome::stopped;
       exit_code = exit_code_of(signal);
     }
+    warn_of_open_balance(*simulation.manager);
   } catch (const NumericalError& error) {
     log_error(error.what());
     outcome = RunOutcome::failed;

@@ -62,6 +62,7 @@ class CouplingManager {
  private:
   /// The shortest of the modules' own; infinity where no window asks for it.
   double stable_time_step() const;
+  std::vector<std::string> one_pass_warnings() const;
 
   CouplingOptions options_;
   std::vector<ModuleSlot> modules_;

@@ -84,6 +84,15 @@ TEST(Splits, FixedStressConvergesAtAnyStrength) {
   }
 }
 
+TEST(Splits, FixedStressInOnePassWarnsOfAStrongCoupling) {
+  const Consolidation strong(strength(50.0), options(0.1, Split::fixed_stress, 1));
+  ASSERT_EQ(strong.manager.warnings().size(), 1u);
+  EXPECT_THAT(strong.manager.warnings()[0], HasSubstr("coupling.iterations.max"));
+  EXPECT_TRUE(Consolidation(strength(5.0), options(0.1, Split::fixed_stress, 1))
+                  .manager.warnings()
+                  .empty());
+}
+
 TEST(Splits, DrainedConvergesBelowStrengthOne) {
   Consolidation consolidation(strength(0.8), options(0.1, Split::drained, 200));
   EXPECT_TRUE(consolidation.manager.warnings().empty());
