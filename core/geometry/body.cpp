@@ -36,6 +36,15 @@ int Body<D>::opposite(int face) const {
 }
 
 template <int D>
+double Body<D>::area(int face) const {
+  double area = 1.0;
+  for (int a = 0; a < D; ++a) {
+    if (a != faces_[face].axis) area *= faces_[2 * a + 1].coordinate - faces_[2 * a].coordinate;
+  }
+  return area;
+}
+
+template <int D>
 double Body<D>::thickness(int face, FaceSet without_layers) const {
   double sum = 0.0;
   for (const int f : {face, opposite(face)}) {

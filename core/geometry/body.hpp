@@ -40,6 +40,8 @@ class Body {
   void set_layers(std::vector<std::vector<Index>> layers) { layers_ = std::move(layers); }
   /// The face across the body: the other one normal to the same axis, or else the curved one.
   int opposite(int face) const;
+  /// Of a box's face, without what layers beside it add [m^(D-1)].
+  double area(int face) const;
   /// From a face to the opposite one, layers included except those behind faces in
   /// `without_layers` [m].
   double thickness(int face, FaceSet without_layers = 0) const;

@@ -97,18 +97,13 @@ ScheduledVector PoreBoundary<D>::face_pressures(const MirrorCondition<D, 1>& mir
 
 template <int D>
 Eigen::VectorXd PoreBoundary<D>::area_in_layer(int face) const {
-  const std::vector<Face>& faces = body_->faces();
-  double area = 1.0;
-  for (int axis = 0; axis < D; ++axis) {
-    if (axis != face / 2) area *= faces[2 * axis + 1].coordinate - faces[2 * axis].coordinate;
-  }
   Eigen::VectorXd share = Eigen::VectorXd::Zero(body_->points().size());
   for (const Index i : body_->layer(face)) share[i] = body_->points().volume[i];
   for (int f = 0; f < 2 * D; ++f) {
     if (!contains(sealed_layers(), f)) continue;
     for (const Index i : body_->layer(f)) share[i] = 0.0;
   }
-  return area / share.sum() * share;
+  return body_->area(face) / share.sum() * share;
 }
 
 template <int D>

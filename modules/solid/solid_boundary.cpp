@@ -193,16 +193,6 @@ void SolidBoundary<D>::spread_over_layer(int face, const Vector<D>& force,
   }
 }
 
-template <int D>
-double SolidBoundary<D>::nominal_area(int face) const {
-  const auto& faces = body_->faces();
-  double area = 1.0;
-  for (int a = 0; a < D; ++a) {
-    if (a != faces[face].axis) area *= faces[2 * a + 1].coordinate - faces[2 * a].coordinate;
-  }
-  return area;
-}
-
 /// What a face's condition does to every unknown at factor 1 of its schedule [N].
 template <int D>
 Eigen::VectorXd SolidBoundary<D>::face_force(int face, const MirrorCondition<D, D>& mirror,
@@ -222,7 +212,7 @@ Eigen::VectorXd SolidBoundary<D>::face_force(int face, const MirrorCondition<D, 
   } else if (has_layer(face)) {
     Vector<D> force = condition.value;
     const bool plate = condition.kind == Kind::rigid_plate;
-    for (double& f : force) f *= plate ? 1.0 : nominal_area(face);
+    for (double& f : force) f *= plate ? 1.0 : body_->area(face);
     spread_over_layer(face, force, load);
   } else if (condition.kind == Kind::rigid_plate) {
     const int axis = body_->faces()[face].axis;

@@ -90,7 +90,6 @@ class SolidBoundary {
   std::vector<int> layer_holders() const;
   std::vector<Index> held(int face, int component, const MirrorCondition<D, D>& mirror,
                           const std::vector<int>& holders) const;
-  double nominal_area(int face) const;
   void spread_over_layer(int face, const Vector<D>& force, Eigen::VectorXd& load) const;
   Eigen::VectorXd face_force(int face, const MirrorCondition<D, D>& mirror,
                              const Eigen::SparseMatrix<double>& gradient) const;
