@@ -1,0 +1,104 @@
+"""The runs behind the paper's figures: which scenes, what is replaced in them, and what they left."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+CONFIGS = Path(__file__).resolve().parent.parent.parent / "configs"
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """One way to simulate a case: a scene, what is replaced in it, and when its load is all there."""
+
+    label: str
+    scene: str
+    replace: list[str] = field(default_factory=list)
+    loaded_at: float = 0.0  # [s]; times of figures count from here
+    until: str = ""  # of a long run only a part is needed
+
+
+PAPER_RAMP = 0.1  # [s] of the load in configs/paper
+SCHEMES = {
+    "terzaghi": Scheme("perifrac", "terzaghi.yaml"),
+    "terzaghi_paper": Scheme("the paper's scheme", "paper/terzaghi.yaml", loaded_at=PAPER_RAMP / 2),
+    "mandel": Scheme("perifrac", "mandel.yaml"),
+    "mandel_paper": Scheme("the paper's scheme", "paper/mandel.yaml", loaded_at=PAPER_RAMP / 2),
+}
+for _dx in (2.0, 1.0, 0.5):
+    _common = [f"body.spacing={_dx} m"]
+    SCHEMES[f"delta_{_dx}"] = Scheme(f"horizon {2 * _dx:g} m", "convergence_delta.yaml", _common)
+    SCHEMES[f"m_{_dx}"] = Scheme(f"m = {2 / _dx:g}", "convergence_m.yaml", [*_common, f"body.horizon_ratio={2 / _dx}"])
+    for _name, _ratio in (("delta", 2.0), ("m", 2 / _dx)):
+        SCHEMES[f"{_name}_paper_{_dx}"] = Scheme(
+            f"horizon {2 * _dx:g} m" if _name == "delta" else f"m = {2 / _dx:g}",
+            "paper/mandel.yaml", [*_common, f"body.horizon_ratio={_ratio}"], PAPER_RAMP / 2, "33.116 s")  # fmt: skip
+
+
+@dataclass
+class Frame:
+    time: float
+    points: np.ndarray
+    fields: dict[str, np.ndarray]
+
+
+class Runs:
+    """Runs scenes on demand and reads what they left."""
+
+    def __init__(self, perifrac: Path, folder: Path):
+        self.perifrac, self.folder = perifrac, folder
+
+    def of(self, name: str) -> Path:
+        scheme, folder = SCHEMES[name], self.folder / name
+        command = [str(self.perifrac), "run", str(CONFIGS / scheme.scene), "--no-report", "--output", str(folder)]
+        command += ["--threads", "1"]
+        for assignment in scheme.replace:
+            command += ["--set", assignment]
+        if scheme.until:
+            command += ["--until", scheme.until]
+        stamp = folder / "command.txt"
+        if stamp.exists() and stamp.read_text(encoding="utf-8") == " ".join(command):
+            return folder
+        begin = time.monotonic()
+        done = subprocess.run(command, capture_output=True, text=True)
+        print(f"{name}: exit {done.returncode}, {time.monotonic() - begin:.1f} s", flush=True)
+        if done.returncode == 2:
+            sys.exit(done.stderr)
+        if done.returncode != 0:
+            print(done.stderr.strip().splitlines()[-1], flush=True)  # a figure shows how far it came
+        stamp.write_text(" ".join(command), encoding="utf-8")
+        return folder
+
+    def history(self, name: str) -> dict[str, np.ndarray]:
+        with (self.of(name) / "history.csv").open(newline="", encoding="utf-8") as stream:
+            header, *rows = list(csv.reader(stream))
+        table = np.array([[float(c or "nan") for c in row] for row in rows if len(row) == len(header)])
+        columns = {cell.split(" [")[0]: values for cell, values in zip(header, table.T)}
+        columns["time"] = columns["time"] - SCHEMES[name].loaded_at
+        return columns
+
+    def frames(self, name: str) -> list[Frame]:
+        frames = []
+        series = json.loads((self.of(name) / "frames/body.hdf.series").read_text(encoding="utf-8"))
+        for entry in series["files"]:
+            with h5py.File(self.folder / name / "frames" / entry["name"]) as file:
+                group = file["VTKHDF"]
+                fields = {k: v[()] for k, v in group["PointData"].items()}
+                frames.append(Frame(entry["time"] - SCHEMES[name].loaded_at, group["Points"][()], fields))
+        return frames
+
+    def frame_at(self, name: str, when: float) -> Frame | None:
+        """The frame within 2 % (or 20 ms) of a time, if the run came that far; at 0 the first with all the load."""
+        if when == 0.0:
+            return next(f for f in self.frames(name) if f.time > SCHEMES[name].loaded_at - 1e-9)
+        nearest = min(self.frames(name), key=lambda frame: abs(frame.time - when))
+        return nearest if abs(nearest.time - when) <= max(0.02 * when, 0.02) else None
