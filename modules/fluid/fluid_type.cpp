@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "modules/fluid/fluid_blocks.hpp"
+#include "modules/fluid/fluid_scene_checks.hpp"
 #include "modules/fluid/fluid_walls.hpp"
 #include "modules/fluid/semi_lagrangian_fluid.hpp"
 #include "modules/fluid/two_sided_wall_force.hpp"
@@ -47,6 +48,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                            .courant = section.number("courant")};
   Vector<D> gravity{};
   if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
+  check_fluid_scene(section, body.get(), spacing);
   FluidPoints<D> points = read_fluid_blocks<D>(section, fluid, spacing, gravity);
   const bool body_slips = body && scene.word("interface.slip") == "free";
   FluidWalls<D> walls =
@@ -54,10 +56,12 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   const std::size_t body_points = body ? body->points().size() : 0;
   std::unique_ptr<Exchange<D>> exchange;
   const bool exchanges = exchange != nullptr;
+  FluidOpenings<D> openings = read_fluid_openings(section, body.get(), walls, fluid, spacing);
   auto dynamics = std::make_unique<FluidDynamics<D>>(
       fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
-      std::move(walls.rigid), body_points, std::make_unique<TwoSidedWallForce<D>>(),
-      std::move(exchange));
+      std::move(walls.rigid), body_points, std::move(openings),
+      std::make_unique<TwoSidedWallForce<D>>(), std::move(exchange));
+  check_fluid_steps(section, *dynamics);
   return std::make_unique<SemiLagrangianFluid<D>>(std::move(body), exchanges, std::move(dynamics));
 }
 
@@ -110,7 +114,8 @@ KeyTable fluid_keys() {
        .fallback = "0.35",
        .meaning = "Step over the time that sound and fluid take across a spacing."},
   };
-  for (const KeyTable& part : {fluid_block_keys(), fluid_wall_keys()}) {
+  for (const KeyTable& part :
+       {fluid_block_keys(), fluid_wall_keys(), inlet_keys(), outlet_keys(), fluid_domain_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;
