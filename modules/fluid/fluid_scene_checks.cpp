@@ -6,8 +6,8 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "core/errors.hpp"
 #include "core/geometry/cell_grid.hpp"
 #include "core/geometry/faces.hpp"
 #include "modules/fluid/fluid_blocks.hpp"
@@ -44,6 +44,7 @@ std::vector<SceneBox<D>> boxes_of(const Section& section, const std::string& lis
 
 void check_names(const Section& section) {
   std::map<std::string, std::string> taken;
+  if (section.has("container")) taken["container"] = "the container.";
   for (const char* list : {"blocks", "walls", "inlets", "outlets"}) {
     for (std::size_t k = 0; k < section.count(list); ++k) {
       const std::string path = fmt::format("{}[{}].name", list, k);
@@ -139,8 +140,8 @@ void check_points_outside_body(const Section& section, const Body<D>& body,
     const auto inside = first_in_body<D>(body, position, spacing);
     if (!inside) continue;
     section.fail(one.path,
-                 fmt::format("{} reaches into the body, with {}", one.what,
-                             describe_point(*inside, lattice.at(*inside))),
+                 fmt::format("{} reaches into the body, with a point at ({:g}) m", one.what,
+                             fmt::join(lattice.at(*inside), ", ")),
                  "a box outside the body");
   }
 }
@@ -193,15 +194,15 @@ void check_fluid_steps(const Section& section, const FluidDynamics<D>& dynamics)
   const FluidProperties& fluid = dynamics.fluid();
   const double excess = end / step / most_steps;
   const std::string problem =
-      fmt::format("steps of {:.3g} s, {:.2g} of them to the end", step, end / step);
+      fmt::format("the fluid would take steps of {:.3g} s, {:.2g} of them", step, end / step);
   const double spacing = dynamics.scheme().spacing;
   if (0.25 / D * spacing * spacing * fluid.density / fluid.viscosity <= step * (1.0 + 1e-9)) {
     section.fail("viscosity", problem,
-                 fmt::format("at most {:.2g} Pa s, which takes {:g}, or a shorter time",
+                 fmt::format("at most {:.2g} Pa s, which makes them {:g}, or a shorter time",
                              fluid.viscosity / excess, most_steps));
   }
   section.fail("bulk_modulus", problem,
-               fmt::format("at most {:.2g} Pa, which takes {:g}, or a shorter time",
+               fmt::format("at most {:.2g} Pa, which makes them {:g}, or a shorter time",
                            fluid.bulk_modulus / (excess * excess), most_steps));
 }
 

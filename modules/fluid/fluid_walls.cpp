@@ -36,6 +36,9 @@ void add_point(WallCloud<D>& cloud, const Vector<D>& x, int axis, int direction,
 /// The rigid walls outside the closed faces of a box. Walls go on past open faces and corners.
 template <int D>
 void read_container(const Section& section, double spacing, double horizon, FluidWalls<D>& walls) {
+  for (const char* corner : {"container.from", "container.to"}) {
+    if (!section.has(corner)) section.fail(corner, "missing", "a corner of the box");
+  }
   const std::array<int, D> cells = cells_of_box<D>(section, "container", spacing);
   const Vector<D> from = vector_at<D>(section, "container.from");
   const Vector<D> to = vector_at<D>(section, "container.to");
@@ -199,12 +202,10 @@ KeyTable fluid_wall_keys() {
       {.path = "container.from",
        .type = KeyType::vector,
        .unit = "m",
-       .required = true,
        .meaning = "Low corner of a box that rigid walls hold the fluid in."},
       {.path = "container.to",
        .type = KeyType::vector,
        .unit = "m",
-       .required = true,
        .meaning = "Its high corner, whole spacings away."},
       {.path = "container.slip",
        .type = KeyType::word,
