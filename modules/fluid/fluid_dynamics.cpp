@@ -245,10 +245,9 @@ void FluidDynamics<D>::insert_points(double t) {
   ++version_;
 }
 
-/// No wall point is nearer than half a spacing.
+/// No wall point's cell holds x, nor comes near it.
 template <int D>
 bool FluidDynamics<D>::is_free_of_walls(const Vector<D>& x, double t) const {
-  const double reach = 0.5 * scheme_.spacing;
   for (Index w = 0; w < cloud_.size(); ++w) {
     const Vector<D> moved = wall_displacement(w, t);
     double square = 0.0;
@@ -256,6 +255,7 @@ bool FluidDynamics<D>::is_free_of_walls(const Vector<D>& x, double t) const {
       const double y = cloud_.position[a][w] + moved[a] - x[a];
       square += y * y;
     }
+    const double reach = 0.45 * (scheme_.spacing + std::pow(cloud_.volume[w], 1.0 / D));
     if (square < reach * reach) return false;
   }
   return true;

@@ -13,6 +13,8 @@ void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, 
   const double least = step.fluid.density * step.scheme.artificial_viscosity *
                        step.fluid.sound_speed() * step.scheme.spacing;
   const double viscosity = 4.0 * D * std::max(step.fluid.viscosity, least);
+  // Two points alone, one within the skin of the other's list, have none.
+  const double least_trace = 1e-9 * moments.bulk_trace;
   for (auto& values : force) values.resize(points.count);
   for_each_point(points.count, [&](Index i) {
     std::array<double, symmetric_size<D>> own;
@@ -24,7 +26,7 @@ void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, 
         step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, step.influence,
         [&](Index j, const Vector<D>& y, double omega) {
           const double weight = omega * points.volume[j];
-          const double drag = viscosity / (trace + moments.trace[j]);
+          const double drag = viscosity / std::max(trace + moments.trace[j], least_trace);
           Vector<D> term;
           for (int a = 0; a < D; ++a) term[a] = drag * (points.velocity[a][j] - v[a]);
           for (int a = 0; a < D; ++a) {
