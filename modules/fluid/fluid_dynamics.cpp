@@ -6,6 +6,8 @@
 #include "core/errors.hpp"
 #include "core/operators/bond_traversal.hpp"
 #include "modules/fluid/fluid_momentum.hpp"
+#include "modules/fluid/particle_shifting.hpp"
+#include "modules/fluid/wall_contact.hpp"
 
 namespace perifrac {
 
@@ -14,6 +16,15 @@ namespace {
 /// How much farther than the horizon neighbour lists reach, in spacings: wider lists hold for
 /// longer and cost more in every step.
 constexpr double skin = 0.25;
+
+/// A point with less than this part of a lattice's shape tensor lies at a free surface: fluid there
+/// bears no tension. A flat surface has .64, the row below it .95.
+constexpr double surface_shape = 0.8;
+
+/// Continuity alone forgets how densely points lie, and in long flows with free surfaces they end
+/// up ever closer. Where their shape tensor is above a lattice's, density is raised at this rate
+/// times the excess, in units of sound speed over spacing, so that pressure parts them again.
+constexpr double unpacking_rate = 0.01;
 
 }  // namespace
 
@@ -75,9 +86,12 @@ void FluidDynamics<D>::step(double t, double length) {
   place_walls(middle);
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
-  find_moments<D>(points_, walls_, neighbours_, fluid_, influence_, gravity_, moments_);
+  find_moments<D>(points_, walls_, neighbours_, influence_, moments_);
   find_densities(middle, length);
   kick(middle, length);
+  if (scheme_.shifting > 0.0) {
+    shift_points<D>(scheme_.shifting, length, scheme_.spacing, moments_, points_);
+  }
   drift(0.5 * length);
 }
 
@@ -186,10 +200,14 @@ void FluidDynamics<D>::find_densities(double t, double length) {
       exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
     }
   }
+  const double unpacking = unpacking_rate * fluid_.sound_speed() / scheme_.spacing;
   for (auto& values : stress_) values.resize(points_.count);
   for_each_point(points_.count, [&](Index i) {
     double& rho = points_.density[i];
+    const double packing = moments_.trace[i] / moments_.bulk_trace;
     rho += length * (diffusivity * moments_.diffusion[i] - rho * moments_.divergence[i]);
+    rho += length * unpacking * rho * std::max(0.0, packing - 1.0);
+    if (packing < surface_shape) rho = std::max(rho, fluid_.density);
     points_.volume[i] = points_.mass[i] / rho;
     points_.pressure[i] = fluid_.pressure(rho);
     for (int k = 0; k < symmetric_size<D>; ++k) {
@@ -212,6 +230,7 @@ void FluidDynamics<D>::kick(double t, double length) {
       points_.velocity[a][i] += length * (force_[a][i] / points_.mass[i] + gravity_[a]);
     }
   }
+  stop_at_walls<D>(view, length, points_, walls_);
   std::vector<Vector<D>> on_rigid(rigid_.size(), Vector<D>{});
   for (Index k = 0; k < walls_.count; ++k) {
     const Index w = walls_.wall[k];

@@ -44,6 +44,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                            .horizon = section.number("horizon_ratio") * spacing,
                            .artificial_viscosity = section.number("artificial_viscosity"),
                            .density_diffusion = section.number("density_diffusion"),
+                           .shifting = section.number("particle_shifting"),
                            .courant = section.number("courant")};
   Vector<D> gravity{};
   if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
@@ -105,6 +106,10 @@ KeyTable fluid_keys() {
        .fallback = "0.5",
        .meaning =
            "Diffusivity of density, over sound speed times spacing; keeps pressures smooth."},
+      {.path = "particle_shifting",
+       .range = "[0, 10]",
+       .fallback = "4",
+       .meaning = "How strongly points move away from crowds as they flow; 0: not at all."},
       {.path = "courant",
        .range = "(0, 0.6]",
        .fallback = "0.35",
