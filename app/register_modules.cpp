@@ -1,5 +1,6 @@
 #include "app/register_modules.hpp"
 
+#include "modules/fluid/fluid_type.hpp"
 #include "modules/pore_flow/darcy_type.hpp"
 #include "modules/solid/solid_types.hpp"
 
@@ -7,16 +8,14 @@ namespace perifrac {
 
 const std::vector<ModuleType>& module_types() {
   static const std::vector<ModuleType> types = {
-      quasi_static_solid_type(),
-      dynamic_solid_type(),
-      rigid_solid_type(),
-      darcy_type(),
+      quasi_static_solid_type(), dynamic_solid_type(), rigid_solid_type(), darcy_type(),
+      semi_lagrangian_type(),
   };
   return types;
 }
 
 const std::vector<std::string>& physics_order() {
-  static const std::vector<std::string> order = {"pore_flow", "solid"};
+  static const std::vector<std::string> order = {"fluid", "pore_flow", "solid"};
   return order;
 }
 

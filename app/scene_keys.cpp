@@ -3,6 +3,7 @@
 #include "app/references/reference_types.hpp"
 #include "app/register_modules.hpp"
 #include "coupling/coupling_keys.hpp"
+#include "modules/fluid/fluid_type.hpp"
 
 namespace perifrac {
 
@@ -82,9 +83,10 @@ KeyTable reference_keys() {
 
 const Catalogue& scene_catalogue() {
   static const Catalogue catalogue = [] {
-    Catalogue all = {{"", "", top_level_keys()},        {"body", "", body_keys()},
-                     {"time", "", time_keys()},         {"output", "", output_keys()},
-                     {"coupling", "", coupling_keys()}, {"reference", "", reference_keys()}};
+    Catalogue all = {{"", "", top_level_keys()},         {"body", "", body_keys()},
+                     {"time", "", time_keys()},          {"output", "", output_keys()},
+                     {"coupling", "", coupling_keys()},  {"reference", "", reference_keys()},
+                     {"interface", "", interface_keys()}};
     for (const ModuleType& type : module_types()) {
       all.push_back({type.section, type.name, type.keys, type.meaning});
     }

@@ -1,0 +1,191 @@
+#include "core/geometry/cell_grid.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include <omp.h>
+
+namespace perifrac {
+
+namespace {
+
+constexpr double farthest_cell = 1e18;  // differences of cells fit 64 bits
+
+bool is_cell(double c) { return std::abs(c) < farthest_cell; }
+
+template <int D>
+Vector<D> at(const auto& position, Index i) {
+  Vector<D> x;
+  for (int a = 0; a < D; ++a) x[a] = position[a][i];
+  return x;
+}
+
+/// This thread's part of [0, count).
+std::array<Index, 2> share_of_thread(Index count) {
+  const std::int64_t thread = omp_get_thread_num(), threads = omp_get_num_threads();
+  return {static_cast<Index>(count * thread / threads),
+          static_cast<Index>(count * (thread + 1) / threads)};
+}
+
+}  // namespace
+
+template <int D>
+std::int64_t CellGrid<D>::wrapped(std::int64_t c, int axis) const {
+  if (c >= 0 && c < size_[axis]) return c;
+  const std::int64_t rest = c % size_[axis];
+  return rest < 0 ? rest + size_[axis] : rest;
+}
+
+template <int D>
+typename CellGrid<D>::Cell CellGrid<D>::cell_of(const Vector<D>& x) const {
+  Cell cell;
+  for (int a = 0; a < D; ++a) {
+    const double c = std::floor(x[a] * inverse_width_);
+    cell[a] = wrapped(is_cell(c) ? static_cast<std::int64_t>(c) - low_[a] : 0, a);
+  }
+  return cell;
+}
+
+/// As many cells as the box of the points has, an empty margin included, but not many more than
+/// there are points: then the longest axes wrap around.
+template <int D>
+void CellGrid<D>::choose_size(std::size_t points) {
+  const double most = std::max(64.0, 4.0 * static_cast<double>(points));
+  const auto total = [&] {
+    double product = 1.0;
+    for (int a = 0; a < D; ++a) product *= static_cast<double>(size_[a]);
+    return product;
+  };
+  while (total() > most) {
+    std::int64_t& longest = *std::ranges::max_element(size_);
+    longest = std::max<std::int64_t>(longest / 4 * 3, 3);  // three cells in a row must differ
+  }
+}
+
+template <int D>
+void CellGrid<D>::sort_into_cells(const Positions<D>& position) {
+  const auto n = static_cast<Index>(position[0].size());
+  std::size_t cells = 1;
+  for (int a = 0; a < D; ++a) cells *= size_[a];
+  first_.assign(cells + 1, 0);
+  cell_.resize(n);
+  order_.resize(n);
+  place_.resize(n);
+#pragma omp parallel for schedule(static)
+  for (Index i = 0; i < n; ++i) {
+    const Cell c = cell_of(at<D>(position, i));
+    std::int64_t flat = c[D - 1];
+    for (int a = D - 2; a >= 0; --a) flat = flat * size_[a] + c[a];
+    cell_[i] = static_cast<Index>(flat);
+  }
+  for (const Index c : cell_) ++first_[c];
+  std::inclusive_scan(first_.begin(), first_.end(), first_.begin());
+  for (Index i = n - 1; i >= 0; --i) {
+    place_[i] = --first_[cell_[i]];
+    order_[place_[i]] = i;
+  }
+}
+
+template <int D>
+void CellGrid<D>::build(const Positions<D>& position, double cell) {
+  assert(cell > 0.0);
+  inverse_width_ = (1.0 - 1e-9) / cell;  // rounding puts no pair within a cell two cells apart
+  const auto n = static_cast<Index>(position[0].size());
+  for (int a = 0; a < D; ++a) {
+    double low = farthest_cell, high = -farthest_cell;
+    for (const double x : position[a]) {
+      const double c = std::floor(x * inverse_width_);
+      low = is_cell(c) ? std::min(low, c) : low;
+      high = is_cell(c) ? std::max(high, c) : high;
+    }
+    low_[a] = low > high ? 0 : static_cast<std::int64_t>(low) - 1;
+    size_[a] = low > high ? 3 : static_cast<std::int64_t>(high) - low_[a] + 2;
+  }
+  choose_size(position[0].size());
+  sort_into_cells(position);
+  for (int a = 0; a < D; ++a) {
+    sorted_[a].resize(n);
+    for (Index k = 0; k < n; ++k) sorted_[a][k] = position[a][order_[k]];
+  }
+}
+
+template <int D>
+template <class Use>
+void CellGrid<D>::for_runs_near(const Vector<D>& x, Use&& use) const {
+  const Cell centre = cell_of(x);
+  const int rows = D == 2 ? 3 : 9;
+  for (int row = 0; row < rows; ++row) {
+    std::int64_t flat = 0;
+    for (int a = D - 1, scale = rows / 3, rest = row; a >= 1; --a, rest %= scale, scale /= 3) {
+      flat = flat * size_[a] + wrapped(centre[a] + rest / scale - 1, a);
+    }
+    flat *= size_[0];
+    if (centre[0] >= 1 && centre[0] + 1 < size_[0]) {
+      use(first_[flat + centre[0] - 1], first_[flat + centre[0] + 2]);
+      continue;
+    }
+    for (std::int64_t c = centre[0] - 1; c <= centre[0] + 1; ++c) {
+      const std::int64_t cell = flat + wrapped(c, 0);
+      use(first_[cell], first_[cell + 1]);
+    }
+  }
+}
+
+template <int D>
+template <class Target, class Self>
+void CellGrid<D>::search(Index targets, double reach, Target&& target, Self&& self,
+                         Neighbours& result) const {
+  assert(reach * inverse_width_ <= 1.0 + 1e-12);
+  result.offset.resize(targets + 1);
+  result.offset[0] = 0;
+#pragma omp parallel
+  {
+    thread_local std::vector<Index> found;  // of all targets of this thread
+    const auto [begin, end] = share_of_thread(targets);
+    std::size_t count = 0;
+    for (Index i = begin; i < end; ++i) {
+      const std::size_t before = count;
+      const Vector<D> x = target(i);
+      for_runs_near(x, [&](Index first, Index last) {
+        if (found.size() < count + (last - first)) found.resize(2 * count + (last - first));
+        for (Index k = first; k < last; ++k) {
+          double r2 = 0.0;
+          for (int a = 0; a < D; ++a) r2 += (sorted_[a][k] - x[a]) * (sorted_[a][k] - x[a]);
+          found[count] = order_[k];
+          count += (r2 < reach * reach) & (order_[k] != self(i));
+        }
+      });
+      const std::span<Index> own(found.data() + before, count - before);
+      if (!std::ranges::is_sorted(own)) std::ranges::sort(own);
+      result.offset[i + 1] = static_cast<Index>(own.size());
+    }
+#pragma omp barrier
+#pragma omp single
+    {
+      for (Index i = 0; i < targets; ++i) result.offset[i + 1] += result.offset[i];
+      result.other.resize(result.offset[targets]);
+    }
+    std::copy_n(found.begin(), count, result.other.begin() + result.offset[begin]);
+  }
+}
+
+template <int D>
+void CellGrid<D>::find(const Positions<D>& targets, double reach, Neighbours& result) const {
+  search(
+      static_cast<Index>(targets[0].size()), reach, [&](Index i) { return at<D>(targets, i); },
+      [](Index) { return Index{-1}; }, result);
+}
+
+template <int D>
+void CellGrid<D>::find_others(Index targets, double reach, Neighbours& result) const {
+  search(
+      targets, reach, [&](Index i) { return at<D>(sorted_, place_[i]); }, [](Index i) { return i; },
+      result);
+}
+
+template class CellGrid<2>;
+template class CellGrid<3>;
+
+}  // namespace perifrac

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/geometry/neighbours.hpp"
+
+namespace perifrac {
+
+/// Coordinates of points [m], one span an axis.
+template <int D>
+using Positions = std::array<std::span<const double>, D>;
+
+/// Moving points sorted into cells, to find who is near whom.
+///
+/// The cells wrap around: their number follows from the number of points, and a point that flew
+/// far away shares a cell with others instead of stretching the grid. A point whose position is
+/// not finite is nobody's neighbour and has none. The result does not depend on the number of
+/// threads; nothing is allocated when the sizes are those of the last time.
+template <int D>
+class CellGrid {
+ public:
+  /// Sorts the points into cells of the edge `cell` > 0 [m]. The positions are copied.
+  void build(const Positions<D>& position, double cell);
+
+  /// The points in the order of their cells, rows along the first axis: sorted so, points close in
+  /// space are close in memory.
+  std::span<const Index> order() const { return order_; }
+
+  /// The grid's points nearer than `reach` <= cell [m] to each target.
+  void find(const Positions<D>& targets, double reach, Neighbours& result) const;
+
+  /// The same for the grid's own first `targets` points, themselves left out.
+  void find_others(Index targets, double reach, Neighbours& result) const;
+
+ private:
+  using Cell = std::array<std::int64_t, D>;
+
+  Cell cell_of(const Vector<D>& x) const;
+  std::int64_t wrapped(std::int64_t c, int axis) const;
+  void choose_size(std::size_t points);
+  void sort_into_cells(const Positions<D>& position);
+
+  /// Calls use(first, last) for runs of places in order() that hold all points nearer than a cell.
+  template <class Use>
+  void for_runs_near(const Vector<D>& x, Use&& use) const;
+
+  /// `target(i)` gives the position of target i, `self(i)` the point that is no neighbour of it.
+  template <class Target, class Self>
+  void search(Index targets, double reach, Target&& target, Self&& self, Neighbours& result) const;
+
+  double inverse_width_ = 1.0;
+  Cell low_{};                                 ///< of the cells with finite points
+  Cell size_{};                                ///< cells along each axis before they wrap
+  std::vector<Index> first_;                   ///< place in order() where each cell begins
+  std::vector<Index> order_;                   ///< point at a place
+  std::vector<Index> place_;                   ///< place of a point
+  std::vector<Index> cell_;                    ///< cell of a point
+  std::array<std::vector<double>, D> sorted_;  ///< [m], by place
+};
+
+}  // namespace perifrac

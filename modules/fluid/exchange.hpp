@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+
+#include "modules/fluid/wall_force.hpp"
+
+namespace perifrac {
+
+/// What the pores tell the fluid, at all points of the body: the pressure at time t is
+/// pressure + rate (t - end).
+struct PoreInput {
+  std::span<const double> pressure{};  ///< [Pa]
+  std::span<const double> rate{};      ///< [Pa/s]
+  std::span<const double> mobility{};  ///< permeability / viscosity [m^2/(Pa s)]
+  double end = 0.0;                    ///< [s]
+
+  double at(Index point, double t) const { return pressure[point] + rate[point] * (t - end); }
+};
+
+/// How mass passes between the free fluid and the pores of the body.
+template <int D>
+class Exchange {
+ public:
+  virtual ~Exchange() = default;
+
+  /// Sets the mass per time that every fluid point gets [kg/s], and every near wall point: those of
+  /// the body take from the fluid, or give to it; rigid ones do nothing.
+  virtual void find(const FluidStep<D>& step, const PoreInput& pores, double t, NearWalls<D>& walls,
+                    std::vector<double>& rate) = 0;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,259 @@
+#include "modules/fluid/fluid_dynamics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "core/operators/bond_traversal.hpp"
+#include "modules/fluid/fluid_momentum.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// How much farther than the horizon neighbour lists reach, in spacings: wider lists hold for
+/// longer and cost more in every step.
+constexpr double skin = 0.25;
+
+}  // namespace
+
+template <int D>
+FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vector<D> gravity,
+                                Period<D> period, FluidPoints<D> points, WallCloud<D> cloud,
+                                std::vector<RigidWall<D>> rigid, std::size_t body_points,
+                                std::unique_ptr<WallForce<D>> wall_force,
+                                std::unique_ptr<Exchange<D>> exchange)
+    : fluid_(fluid),
+      scheme_(scheme),
+      gravity_(gravity),
+      influence_(scheme.horizon),
+      points_(std::move(points)),
+      cloud_(std::move(cloud)),
+      rigid_(std::move(rigid)),
+      wall_force_(std::move(wall_force)),
+      exchange_(std::move(exchange)),
+      body_points_(body_points),
+      neighbours_(scheme.horizon, skin * scheme.spacing, std::move(period)) {
+  moments_.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon);
+}
+
+template <int D>
+void FluidDynamics<D>::start_totals() {
+  if (body_points_ == 0) return;
+  impulse_.assign(D * body_points_, 0.0);
+  if (exchange_) exchanged_mass_.assign(body_points_, 0.0);
+}
+
+template <int D>
+double FluidDynamics<D>::longest_step(double t) const {
+  double fastest = 0.0;
+  for (Index i = 0; i < points_.count; ++i) {
+    double square = 0.0;
+    for (int a = 0; a < D; ++a) square += points_.velocity[a][i] * points_.velocity[a][i];
+    if (!std::isfinite(square)) {
+      throw NumericalError("fluid_velocity", describe_point(i, points_.at(i)), t,
+                           "is not a finite number");
+    }
+    fastest = std::max(fastest, square);
+  }
+  const double speed = fluid_.sound_speed() + std::sqrt(fastest);
+  const double kinematic =
+      std::max(fluid_.viscosity / fluid_.density,
+               scheme_.artificial_viscosity * fluid_.sound_speed() * scheme_.spacing);
+  const double diffusion =
+      std::max(kinematic, scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing);
+  const double square = scheme_.spacing * scheme_.spacing;
+  return std::min(scheme_.courant * scheme_.spacing / speed,
+                  diffusion > 0.0 ? 0.25 / D * square / diffusion : 1e300);
+}
+
+template <int D>
+void FluidDynamics<D>::step(double t, double length) {
+  const double middle = t + 0.5 * length;
+  for (RigidWall<D>& wall : rigid_) wall.follow(middle);
+  drift(0.5 * length);
+  place_walls(middle);
+  if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
+  copy_to_images();
+  find_moments<D>(points_, walls_, neighbours_, fluid_, influence_, gravity_, moments_);
+  find_densities(middle, length);
+  kick(middle, length);
+  drift(0.5 * length);
+}
+
+template <int D>
+void FluidDynamics<D>::drift(double length) {
+  for (int a = 0; a < D; ++a) {
+    for (Index i = 0; i < points_.count; ++i) {
+      points_.position[a][i] += length * points_.velocity[a][i];
+    }
+  }
+  for (RigidWall<D>& wall : rigid_) wall.drift(length);
+}
+
+template <int D>
+Vector<D> FluidDynamics<D>::wall_displacement(Index w, double t) const {
+  if (cloud_.is_rigid(w)) return rigid_[cloud_.owner[w]].displacement;
+  Vector<D> result{};
+  if (body_.displacement.empty()) return result;
+  for (int a = 0; a < D; ++a) {
+    const std::size_t k = a * body_points_ + cloud_.owner[w];
+    result[a] = body_.displacement[k] + body_.rate[k] * (t - body_.end);
+  }
+  return result;
+}
+
+template <int D>
+Vector<D> FluidDynamics<D>::wall_velocity(Index w) const {
+  if (cloud_.is_rigid(w)) return rigid_[cloud_.owner[w]].velocity;
+  Vector<D> result{};
+  if (body_.displacement.empty()) return result;
+  for (int a = 0; a < D; ++a) result[a] = body_.rate[a * body_points_ + cloud_.owner[w]];
+  return result;
+}
+
+template <int D>
+void FluidDynamics<D>::place_walls(double t) {
+  for (int a = 0; a < D; ++a) {
+    walls_.position[a].resize(walls_.wall.size());
+    walls_.velocity[a].resize(walls_.wall.size());
+  }
+  for (Index k = 0; k < walls_.count; ++k) {
+    const Index w = walls_.wall[k];
+    const Vector<D> moved = wall_displacement(w, t), v = wall_velocity(w);
+    for (int a = 0; a < D; ++a) {
+      walls_.position[a][k] = cloud_.position[a][w] + moved[a];
+      walls_.velocity[a][k] = v[a];
+    }
+  }
+  const PeriodicImages<D>& images = neighbours_.wall_images();
+  images.copy_positions(walls_.position, walls_.count);
+  for (int a = 0; a < D; ++a) images.copy(walls_.velocity[a], walls_.count);
+}
+
+template <int D>
+void FluidDynamics<D>::find_neighbours(double t) {
+  for (int a = 0; a < D; ++a) wall_position_[a].resize(cloud_.size());
+  for (Index w = 0; w < cloud_.size(); ++w) {
+    const Vector<D> moved = wall_displacement(w, t);
+    for (int a = 0; a < D; ++a) wall_position_[a][w] = cloud_.position[a][w] + moved[a];
+  }
+  neighbours_.find(points_, wall_position_, walls_);
+  walls_.volume.resize(walls_.wall.size());
+  for (std::size_t k = 0; k < walls_.wall.size(); ++k) {
+    walls_.volume[k] = cloud_.volume[walls_.wall[k]];
+  }
+  place_walls(t);
+  ++version_;
+}
+
+template <int D>
+void FluidDynamics<D>::copy_to_images() {
+  const PeriodicImages<D>& images = neighbours_.images();
+  points_.volume.resize(points_.count);
+  points_.pressure.resize(points_.count);
+  for (Index i = 0; i < points_.count; ++i) {
+    points_.volume[i] = points_.mass[i] / points_.density[i];
+    points_.pressure[i] = fluid_.pressure(points_.density[i]);
+  }
+  images.copy_positions(points_.position, points_.count);
+  for (int a = 0; a < D; ++a) images.copy(points_.velocity[a], points_.count);
+  images.copy(points_.density, points_.count);
+  images.copy(points_.volume, points_.count);
+  images.copy(points_.pressure, points_.count);
+}
+
+template <int D>
+FluidStep<D> FluidDynamics<D>::step_view() const {
+  return {points_, cloud_, neighbours_, moments_, fluid_, scheme_, influence_, gravity_, stress_};
+}
+
+/// Continuity (paper Eq 20), diffusion of density, and what passes into the pores; then pressures.
+template <int D>
+void FluidDynamics<D>::find_densities(double t, double length) {
+  const PeriodicImages<D>& images = neighbours_.images();
+  images.copy(moments_.trace, points_.count);
+  const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
+  if (exchange_) {
+    exchange_->find(step_view(), pores_, t, walls_, mass_rate_);
+    for (Index i = 0; i < points_.count; ++i) {
+      points_.mass[i] += length * mass_rate_[i];
+      points_.density[i] += length * mass_rate_[i] / points_.volume[i];
+    }
+    for (Index k = 0; k < walls_.count; ++k) {
+      const Index w = walls_.wall[k];
+      if (cloud_.is_rigid(w)) continue;
+      exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
+    }
+  }
+  for (auto& values : stress_) values.resize(points_.count);
+  for_each_point(points_.count, [&](Index i) {
+    double& rho = points_.density[i];
+    rho += length * (diffusivity * moments_.diffusion[i] - rho * moments_.divergence[i]);
+    points_.volume[i] = points_.mass[i] / rho;
+    points_.pressure[i] = fluid_.pressure(rho);
+    for (int k = 0; k < symmetric_size<D>; ++k) {
+      stress_[k][i] = -points_.pressure[i] * moments_.inverse_shape[k][i];
+    }
+  });
+  images.copy(points_.density, points_.count);
+  images.copy(points_.volume, points_.count);
+  images.copy(points_.pressure, points_.count);
+  for (auto& values : stress_) images.copy(values, points_.count);
+}
+
+template <int D>
+void FluidDynamics<D>::kick(double t, double length) {
+  const FluidStep<D> view = step_view();
+  find_pair_forces<D>(view, force_);
+  wall_force_->add(view, walls_, force_);
+  for (int a = 0; a < D; ++a) {
+    for (Index i = 0; i < points_.count; ++i) {
+      points_.velocity[a][i] += length * (force_[a][i] / points_.mass[i] + gravity_[a]);
+    }
+  }
+  std::vector<Vector<D>> on_rigid(rigid_.size(), Vector<D>{});
+  for (Index k = 0; k < walls_.count; ++k) {
+    const Index w = walls_.wall[k];
+    for (int a = 0; a < D; ++a) {
+      if (cloud_.is_rigid(w)) {
+        on_rigid[cloud_.owner[w]][a] += walls_.force[a][k];
+      } else {
+        impulse_[a * body_points_ + cloud_.owner[w]] += length * walls_.force[a][k];
+      }
+    }
+  }
+  for (std::size_t r = 0; r < rigid_.size(); ++r) {
+    rigid_[r].kick(t, length, on_rigid[r], gravity_);
+  }
+}
+
+template <int D>
+void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
+  constexpr std::array axes = {"x", "y", "z"};
+  points_.trim();
+  for (int a = 0; a < D; ++a) {
+    visitor.visit(std::string("position_") + axes[a], points_.position[a]);
+  }
+  for (int a = 0; a < D; ++a) {
+    visitor.visit(std::string("velocity_") + axes[a], points_.velocity[a]);
+  }
+  visitor.visit("density", points_.density);
+  visitor.visit("mass", points_.mass);
+  visitor.visit("id", points_.id);
+  points_.count = static_cast<Index>(points_.mass.size());
+  for (RigidWall<D>& wall : rigid_) {
+    if (wall.motion == RigidWall<D>::Motion::fixed) continue;
+    visitor.enter(wall.name);
+    for (int a = 0; a < D; ++a) {
+      visitor.visit(std::string("displacement_") + axes[a], wall.displacement[a]);
+      visitor.visit(std::string("velocity_") + axes[a], wall.velocity[a]);
+    }
+    visitor.leave();
+  }
+}
+
+template class FluidDynamics<2>;
+template class FluidDynamics<3>;
+
+}  // namespace perifrac

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/state/state_visitor.hpp"
+#include "modules/fluid/exchange.hpp"
+#include "modules/fluid/fluid_neighbours.hpp"
+#include "modules/fluid/rigid_wall.hpp"
+#include "modules/fluid/wall_force.hpp"
+
+namespace perifrac {
+
+/// Where the body's points are: at time t they are displaced by displacement + rate (t - end).
+struct BodyInput {
+  std::span<const double> displacement{};  ///< D blocks [m]; empty: at rest
+  std::span<const double> rate{};          ///< [m/s]
+  double end = 0.0;                        ///< [s]
+};
+
+/// Newton's law and continuity for the points of a weakly compressible fluid between walls:
+/// drift by half a step, find density from the velocities there, then pressure, forces and
+/// velocities, drift on. One evaluation a step; nothing but position, velocity, density and mass is
+/// carried over, and what the fluid gives to walls and pores it has lost to the last digit.
+template <int D>
+class FluidDynamics {
+ public:
+  FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vector<D> gravity, Period<D> period,
+                FluidPoints<D> points, WallCloud<D> cloud, std::vector<RigidWall<D>> rigid,
+                std::size_t body_points, std::unique_ptr<WallForce<D>> wall_force,
+                std::unique_ptr<Exchange<D>> exchange);
+
+  void set_body(const BodyInput& body) { body_ = body; }
+  void set_pores(const PoreInput& pores) { pores_ = pores; }
+  /// Totals given to the body's points are counted from here: impulse, D blocks [N s], and mass
+  /// [kg]. They are empty where the body is not there, or nothing passes into it.
+  void start_totals();
+  const std::vector<double>& impulse() const { return impulse_; }
+  const std::vector<double>& exchanged_mass() const { return exchanged_mass_; }
+
+  /// The longest stable step now [s]. Throws NumericalError where a velocity is not finite.
+  double longest_step(double t) const;
+  /// One step from t [s].
+  void step(double t, double length);
+
+  void visit_state(StateVisitor& visitor);
+  /// The state was replaced.
+  void forget() { neighbours_.forget(); }
+
+  FluidPoints<D>& points() { return points_; }
+  const FluidPoints<D>& points() const { return points_; }
+  const std::vector<RigidWall<D>>& rigid_walls() const { return rigid_; }
+  const FluidProperties& fluid() const { return fluid_; }
+  const FluidScheme& scheme() const { return scheme_; }
+  const Vector<D>& gravity() const { return gravity_; }
+  std::int64_t searches() const { return neighbours_.searches(); }
+  /// Raised where points were reordered.
+  std::uint64_t version() const { return version_; }
+
+ private:
+  void drift(double length);
+  void find_neighbours(double t);
+  void place_walls(double t);
+  Vector<D> wall_displacement(Index w, double t) const;
+  Vector<D> wall_velocity(Index w) const;
+  void copy_to_images();
+  void find_densities(double t, double length);
+  void kick(double t, double length);
+  FluidStep<D> step_view() const;
+
+  FluidProperties fluid_;
+  FluidScheme scheme_;
+  Vector<D> gravity_;
+  GaussianInfluence influence_;
+  FluidPoints<D> points_;
+  WallCloud<D> cloud_;
+  std::vector<RigidWall<D>> rigid_;
+  std::unique_ptr<WallForce<D>> wall_force_;
+  std::unique_ptr<Exchange<D>> exchange_;
+  BodyInput body_;
+  PoreInput pores_;
+  std::size_t body_points_;
+
+  FluidNeighbours<D> neighbours_;
+  NearWalls<D> walls_;
+  FluidMoments<D> moments_;
+  std::array<std::vector<double>, symmetric_size<D>> stress_;
+  std::array<std::vector<double>, D> force_;
+  std::vector<double> mass_rate_;
+  std::array<std::vector<double>, D> wall_position_;  ///< of the whole cloud, when it is searched
+  std::vector<double> impulse_;
+  std::vector<double> exchanged_mass_;
+  std::uint64_t version_ = 1;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/operators/neighbour_traversal.hpp"
+#include "modules/fluid/fluid_neighbours.hpp"
+#include "modules/fluid/fluid_properties.hpp"
+
+namespace perifrac {
+
+/// What the first of a step's two loops over neighbours finds at every fluid point.
+template <int D>
+struct FluidMoments {
+  /// Inverse of the shape tensor (paper Eqs 19, 23), regularised.
+  std::array<std::vector<double>, symmetric_size<D>> inverse_shape;
+  std::vector<double> trace;       ///< of the shape tensor, as it is, with images
+  std::vector<double> divergence;  ///< of the velocity (paper Eq 20) [1/s]
+  std::vector<double> diffusion;   ///< Laplacian of the density beyond that of rest [kg/m^5]
+
+  /// tr M of an endless lattice: what a point inside the fluid has, and every wall point is given.
+  double bulk_trace = 0.0;
+};
+
+/// tr M of a lattice of `spacing` that fills space [m^(D+2)].
+template <int D>
+double lattice_trace(double spacing, double horizon);
+
+/// Finds the moments of all points from positions, velocities, densities and volumes, those of
+/// images and near walls included. `gravity` [m/s^2]: fluid at rest does not diffuse.
+template <int D>
+void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
+                  const FluidNeighbours<D>& neighbours, const FluidProperties& fluid,
+                  const GaussianInfluence& influence, const Vector<D>& gravity,
+                  FluidMoments<D>& moments);
+
+}  // namespace perifrac

@@ -1,0 +1,46 @@
+#include "modules/fluid/fluid_momentum.hpp"
+
+#include <algorithm>
+
+#include "core/operators/bond_traversal.hpp"
+
+namespace perifrac {
+
+template <int D>
+void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) {
+  const FluidPoints<D>& points = step.points;
+  const FluidMoments<D>& moments = step.moments;
+  const double least = step.fluid.density * step.scheme.artificial_viscosity *
+                       step.fluid.sound_speed() * step.scheme.spacing;
+  const double viscosity = 4.0 * D * std::max(step.fluid.viscosity, least);
+  for (auto& values : force) values.resize(points.count);
+  for_each_point(points.count, [&](Index i) {
+    std::array<double, symmetric_size<D>> own;
+    for (int k = 0; k < symmetric_size<D>; ++k) own[k] = step.stress[k][i];
+    Vector<D> v;
+    for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
+    const double trace = moments.trace[i];
+    const auto sum = sum_over_neighbours<D, D>(
+        step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, step.influence,
+        [&](Index j, const Vector<D>& y, double omega) {
+          const double weight = omega * points.volume[j];
+          const double drag = viscosity / (trace + moments.trace[j]);
+          Vector<D> term;
+          for (int a = 0; a < D; ++a) term[a] = drag * (points.velocity[a][j] - v[a]);
+          for (int a = 0; a < D; ++a) {
+            for (int b = 0; b < D; ++b) {
+              const int k = symmetric_index<D>(std::min(a, b), std::max(a, b));
+              term[a] += (own[k] + step.stress[k][j]) * y[b];
+            }
+          }
+          for (double& component : term) component *= weight;
+          return term;
+        });
+    for (int a = 0; a < D; ++a) force[a][i] = points.volume[i] * sum[a];
+  });
+}
+
+template void find_pair_forces<2>(const FluidStep<2>&, std::array<std::vector<double>, 2>&);
+template void find_pair_forces<3>(const FluidStep<3>&, std::array<std::vector<double>, 3>&);
+
+}  // namespace perifrac

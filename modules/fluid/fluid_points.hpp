@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/points.hpp"
+
+namespace perifrac {
+
+/// Components of a symmetric tensor: xx, xy, yy; or xx, xy, xz, yy, yz, zz.
+template <int D>
+inline constexpr int symmetric_size = D*(D + 1) / 2;
+
+/// Place of component (a, b), a <= b, in a symmetric tensor.
+template <int D>
+constexpr int symmetric_index(int a, int b) {
+  return a * D - a * (a - 1) / 2 + (b - a);
+}
+
+/// The free fluid's points, structure of arrays. What they carry from step to step; and behind
+/// `count` points, in the arrays that neighbours read, their periodic images.
+template <int D>
+struct FluidPoints {
+  Index count = 0;
+  std::array<std::vector<double>, D> position;  ///< [m], with images
+  std::array<std::vector<double>, D> velocity;  ///< [m/s], with images
+  std::vector<double> density;                  ///< [kg/m^3], with images
+  std::vector<double> mass;                     ///< [kg; in 2D kg/m]
+  std::vector<std::int64_t> id;                 ///< given at birth, never twice
+
+  // Found anew in every step.
+  std::vector<double> volume;    ///< mass / density, with images
+  std::vector<double> pressure;  ///< [Pa], with images
+
+  void add(const Vector<D>& x, const Vector<D>& v, double rho, double m, std::int64_t name) {
+    trim();
+    for (int a = 0; a < D; ++a) {
+      position[a].push_back(x[a]);
+      velocity[a].push_back(v[a]);
+    }
+    density.push_back(rho);
+    mass.push_back(m);
+    id.push_back(name);
+    ++count;
+  }
+
+  /// Forgets the images, so that arrays hold the points alone.
+  void trim() {
+    for (int a = 0; a < D; ++a) {
+      position[a].resize(count);
+      velocity[a].resize(count);
+    }
+    density.resize(count);
+  }
+
+  Vector<D> at(Index i) const {
+    Vector<D> x;
+    for (int a = 0; a < D; ++a) x[a] = position[a][i];
+    return x;
+  }
+};
+
+}  // namespace perifrac

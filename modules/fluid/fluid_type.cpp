@@ -1,0 +1,142 @@
+#include "modules/fluid/fluid_type.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "modules/fluid/fluid_blocks.hpp"
+#include "modules/fluid/fluid_walls.hpp"
+#include "modules/fluid/semi_lagrangian_fluid.hpp"
+#include "modules/fluid/two_sided_wall_force.hpp"
+
+namespace perifrac {
+
+namespace {
+
+FluidProperties read_properties(const Section& section) {
+  FluidProperties fluid{.density = section.number("density"),
+                        .bulk_modulus = section.number("bulk_modulus"),
+                        .viscosity = section.number("viscosity")};
+  if (section.word("equation_of_state") == "tait") {
+    fluid.tait_exponent = section.number("tait_exponent");
+  }
+  return fluid;
+}
+
+template <int D>
+double read_spacing(const Section& section, const Body<D>* body) {
+  if (section.has("spacing")) return section.number("spacing");
+  if (body == nullptr) section.fail("spacing", "missing", "the distance between fluid points");
+  return body->spacing();
+}
+
+template <int D>
+std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
+                                          std::shared_ptr<const Body<D>> body) {
+  const Section scene = section.scene();
+  if (body && !scene.has("interface")) {
+    section.fail("", "a fluid beside a body, and nothing says how they meet",
+                 "a section interface");
+  }
+  const FluidProperties fluid = read_properties(section);
+  const double spacing = read_spacing(section, body.get());
+  const FluidScheme scheme{.spacing = spacing,
+                           .horizon = section.number("horizon_ratio") * spacing,
+                           .artificial_viscosity = section.number("artificial_viscosity"),
+                           .density_diffusion = section.number("density_diffusion"),
+                           .courant = section.number("courant")};
+  Vector<D> gravity{};
+  if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
+  FluidPoints<D> points = read_fluid_blocks<D>(section, fluid, spacing, gravity);
+  const bool body_slips = body && scene.word("interface.slip") == "free";
+  FluidWalls<D> walls =
+      read_fluid_walls<D>(section, body.get(), body_slips, spacing, scheme.horizon);
+  const std::size_t body_points = body ? body->points().size() : 0;
+  std::unique_ptr<Exchange<D>> exchange;
+  const bool exchanges = exchange != nullptr;
+  auto dynamics = std::make_unique<FluidDynamics<D>>(
+      fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
+      std::move(walls.rigid), body_points, std::make_unique<TwoSidedWallForce<D>>(),
+      std::move(exchange));
+  return std::make_unique<SemiLagrangianFluid<D>>(std::move(body), exchanges, std::move(dynamics));
+}
+
+KeyTable fluid_keys() {
+  KeyTable keys = {
+      {.path = "spacing",
+       .unit = "m",
+       .range = "(0, inf)",
+       .meaning = "Distance between fluid points at the start; the body's where left out."},
+      {.path = "horizon_ratio",
+       .range = "[1.5, 5]",
+       .fallback = "2.5",
+       .meaning = "Horizon over spacing."},
+      {.path = "density",
+       .unit = "kg/m^3",
+       .range = "(0, inf)",
+       .fallback = "1000 kg/m^3",
+       .meaning = "Density at zero pressure."},
+      {.path = "bulk_modulus",
+       .unit = "Pa",
+       .range = "(0, inf)",
+       .required = true,
+       .meaning = "Bulk modulus at zero pressure. Steps are as short as sound is fast."},
+      {.path = "viscosity",
+       .unit = "Pa s",
+       .range = "[0, inf)",
+       .required = true,
+       .meaning = "Dynamic viscosity."},
+      {.path = "equation_of_state",
+       .type = KeyType::word,
+       .fallback = "linear",
+       .words = {"linear", "tait"},
+       .meaning = "How pressure follows density."},
+      {.path = "tait_exponent",
+       .range = "(1, inf)",
+       .fallback = "7",
+       .meaning = "tait: how fast the fluid stiffens under pressure."},
+      {.path = "artificial_viscosity",
+       .range = "[0, 1]",
+       .fallback = "0.1",
+       .meaning = "Least kinematic viscosity between fluid points, over sound speed times spacing; "
+                  "walls see the physical one alone."},
+      {.path = "density_diffusion",
+       .range = "[0, 1]",
+       .fallback = "0.5",
+       .meaning =
+           "Diffusivity of density, over sound speed times spacing; keeps pressures smooth."},
+      {.path = "courant",
+       .range = "(0, 0.6]",
+       .fallback = "0.35",
+       .meaning = "Step over the time that sound and fluid take across a spacing."},
+  };
+  for (const KeyTable& part : {fluid_block_keys(), fluid_wall_keys()}) {
+    keys.insert(keys.end(), part.begin(), part.end());
+  }
+  return keys;
+}
+
+}  // namespace
+
+const KeyTable& interface_keys() {
+  static const KeyTable keys = {
+      {.path = "slip",
+       .type = KeyType::word,
+       .fallback = "no_slip",
+       .words = {"no_slip", "free"},
+       .meaning = "no_slip: fluid sticks to the body. free: no friction."},
+  };
+  return keys;
+}
+
+ModuleType semi_lagrangian_type() {
+  return {.section = "fluid",
+          .name = "semi_lagrangian",
+          .meaning = "Free fluid on moving points, weakly compressible; explicit.",
+          .keys = fluid_keys(),
+          .make = [](const Section& section, const AnyBody& any) {
+            return std::visit([&](const auto& body) { return make_fluid(section, body); }, any);
+          }};
+}
+
+}  // namespace perifrac

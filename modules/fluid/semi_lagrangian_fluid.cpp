@@ -1,0 +1,200 @@
+#include "modules/fluid/semi_lagrangian_fluid.hpp"
+
+#include "core/time/equal_steps.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const PointSet whole_fluid{.name = "fluid_total"};
+
+}  // namespace
+
+template <int D>
+SemiLagrangianFluid<D>::SemiLagrangianFluid(std::shared_ptr<const Body<D>> body, bool exchanges,
+                                            std::unique_ptr<FluidDynamics<D>> dynamics)
+    : body_(std::move(body)), dynamics_(std::move(dynamics)) {
+  using enum PortDirection;
+  using enum PortKind;
+  const auto total = [](const char* unit) { return unit_of_total(unit, D); };
+  add_port(Quantity::pressure, {"fluid_pressure", "Pa", out});
+  add_port(Quantity::velocity, {"fluid_velocity", "m/s", out, intensive, PortRole::field, D});
+  add_port(Quantity::density, {"fluid_density", "kg/m^3", out});
+  add_port(Quantity::mass, {"fluid_mass", total("kg"), out, extensive});
+  add_port(Quantity::free_mass,
+           {"free_fluid_mass", total("kg"), out, extensive, PortRole::mass_stored});
+  add_port(Quantity::steps, {"integrator_steps", "1", out, extensive, PortRole::work});
+  add_port(Quantity::searches, {"neighbour_searches", "1", out, extensive, PortRole::work});
+  if (body_) {
+    add_port(Quantity::displacement, {"displacement", "m", in, intensive, PortRole::field, D});
+    add_port(Quantity::interface_impulse,
+             {"interface_impulse", total("N s"), out, extensive, PortRole::field, D});
+  }
+  if (exchanges) {
+    add_port(Quantity::pore_pressure, {"pore_pressure", "Pa", in});
+    add_port(Quantity::pore_mobility, {"pore_mobility", "m^2/(Pa s)", in});
+    add_port(Quantity::exchanged_mass, {"exchanged_mass", total("kg"), out, extensive});
+  }
+  for (const RigidWall<D>& wall : dynamics_->rigid_walls()) {
+    if (wall.motion != RigidWall<D>::Motion::piston) continue;
+    add_port(Quantity::piston,
+             {wall.name + "_displacement", "m", out, intensive, PortRole::field, D});
+  }
+  scalars_.resize(ports_.size() * D);
+  point_set_ = {.name = "fluid", .dimension = D};
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::add_port(Quantity quantity, Port port) {
+  quantities_.push_back(quantity);
+  ports_.push_back(std::move(port));
+}
+
+template <int D>
+const PointSet& SemiLagrangianFluid<D>::moving_points() {
+  const FluidPoints<D>& points = dynamics_->points();
+  point_set_.version = dynamics_->version() + restored_;
+  point_set_.count = points.count;
+  for (int a = 0; a < D; ++a) {
+    point_set_.position[a] = std::span(points.position[a]).first(points.count);
+  }
+  return point_set_;
+}
+
+template <int D>
+std::vector<double>& SemiLagrangianFluid<D>::field(Quantity quantity) {
+  const FluidPoints<D>& points = dynamics_->points();
+  const auto first = [&](const std::vector<double>& values) {
+    return std::span(values).first(points.count);
+  };
+  switch (quantity) {
+    case Quantity::pressure:
+      pressure_.resize(points.count);
+      for (Index i = 0; i < points.count; ++i) {
+        pressure_[i] = dynamics_->fluid().pressure(points.density[i]);
+      }
+      return pressure_;
+    case Quantity::velocity:
+      velocity_.clear();
+      for (int a = 0; a < D; ++a) {
+        const auto values = first(points.velocity[a]);
+        velocity_.insert(velocity_.end(), values.begin(), values.end());
+      }
+      return velocity_;
+    case Quantity::density: {
+      const auto values = first(points.density);
+      density_.assign(values.begin(), values.end());
+      return density_;
+    }
+    default:
+      mass_ = points.mass;
+      return mass_;
+  }
+}
+
+template <int D>
+double SemiLagrangianFluid<D>::scalar(Quantity quantity, PortId) {
+  switch (quantity) {
+    case Quantity::free_mass: {
+      double sum = 0.0;
+      for (const double mass : dynamics_->points().mass) sum += mass;
+      return sum;
+    }
+    case Quantity::steps:
+      return static_cast<double>(steps_);
+    default:
+      return static_cast<double>(dynamics_->searches());
+  }
+}
+
+template <int D>
+PortView SemiLagrangianFluid<D>::port(PortId id) {
+  const Quantity quantity = quantities_[id];
+  const std::size_t body_points = body_ ? body_->points().size() : 0;
+  const PointSet* const body = body_ ? &body_->point_set() : nullptr;
+  switch (quantity) {
+    case Quantity::pressure:
+    case Quantity::velocity:
+    case Quantity::density:
+    case Quantity::mass: {
+      std::vector<double>& values = field(quantity);
+      return {&moving_points(), values};
+    }
+    case Quantity::displacement:
+      displacement_.resize(D * body_points);
+      displacement_rate_.resize(D * body_points);
+      return {body, displacement_, displacement_rate_};
+    case Quantity::pore_pressure:
+      pore_pressure_.resize(body_points);
+      pore_pressure_rate_.resize(body_points);
+      return {body, pore_pressure_, pore_pressure_rate_};
+    case Quantity::pore_mobility:
+      pore_mobility_.resize(body_points);
+      return {body, pore_mobility_};
+    case Quantity::interface_impulse:
+      impulse_ = dynamics_->impulse();
+      return {body, impulse_};
+    case Quantity::exchanged_mass:
+      exchanged_mass_ = dynamics_->exchanged_mass();
+      return {body, exchanged_mass_};
+    case Quantity::piston: {
+      int piston = static_cast<int>(ports_.size()) - 1 - id;
+      const auto& walls = dynamics_->rigid_walls();
+      for (std::size_t r = walls.size(); r-- > 0;) {
+        if (walls[r].motion != RigidWall<D>::Motion::piston || piston-- > 0) continue;
+        std::copy_n(walls[r].displacement.begin(), D, scalars_.begin() + id * D);
+        break;
+      }
+      return {&whole_fluid, std::span(scalars_).subspan(id * D, D)};
+    }
+    default:
+      scalars_[id * D] = scalar(quantity, id);
+      return {&whole_fluid, std::span(scalars_).subspan(id * D, 1)};
+  }
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::initialize(double t) {
+  time_ = t;
+  dynamics_->start_totals();
+}
+
+template <int D>
+double SemiLagrangianFluid<D>::stable_time_step() const {
+  return dynamics_->longest_step(time_);
+}
+
+template <int D>
+double SemiLagrangianFluid<D>::advance(const TimeWindow& window) {
+  dynamics_->set_body({displacement_, displacement_rate_, window.end});
+  dynamics_->set_pores({pore_pressure_, pore_pressure_rate_, pore_mobility_, window.end});
+  dynamics_->start_totals();
+  double t = window.begin;
+  std::int64_t left = 0;
+  while (t < window.end) {
+    left = equal_steps(window.end - t, dynamics_->longest_step(t));
+    const double length = (window.end - t) / static_cast<double>(left);
+    dynamics_->step(t, length);
+    t = left == 1 ? window.end : t + length;
+    ++steps_;
+  }
+  time_ = window.end;
+  return window.end;
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::visit_state(StateVisitor& visitor) {
+  dynamics_->visit_state(visitor);
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::on_restored(double t) {
+  time_ = t;
+  ++restored_;
+  dynamics_->forget();
+}
+
+template class SemiLagrangianFluid<2>;
+template class SemiLagrangianFluid<3>;
+
+}  // namespace perifrac

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/geometry/body.hpp"
+#include "core/module/physics_module.hpp"
+#include "modules/fluid/fluid_dynamics.hpp"
+
+namespace perifrac {
+
+/// A free fluid on moving points, semi-Lagrangian (paper section 2.4), in as many steps as a window
+/// needs.
+///
+/// Ports, on its own moving points: out `fluid_pressure` [Pa], `fluid_velocity` [m/s],
+/// `fluid_density` [kg/m^3], `fluid_mass` [kg]; on its own: `free_fluid_mass` [kg],
+/// `<name>_displacement` [m] of each piston, and counts of work.
+/// On the points of a body, if there is one: in `displacement` [m]; out `interface_impulse` [N s],
+/// what the fluid gave each point over the window. If it has pores: in `pore_pressure` [Pa],
+/// `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg], likewise.
+template <int D>
+class SemiLagrangianFluid final : public PhysicsModule {
+ public:
+  /// `body` is null where the fluid is alone; `exchanges`: the body has pores.
+  SemiLagrangianFluid(std::shared_ptr<const Body<D>> body, bool exchanges,
+                      std::unique_ptr<FluidDynamics<D>> dynamics);
+
+  std::span<const Port> ports() const override { return ports_; }
+  PortView port(PortId id) override;
+  void initialize(double t) override;
+  double stable_time_step() const override;
+  double advance(const TimeWindow& window) override;
+  void visit_state(StateVisitor& visitor) override;
+  void on_restored(double t) override;
+
+ private:
+  enum class Quantity {
+    pressure,
+    velocity,
+    density,
+    mass,
+    free_mass,
+    steps,
+    searches,
+    displacement,
+    interface_impulse,
+    pore_pressure,
+    pore_mobility,
+    exchanged_mass,
+    piston
+  };
+
+  void add_port(Quantity quantity, Port port);
+  const PointSet& moving_points();
+  std::vector<double>& field(Quantity quantity);
+  double scalar(Quantity quantity, PortId id);
+
+  std::shared_ptr<const Body<D>> body_;
+  std::unique_ptr<FluidDynamics<D>> dynamics_;
+  std::vector<Port> ports_;
+  std::vector<Quantity> quantities_;  ///< by port
+  PortId first_piston_ = 0;
+  double time_ = 0.0;           ///< [s]
+  std::int64_t steps_ = 0;      ///< in this process
+  std::uint64_t restored_ = 0;  ///< how often
+
+  PointSet point_set_;
+  // Inputs and their companions; empty until somebody links them.
+  std::vector<double> displacement_, displacement_rate_;
+  std::vector<double> pore_pressure_, pore_pressure_rate_;
+  std::vector<double> pore_mobility_;
+  // Outputs, made when they are asked for.
+  std::vector<double> impulse_, exchanged_mass_;
+  std::vector<double> pressure_, velocity_, density_, mass_;
+  std::vector<double> scalars_;  ///< by port
+};
+
+}  // namespace perifrac

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/points.hpp"
+
+namespace perifrac {
+
+/// All points that the fluid cannot enter, as they lie at the start: those of rigid walls, then
+/// those of the body within a horizon of its faces.
+template <int D>
+struct WallCloud {
+  std::array<std::vector<double>, D> position;  ///< [m]
+  std::array<std::vector<double>, D> normal;    ///< unit, out of the wall into the fluid
+  std::vector<double> depth;                    ///< below the wall's surface [m]
+  std::vector<double> volume;                   ///< [m^3, m^2 in 2D]
+  std::vector<std::uint8_t> slips;              ///< 1: no friction
+  /// The rigid wall, by number, that a point is of; or the body's point.
+  std::vector<Index> owner;
+  Index rigid_count = 0;
+
+  Index size() const { return static_cast<Index>(volume.size()); }
+  bool is_rigid(Index w) const { return w < rigid_count; }
+};
+
+/// The points of a wall cloud that fluid is near, with what fluid points need of them; and behind
+/// `count` of them their periodic images. Found anew with the neighbours.
+template <int D>
+struct NearWalls {
+  Index count = 0;
+  std::vector<Index> wall;                      ///< which point of the cloud, with images
+  std::array<std::vector<double>, D> position;  ///< where it is now [m], with images
+  std::array<std::vector<double>, D> velocity;  ///< [m/s], with images
+  std::vector<double> volume;                   ///< with images
+
+  // From the fluid around a wall point, in every step.
+  std::vector<double> pressure;      ///< extrapolated, not below 0 [Pa], with images
+  std::vector<double> fluid_moment;  ///< sum of omega r^2 V over the fluid points, with images
+  // On it, by the fluid; images apart.
+  std::array<std::vector<double>, D> force;  ///< [N]
+  std::vector<double> mass_rate;             ///< [kg/s] into it; empty without exchange
+};
+
+}  // namespace perifrac
