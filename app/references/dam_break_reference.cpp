@@ -45,7 +45,7 @@ std::unique_ptr<Reference> make_dam_break_reference(const Section& scene,
       std::make_unique<Reference>("dam_break", "Martin and Moyce's experiment", time_scale);
   reference->add(Reference::Error{
       "front_error", [=](double t) { return std::abs(computed() - exact(t)) / exact(t); }});
-  reference->add(Reference::History{"place at the front", "m", computed, exact});
+  reference->add(Reference::History{"front at the floor", "m", computed, exact});
   return reference;
 }
 
