@@ -6,6 +6,7 @@
 #include "core/errors.hpp"
 #include "core/operators/bond_traversal.hpp"
 #include "modules/fluid/fluid_momentum.hpp"
+#include "modules/fluid/merge_points.hpp"
 
 namespace perifrac {
 
@@ -44,6 +45,17 @@ void FluidDynamics<D>::start_totals() {
   if (exchange_) exchanged_mass_.assign(body_points_, 0.0);
 }
 
+/// A fluid point's pressure follows that of the pores about it at a rate of up to
+/// 4 kappa K / (0.4 horizon)^2, with the moments of the Gaussian taken over all space.
+template <int D>
+void FluidDynamics<D>::set_pores(const PoreInput& pores) {
+  pores_ = pores;
+  if (pores.mobility.empty()) return;
+  const double mobility = *std::ranges::max_element(pores.mobility);
+  const double width = 0.4 * scheme_.horizon;
+  longest_exchange_ = width * width / (4.0 * mobility * fluid_.bulk_modulus);
+}
+
 template <int D>
 double FluidDynamics<D>::longest_step(double t) const {
   double fastest = 0.0;
@@ -63,8 +75,8 @@ double FluidDynamics<D>::longest_step(double t) const {
   const double diffusion =
       std::max(kinematic, scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing);
   const double square = scheme_.spacing * scheme_.spacing;
-  return std::min(scheme_.courant * scheme_.spacing / speed,
-                  diffusion > 0.0 ? 0.25 / D * square / diffusion : 1e300);
+  return std::min({scheme_.courant * scheme_.spacing / speed, longest_exchange_,
+                   diffusion > 0.0 ? 0.25 / D * square / diffusion : 1e300});
 }
 
 template <int D>
@@ -75,10 +87,21 @@ void FluidDynamics<D>::step(double t, double length) {
   place_walls(middle);
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
+  merge_small_points(middle);
   find_moments<D>(points_, walls_, neighbours_, fluid_, influence_, gravity_, moments_);
   find_densities(middle, length);
   kick(middle, length);
   drift(0.5 * length);
+}
+
+template <int D>
+void FluidDynamics<D>::merge_small_points(double t) {
+  const double least = scheme_.merge_below * fluid_.density * std::pow(scheme_.spacing, D);
+  const Index merged = merge_points(points_, neighbours_, influence_, least);
+  if (merged == 0) return;
+  merged_ += merged;
+  find_neighbours(t);
+  copy_to_images();
 }
 
 template <int D>

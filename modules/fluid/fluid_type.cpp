@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "modules/fluid/bond_flux_exchange.hpp"
 #include "modules/fluid/fluid_blocks.hpp"
 #include "modules/fluid/fluid_walls.hpp"
 #include "modules/fluid/semi_lagrangian_fluid.hpp"
@@ -30,6 +31,16 @@ double read_spacing(const Section& section, const Body<D>* body) {
   return body->spacing();
 }
 
+/// Null where no mass passes between fluid and body.
+template <int D>
+std::unique_ptr<Exchange<D>> make_exchange(const Section& scene, const Body<D>* body,
+                                           const FluidWalls<D>& walls, double horizon) {
+  if (body == nullptr || !scene.has("pore_flow")) return nullptr;
+  if (scene.word("interface.exchange") == "none") return nullptr;
+  return std::make_unique<BondFluxExchange<D>>(*body, walls.cloud, walls.rigid, walls.period,
+                                               horizon);
+}
+
 template <int D>
 std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
@@ -40,11 +51,11 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   }
   const FluidProperties fluid = read_properties(section);
   const double spacing = read_spacing(section, body.get());
-  const FluidScheme scheme{.spacing = spacing,
-                           .horizon = section.number("horizon_ratio") * spacing,
-                           .artificial_viscosity = section.number("artificial_viscosity"),
-                           .density_diffusion = section.number("density_diffusion"),
-                           .courant = section.number("courant")};
+  FluidScheme scheme{.spacing = spacing,
+                     .horizon = section.number("horizon_ratio") * spacing,
+                     .artificial_viscosity = section.number("artificial_viscosity"),
+                     .density_diffusion = section.number("density_diffusion"),
+                     .courant = section.number("courant")};
   Vector<D> gravity{};
   if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
   FluidPoints<D> points = read_fluid_blocks<D>(section, fluid, spacing, gravity);
@@ -52,8 +63,9 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   FluidWalls<D> walls =
       read_fluid_walls<D>(section, body.get(), body_slips, spacing, scheme.horizon);
   const std::size_t body_points = body ? body->points().size() : 0;
-  std::unique_ptr<Exchange<D>> exchange;
+  auto exchange = make_exchange<D>(scene, body.get(), walls, scheme.horizon);
   const bool exchanges = exchange != nullptr;
+  if (exchanges) scheme.merge_below = scene.number("interface.merge_below");
   auto dynamics = std::make_unique<FluidDynamics<D>>(
       fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
       std::move(walls.rigid), body_points, std::make_unique<TwoSidedWallForce<D>>(),
@@ -120,6 +132,18 @@ KeyTable fluid_keys() {
 
 const KeyTable& interface_keys() {
   static const KeyTable keys = {
+      {.path = "exchange",
+       .type = KeyType::word,
+       .fallback = "bond_flux",
+       .words = {"bond_flux", "none"},
+       .meaning =
+           "How mass passes between fluid and pores, where the body has pores. bond_flux: as "
+           "one flux for each bond across; keeps mass."},
+      {.path = "merge_below",
+       .range = "[0, 0.5]",
+       .fallback = "0.1",
+       .meaning = "Where mass passes: fluid points under this part of their mass are merged into "
+                  "their neighbours."},
       {.path = "slip",
        .type = KeyType::word,
        .fallback = "no_slip",
