@@ -24,16 +24,8 @@ class BondFluxExchange final : public Exchange<D> {
             std::vector<double>& rate) override;
 
  private:
-  /// From fluid point i into near wall point w, y from i to w [kg/s].
-  double flux(const FluidStep<D>& step, const PoreInput& pores, double t, const NearWalls<D>& walls,
-              Index i, Index w, const Vector<D>& y, double omega) const;
-
   /// The share that body and walls at rest have in tr M, of every point of the cloud.
   std::vector<double> solid_moment_;
 };
-
-/// Sets the fluid's share in tr M of every near wall point that is the body's.
-template <int D>
-void find_fluid_moments(const FluidStep<D>& step, NearWalls<D>& walls);
 
 }  // namespace perifrac

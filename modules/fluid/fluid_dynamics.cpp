@@ -191,24 +191,37 @@ FluidStep<D> FluidDynamics<D>::step_view() const {
   return {points_, cloud_, neighbours_, moments_, fluid_, scheme_, influence_, gravity_, stress_};
 }
 
+template <int D>
+void FluidDynamics<D>::exchange_mass(double t, double length) {
+  exchange_->find(step_view(), pores_, t, walls_, mass_rate_);
+  for (Index i = 0; i < points_.count; ++i) {
+    const double gained = length * mass_rate_[i];
+    points_.density[i] += gained / points_.volume[i];
+    points_.mass[i] += gained;
+    if (!(points_.mass[i] > 0.0)) {
+      throw NumericalError("fluid_mass", describe_point(i, points_.at(i)), t,
+                           "more flows into the pores in a step than there is");
+    }
+  }
+  for (Index k = 0; k < walls_.count; ++k) {
+    const Index w = walls_.wall[k];
+    if (cloud_.is_rigid(w)) continue;
+    exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
+  }
+  if (exchange_->keeps_mass()) return;
+  double made = 0.0;
+  for (const double rate : mass_rate_) made += rate;
+  for (const double rate : walls_.mass_rate) made += rate;
+  made_mass_ += length * made;
+}
+
 /// Continuity (paper Eq 20), diffusion of density, and what passes into the pores; then pressures.
 template <int D>
 void FluidDynamics<D>::find_densities(double t, double length) {
   const PeriodicImages<D>& images = neighbours_.images();
   images.copy(moments_.trace, points_.count);
   const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
-  if (exchange_) {
-    exchange_->find(step_view(), pores_, t, walls_, mass_rate_);
-    for (Index i = 0; i < points_.count; ++i) {
-      points_.mass[i] += length * mass_rate_[i];
-      points_.density[i] += length * mass_rate_[i] / points_.volume[i];
-    }
-    for (Index k = 0; k < walls_.count; ++k) {
-      const Index w = walls_.wall[k];
-      if (cloud_.is_rigid(w)) continue;
-      exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
-    }
-  }
+  if (exchange_) exchange_mass(t, length);
   for (auto& values : stress_) values.resize(points_.count);
   for_each_point(points_.count, [&](Index i) {
     double& rho = points_.density[i];
@@ -265,6 +278,7 @@ void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("mass", points_.mass);
   visitor.visit("id", points_.id);
   points_.count = static_cast<Index>(points_.mass.size());
+  if (!exchange_keeps_mass()) visitor.visit("made_mass", made_mass_);
   for (RigidWall<D>& wall : rigid_) {
     if (wall.motion == RigidWall<D>::Motion::fixed) continue;
     visitor.enter(wall.name);

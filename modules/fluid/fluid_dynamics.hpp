@@ -39,6 +39,9 @@ class FluidDynamics {
   void start_totals();
   const std::vector<double>& impulse() const { return impulse_; }
   const std::vector<double>& exchanged_mass() const { return exchanged_mass_; }
+  bool exchange_keeps_mass() const { return !exchange_ || exchange_->keeps_mass(); }
+  /// What the exchange made since the start [kg].
+  double made_mass() const { return made_mass_; }
 
   /// The longest stable step now [s]. Throws NumericalError where a velocity is not finite.
   double longest_step(double t) const;
@@ -68,6 +71,7 @@ class FluidDynamics {
   Vector<D> wall_displacement(Index w, double t) const;
   Vector<D> wall_velocity(Index w) const;
   void copy_to_images();
+  void exchange_mass(double t, double length);
   void find_densities(double t, double length);
   void kick(double t, double length);
   FluidStep<D> step_view() const;
@@ -94,6 +98,7 @@ class FluidDynamics {
   std::array<std::vector<double>, D> wall_position_;  ///< of the whole cloud, when it is searched
   std::vector<double> impulse_;
   std::vector<double> exchanged_mass_;
+  double made_mass_ = 0.0;
   double longest_exchange_ = std::numeric_limits<double>::infinity();  ///< step [s]
   std::int64_t merged_ = 0;
   std::uint64_t version_ = 1;

@@ -7,7 +7,9 @@
 #include "modules/fluid/bond_flux_exchange.hpp"
 #include "modules/fluid/fluid_blocks.hpp"
 #include "modules/fluid/fluid_walls.hpp"
+#include "modules/fluid/paper_exchange.hpp"
 #include "modules/fluid/semi_lagrangian_fluid.hpp"
+#include "modules/fluid/smoothed_exchange.hpp"
 #include "modules/fluid/two_sided_wall_force.hpp"
 
 namespace perifrac {
@@ -34,11 +36,21 @@ double read_spacing(const Section& section, const Body<D>* body) {
 /// Null where no mass passes between fluid and body.
 template <int D>
 std::unique_ptr<Exchange<D>> make_exchange(const Section& scene, const Body<D>* body,
-                                           const FluidWalls<D>& walls, double horizon) {
+                                           const FluidWalls<D>& walls, const FluidScheme& scheme) {
   if (body == nullptr || !scene.has("pore_flow")) return nullptr;
-  if (scene.word("interface.exchange") == "none") return nullptr;
-  return std::make_unique<BondFluxExchange<D>>(*body, walls.cloud, walls.rigid, walls.period,
-                                               horizon);
+  const std::string word = scene.word("interface.exchange");
+  if (word == "none") return nullptr;
+  std::unique_ptr<Exchange<D>> exchange;
+  if (word == "paper") {
+    exchange = std::make_unique<PaperExchange<D>>(*body, walls.cloud, walls.period, scheme.horizon);
+  } else {
+    exchange = std::make_unique<BondFluxExchange<D>>(*body, walls.cloud, walls.rigid, walls.period,
+                                                     scheme.horizon);
+  }
+  const double smoothing = scene.number("interface.smoothing");
+  if (smoothing == 0.0) return exchange;
+  return std::make_unique<SmoothedExchange<D>>(std::move(exchange), smoothing, scheme.spacing,
+                                               scheme.horizon);
 }
 
 template <int D>
@@ -63,7 +75,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   FluidWalls<D> walls =
       read_fluid_walls<D>(section, body.get(), body_slips, spacing, scheme.horizon);
   const std::size_t body_points = body ? body->points().size() : 0;
-  auto exchange = make_exchange<D>(scene, body.get(), walls, scheme.horizon);
+  auto exchange = make_exchange<D>(scene, body.get(), walls, scheme);
   const bool exchanges = exchange != nullptr;
   if (exchanges) scheme.merge_below = scene.number("interface.merge_below");
   auto dynamics = std::make_unique<FluidDynamics<D>>(
@@ -135,7 +147,7 @@ const KeyTable& interface_keys() {
       {.path = "exchange",
        .type = KeyType::word,
        .fallback = "bond_flux",
-       .words = {"bond_flux", "none"},
+       .words = {"bond_flux", "paper", "none"},
        .meaning =
            "How mass passes between fluid and pores, where the body has pores. bond_flux: as "
            "one flux for each bond across; keeps mass."},
