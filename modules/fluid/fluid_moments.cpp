@@ -53,10 +53,9 @@ double difference_beyond_slope(const typename Sums<D>::Values& sum,
   return result;
 }
 
-}  // namespace
-
-template <int D>
-double lattice_trace(double spacing, double horizon) {
+/// Sum of omega V term(r^2) over an endless lattice.
+template <int D, class Term>
+double lattice_sum(double spacing, double horizon, Term&& term) {
   const GaussianInfluence influence(horizon);
   const int reach = static_cast<int>(horizon / spacing) + 1;
   double sum = 0.0;
@@ -66,11 +65,23 @@ double lattice_trace(double spacing, double horizon) {
     for (k[1] = -reach; k[1] <= reach; ++k[1]) {
       for (k[2] = -depth; k[2] <= depth; ++k[2]) {
         const double square = (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) * spacing * spacing;
-        sum += influence(square) * square;
+        sum += influence(square) * term(square);
       }
     }
   }
   return sum * std::pow(spacing, D);
+}
+
+}  // namespace
+
+template <int D>
+double lattice_trace(double spacing, double horizon) {
+  return lattice_sum<D>(spacing, horizon, [](double square) { return square; });
+}
+
+template <int D>
+double lattice_weight(double spacing, double horizon) {
+  return lattice_sum<D>(spacing, horizon, [](double square) { return square > 0.0 ? 1.0 : 0.0; });
 }
 
 template <int D>
@@ -150,6 +161,8 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
 
 template double lattice_trace<2>(double, double);
 template double lattice_trace<3>(double, double);
+template double lattice_weight<2>(double, double);
+template double lattice_weight<3>(double, double);
 template void find_moments<2>(const FluidPoints<2>&, const NearWalls<2>&, const FluidNeighbours<2>&,
                               const GaussianInfluence&, FluidMoments<2>&);
 template void find_moments<3>(const FluidPoints<3>&, const NearWalls<3>&, const FluidNeighbours<3>&,

@@ -28,6 +28,10 @@ struct FluidMoments {
 template <int D>
 double lattice_trace(double spacing, double horizon);
 
+/// sum of omega V about a point of the same lattice [m^D].
+template <int D>
+double lattice_weight(double spacing, double horizon);
+
 /// Finds the moments of all points from positions, velocities, densities and volumes, those of
 /// images and near walls included.
 template <int D>
