@@ -23,7 +23,8 @@ TEST(FluidProperties, PressureAndDensityAreInverse) {
 TEST(FluidProperties, HaveTheirBulkModulus) {
   for (const FluidProperties& fluid : {linear, tait}) {
     const double step = 1e-3;
-    const double slope = (fluid.pressure(1000.0 + step) - fluid.pressure(1000.0 - step)) / (2 * step);
+    const double slope =
+        (fluid.pressure(1000.0 + step) - fluid.pressure(1000.0 - step)) / (2 * step);
     EXPECT_NEAR(slope * 1000.0, 22e6, 1e-6 * 22e6);
   }
   EXPECT_NEAR(tait.pressure(1100.0), 22e6 / 7.0 * (std::pow(1.1, 7.0) - 1.0), 1e-6);

@@ -47,8 +47,8 @@ double shake(FluidRun& run) {
   return size;
 }
 
-class IsolatedFluid : public testing::TestWithParam<std::pair<std::string, std::vector<std::string>>> {
-};
+class IsolatedFluid
+    : public testing::TestWithParam<std::pair<std::string, std::vector<std::string>>> {};
 
 TEST_P(IsolatedFluid, KeepsItsMomentum) {
   FluidRun run(GetParam().first, GetParam().second);
@@ -96,8 +96,8 @@ fluid:
             velocity: [-3 m/s, 1 m/s, 0.5 m/s]}]
 )";
 
-class FluidAtABody : public testing::TestWithParam<std::pair<std::string, std::vector<std::string>>> {
-};
+class FluidAtABody
+    : public testing::TestWithParam<std::pair<std::string, std::vector<std::string>>> {};
 
 /// The body's share is known point by point.
 TEST_P(FluidAtABody, GivesItTheMomentumThatItLoses) {
@@ -124,13 +124,14 @@ TEST_P(FluidAtABody, GivesItTheMomentumThatItLoses) {
   EXPECT_GT(largest, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Fluid, FluidAtABody,
-    testing::Values(std::pair{jet_at_body_2d, std::vector<std::string>{}},
-                    std::pair{jet_at_body_3d, std::vector<std::string>{}},
-                    std::pair{jet_at_body_2d,
-                              std::vector<std::string>{"fluid.blocks[0].velocity=[-12 m/s, 2 m/s]"}}),
-    [](const auto& info) { return "case_" + std::to_string(info.index); });
+INSTANTIATE_TEST_SUITE_P(Fluid, FluidAtABody,
+                         testing::Values(std::pair{jet_at_body_2d, std::vector<std::string>{}},
+                                         std::pair{jet_at_body_3d, std::vector<std::string>{}},
+                                         std::pair{
+                                             jet_at_body_2d,
+                                             std::vector<std::string>{
+                                                 "fluid.blocks[0].velocity=[-12 m/s, 2 m/s]"}}),
+                         [](const auto& info) { return "case_" + std::to_string(info.index); });
 
 /// A heavy piston of the same fluid: the other kind of wall.
 TEST(FluidAtAPiston, GivesItTheMomentumThatItLoses) {
