@@ -28,7 +28,7 @@ FluidPoints<D> random_points(int across) {
       x[a] += 0.2 * spacing * value(bits);
       v[a] = value(bits);
     }
-    points.add(x, v, 1000.0 + value(bits), 1.01 + value(bits), i);
+    points.add(x, v, 1000.0 + value(bits), 1.01 + value(bits));
   }
   return points;
 }
@@ -90,10 +90,10 @@ TEST(MergePoints, KeepsMassVolumeMomentumAndCentre) {
 
 TEST(MergePoints, SharesInProportionToInfluenceTimesVolume) {
   FluidPoints<2> points;
-  points.add({0.0, 0.0}, {3.0, 0.0}, 1000.0, 0.1, 0);
-  points.add({1.0, 0.0}, {}, 1000.0, 2.0, 1);
-  points.add({0.0, -1.5}, {}, 500.0, 4.0, 2);
-  points.add({9.0, 9.0}, {}, 1000.0, 1.0, 3);
+  points.add({0.0, 0.0}, {3.0, 0.0}, 1000.0, 0.1);
+  points.add({1.0, 0.0}, {}, 1000.0, 2.0);
+  points.add({0.0, -1.5}, {}, 500.0, 4.0);
+  points.add({9.0, 9.0}, {}, 1000.0, 1.0);
   FluidNeighbours<2> neighbours(2.5, 0.0, {});
   const GaussianInfluence influence(2.5);
   prepare(points, neighbours);
@@ -114,8 +114,8 @@ TEST(MergePoints, SharesInProportionToInfluenceTimesVolume) {
 
 TEST(MergePoints, KeepsTheCentreAcrossAPeriod) {
   FluidPoints<2> points;
-  points.add({0.2, 0.0}, {1.0, 0.0}, 1000.0, 0.1, 0);
-  points.add({9.9, 0.0}, {}, 1000.0, 1.0, 1);
+  points.add({0.2, 0.0}, {1.0, 0.0}, 1000.0, 0.1);
+  points.add({9.9, 0.0}, {}, 1000.0, 1.0);
   Period<2> period;
   period.ends[0] = {0.0, 10.0};
   FluidNeighbours<2> neighbours(2.5, 0.0, period);
@@ -127,8 +127,8 @@ TEST(MergePoints, KeepsTheCentreAcrossAPeriod) {
 
 TEST(MergePoints, LeavesAPointThatIsAlone) {
   FluidPoints<2> points;
-  points.add({0.0, 0.0}, {}, 1000.0, 0.1, 0);
-  points.add({5.0, 0.0}, {}, 1000.0, 1.0, 1);
+  points.add({0.0, 0.0}, {}, 1000.0, 0.1);
+  points.add({5.0, 0.0}, {}, 1000.0, 1.0);
   FluidNeighbours<2> neighbours(2.5, 0.0, {});
   prepare(points, neighbours);
   EXPECT_EQ(merge_points(points, neighbours, GaussianInfluence(2.5), 0.2), 0);
@@ -137,7 +137,7 @@ TEST(MergePoints, LeavesAPointThatIsAlone) {
 
 TEST(MergePoints, LeavesTheLastOfManySmallOnes) {
   FluidPoints<2> points;
-  for (int k = 0; k < 5; ++k) points.add({0.3 * k, 0.0}, {}, 1000.0, 0.02, k);
+  for (int k = 0; k < 5; ++k) points.add({0.3 * k, 0.0}, {}, 1000.0, 0.02);
   FluidNeighbours<2> neighbours(2.5, 0.0, {});
   prepare(points, neighbours);
   merge_points(points, neighbours, GaussianInfluence(2.5), 0.2);
