@@ -54,10 +54,13 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
   moments.divergence.resize(points.count);
   moments.diffusion.resize(points.count);
 
-  const auto add_moments = [](const Vector<D>& y, const Vector<D>& v, double weight, auto& sum) {
+  // What all neighbours add: to the shape tensor, and to the velocity gradient before it is shaped.
+  const auto moments_of = [](const PacketVector<D>& y, const PacketVector<D>& relative,
+                             const Packet& weight, Packet* sum) {
     for (int a = 0; a < D; ++a) {
-      for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = weight * y[a] * y[b];
-      for (int b = 0; b < D; ++b) sum[shape_size + a * D + b] = weight * v[a] * y[b];
+      const Packet weighted = weight * y[a];
+      for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = weighted * y[b];
+      for (int b = 0; b < D; ++b) sum[shape_size + b * D + a] = weighted * relative[b];
     }
   };
 
@@ -65,32 +68,32 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
     const Vector<D> x = points.at(i);
     Vector<D> v;
     for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
+    const double density = points.density[i];
     auto sum = sum_over_neighbours<size + 1, D>(
         neighbours.fluid_of_fluid(), i, x, points.position, influence,
-        [&](Index j, const Vector<D>& y, double omega) {
-          const double weight = omega * points.volume[j];
-          Vector<D> relative;
-          double depth = 0.0;
+        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
+          const Packet weight = omega * gather(points.volume, j);
+          PacketVector<D> relative;
+          Packet excess = gather(points.density, j) - density;
           for (int a = 0; a < D; ++a) {
-            relative[a] = points.velocity[a][j] - v[a];
-            depth += gravity[a] * y[a];
+            relative[a] = gather(points.velocity[a], j) - v[a];
+            excess -= at_rest * gravity[a] * y[a];
           }
-          std::array<double, size + 1> term;
-          add_moments(y, relative, weight, term);
-          term[size] = weight * (points.density[j] - points.density[i] - at_rest * depth);
+          std::array<Packet, size + 1> term;
+          moments_of(y, relative, weight, term.data());
+          term[size] = weight * excess;
           return term;
         });
-    if (neighbours.walls_of_fluid().offset[i] < neighbours.walls_of_fluid().offset[i + 1]) {
-      const auto wall =
-          sum_over_neighbours<size, D>(neighbours.walls_of_fluid(), i, x, walls.position, influence,
-                                       [&](Index w, const Vector<D>& y, double omega) {
-                                         Vector<D> relative;
-                                         for (int a = 0; a < D; ++a)
-                                           relative[a] = walls.velocity[a][w] - v[a];
-                                         std::array<double, size> term;
-                                         add_moments(y, relative, omega * walls.volume[w], term);
-                                         return term;
-                                       });
+    if (neighbours.walls_of_fluid().count(i) > 0) {
+      const auto wall = sum_over_neighbours<size, D>(
+          neighbours.walls_of_fluid(), i, x, walls.position, influence,
+          [&](const Index* w, const PacketVector<D>& y, const Packet& omega) {
+            PacketVector<D> relative;
+            for (int a = 0; a < D; ++a) relative[a] = gather(walls.velocity[a], w) - v[a];
+            std::array<Packet, size> term;
+            moments_of(y, relative, omega * gather(walls.volume, w), term.data());
+            return term;
+          });
       for (int k = 0; k < size; ++k) sum[k] += wall[k];
     }
     SymmetricTensor<D> shape;
