@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "modules/fluid/wall_force.hpp"
 
@@ -22,6 +23,9 @@ template <int D>
 class Exchange {
  public:
   virtual ~Exchange() = default;
+
+  /// What the fluid loses, the body gets, and nothing else.
+  virtual bool keeps_mass() const { return true; }
 
   /// Sets the mass per time that every fluid point gets [kg/s], and every near wall point: those of
   /// the body take from the fluid, or give to it; rigid ones do nothing.

@@ -6,6 +6,9 @@
 #include "core/errors.hpp"
 #include "core/operators/bond_traversal.hpp"
 #include "modules/fluid/fluid_momentum.hpp"
+#include "modules/fluid/merge_points.hpp"
+#include "modules/fluid/particle_shifting.hpp"
+#include "modules/fluid/wall_contact.hpp"
 
 namespace perifrac {
 
@@ -14,6 +17,15 @@ namespace {
 /// How much farther than the horizon neighbour lists reach, in spacings: wider lists hold for
 /// longer and cost more in every step.
 constexpr double skin = 0.25;
+
+/// A point with less than this part of a lattice's shape tensor lies at a free surface: fluid there
+/// bears no tension. A flat surface has .64, the row below it .95.
+constexpr double surface_shape = 0.8;
+
+/// Continuity alone forgets how densely points lie, and in long flows with free surfaces they end
+/// up ever closer. Where their shape tensor is above a lattice's, density is raised at this rate
+/// times the excess, in units of sound speed over spacing, so that pressure parts them again.
+constexpr double unpacking_rate = 0.01;
 
 }  // namespace
 
@@ -44,6 +56,17 @@ void FluidDynamics<D>::start_totals() {
   if (exchange_) exchanged_mass_.assign(body_points_, 0.0);
 }
 
+/// A fluid point's pressure follows that of the pores about it at a rate of up to
+/// 4 kappa K / (0.4 horizon)^2, with the moments of the Gaussian taken over all space.
+template <int D>
+void FluidDynamics<D>::set_pores(const PoreInput& pores) {
+  pores_ = pores;
+  if (pores.mobility.empty()) return;
+  const double mobility = *std::ranges::max_element(pores.mobility);
+  const double width = 0.4 * scheme_.horizon;
+  longest_exchange_ = width * width / (4.0 * mobility * fluid_.bulk_modulus);
+}
+
 template <int D>
 double FluidDynamics<D>::longest_step(double t) const {
   double fastest = 0.0;
@@ -63,8 +86,8 @@ double FluidDynamics<D>::longest_step(double t) const {
   const double diffusion =
       std::max(kinematic, scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing);
   const double square = scheme_.spacing * scheme_.spacing;
-  return std::min(scheme_.courant * scheme_.spacing / speed,
-                  diffusion > 0.0 ? 0.25 / D * square / diffusion : 1e300);
+  return std::min({scheme_.courant * scheme_.spacing / speed, longest_exchange_,
+                   diffusion > 0.0 ? 0.25 / D * square / diffusion : 1e300});
 }
 
 template <int D>
@@ -75,10 +98,24 @@ void FluidDynamics<D>::step(double t, double length) {
   place_walls(middle);
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
-  find_moments<D>(points_, walls_, neighbours_, fluid_, influence_, gravity_, moments_);
+  merge_small_points(middle);
+  find_moments<D>(points_, walls_, neighbours_, influence_, moments_);
   find_densities(middle, length);
   kick(middle, length);
+  if (scheme_.shifting > 0.0) {
+    shift_points<D>(scheme_.shifting, length, scheme_.spacing, moments_, points_);
+  }
   drift(0.5 * length);
+}
+
+template <int D>
+void FluidDynamics<D>::merge_small_points(double t) {
+  const double least = scheme_.merge_below * fluid_.density * std::pow(scheme_.spacing, D);
+  const Index merged = merge_points(points_, neighbours_, influence_, least);
+  if (merged == 0) return;
+  merged_ += merged;
+  find_neighbours(t);
+  copy_to_images();
 }
 
 template <int D>
@@ -168,28 +205,45 @@ FluidStep<D> FluidDynamics<D>::step_view() const {
   return {points_, cloud_, neighbours_, moments_, fluid_, scheme_, influence_, gravity_, stress_};
 }
 
+template <int D>
+void FluidDynamics<D>::exchange_mass(double t, double length) {
+  exchange_->find(step_view(), pores_, t, walls_, mass_rate_);
+  for (Index i = 0; i < points_.count; ++i) {
+    const double gained = length * mass_rate_[i];
+    points_.density[i] += gained / points_.volume[i];
+    points_.mass[i] += gained;
+    if (!(points_.mass[i] > 0.0)) {
+      throw NumericalError("fluid_mass", describe_point(i, points_.at(i)), t,
+                           "more flows into the pores in a step than there is");
+    }
+  }
+  for (Index k = 0; k < walls_.count; ++k) {
+    const Index w = walls_.wall[k];
+    if (cloud_.is_rigid(w)) continue;
+    exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
+  }
+  if (exchange_->keeps_mass()) return;
+  double made = 0.0;
+  for (const double rate : mass_rate_) made += rate;
+  for (const double rate : walls_.mass_rate) made += rate;
+  made_mass_ += length * made;
+}
+
 /// Continuity (paper Eq 20), diffusion of density, and what passes into the pores; then pressures.
 template <int D>
 void FluidDynamics<D>::find_densities(double t, double length) {
   const PeriodicImages<D>& images = neighbours_.images();
   images.copy(moments_.trace, points_.count);
   const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
-  if (exchange_) {
-    exchange_->find(step_view(), pores_, t, walls_, mass_rate_);
-    for (Index i = 0; i < points_.count; ++i) {
-      points_.mass[i] += length * mass_rate_[i];
-      points_.density[i] += length * mass_rate_[i] / points_.volume[i];
-    }
-    for (Index k = 0; k < walls_.count; ++k) {
-      const Index w = walls_.wall[k];
-      if (cloud_.is_rigid(w)) continue;
-      exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
-    }
-  }
+  if (exchange_) exchange_mass(t, length);
+  const double unpacking = unpacking_rate * fluid_.sound_speed() / scheme_.spacing;
   for (auto& values : stress_) values.resize(points_.count);
   for_each_point(points_.count, [&](Index i) {
     double& rho = points_.density[i];
+    const double packing = moments_.trace[i] / moments_.bulk_trace;
     rho += length * (diffusivity * moments_.diffusion[i] - rho * moments_.divergence[i]);
+    rho += length * unpacking * rho * std::max(0.0, packing - 1.0);
+    if (packing < surface_shape) rho = std::max(rho, fluid_.density);
     points_.volume[i] = points_.mass[i] / rho;
     points_.pressure[i] = fluid_.pressure(rho);
     for (int k = 0; k < symmetric_size<D>; ++k) {
@@ -212,6 +266,7 @@ void FluidDynamics<D>::kick(double t, double length) {
       points_.velocity[a][i] += length * (force_[a][i] / points_.mass[i] + gravity_[a]);
     }
   }
+  stop_at_walls<D>(view, length, points_, walls_);
   std::vector<Vector<D>> on_rigid(rigid_.size(), Vector<D>{});
   for (Index k = 0; k < walls_.count; ++k) {
     const Index w = walls_.wall[k];
@@ -242,6 +297,7 @@ void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("mass", points_.mass);
   visitor.visit("id", points_.id);
   points_.count = static_cast<Index>(points_.mass.size());
+  if (!exchange_keeps_mass()) visitor.visit("made_mass", made_mass_);
   for (RigidWall<D>& wall : rigid_) {
     if (wall.motion == RigidWall<D>::Motion::fixed) continue;
     visitor.enter(wall.name);

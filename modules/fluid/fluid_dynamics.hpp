@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -32,12 +33,15 @@ class FluidDynamics {
                 std::unique_ptr<Exchange<D>> exchange);
 
   void set_body(const BodyInput& body) { body_ = body; }
-  void set_pores(const PoreInput& pores) { pores_ = pores; }
+  void set_pores(const PoreInput& pores);
   /// Totals given to the body's points are counted from here: impulse, D blocks [N s], and mass
   /// [kg]. They are empty where the body is not there, or nothing passes into it.
   void start_totals();
   const std::vector<double>& impulse() const { return impulse_; }
   const std::vector<double>& exchanged_mass() const { return exchanged_mass_; }
+  bool exchange_keeps_mass() const { return !exchange_ || exchange_->keeps_mass(); }
+  /// What the exchange made since the start [kg].
+  double made_mass() const { return made_mass_; }
 
   /// The longest stable step now [s]. Throws NumericalError where a velocity is not finite.
   double longest_step(double t) const;
@@ -55,16 +59,19 @@ class FluidDynamics {
   const FluidScheme& scheme() const { return scheme_; }
   const Vector<D>& gravity() const { return gravity_; }
   std::int64_t searches() const { return neighbours_.searches(); }
+  std::int64_t merged() const { return merged_; }  ///< points, in this process
   /// Raised where points were reordered.
   std::uint64_t version() const { return version_; }
 
  private:
   void drift(double length);
+  void merge_small_points(double t);
   void find_neighbours(double t);
   void place_walls(double t);
   Vector<D> wall_displacement(Index w, double t) const;
   Vector<D> wall_velocity(Index w) const;
   void copy_to_images();
+  void exchange_mass(double t, double length);
   void find_densities(double t, double length);
   void kick(double t, double length);
   FluidStep<D> step_view() const;
@@ -91,6 +98,9 @@ class FluidDynamics {
   std::array<std::vector<double>, D> wall_position_;  ///< of the whole cloud, when it is searched
   std::vector<double> impulse_;
   std::vector<double> exchanged_mass_;
+  double made_mass_ = 0.0;
+  double longest_exchange_ = std::numeric_limits<double>::infinity();  ///< step [s]
+  std::int64_t merged_ = 0;
   std::uint64_t version_ = 1;
 };
 

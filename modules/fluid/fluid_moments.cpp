@@ -8,7 +8,7 @@ namespace perifrac {
 namespace {
 
 /// Where fluid points lie on one side only, or are few, the shape tensor is lifted to this part of
-/// that of an endless lattice in its weakest direction.
+/// that of an endless lattice in its weakest direction, and its trace to this part.
 constexpr double least_shape = 0.4;
 
 template <int D>
@@ -20,10 +20,42 @@ SymmetricTensor<D> regularised(SymmetricTensor<D> shape, double bulk) {
   return shape;
 }
 
-}  // namespace
-
+/// What neighbours add up to, in this order: shape tensor, bonds times velocity differences, bonds;
+/// and fluid alone: density differences, the same times bonds.
 template <int D>
-double lattice_trace(double spacing, double horizon) {
+struct Sums {
+  static constexpr int velocity = symmetric_size<D>;
+  static constexpr int bonds = velocity + D * D;
+  static constexpr int of_walls = bonds + D;
+  static constexpr int difference = of_walls;
+  static constexpr int slope = difference + 1;
+  static constexpr int size = slope + D;
+  using Values = std::array<double, size>;
+
+  static SymmetricTensor<D> shape(const Values& sum) {
+    SymmetricTensor<D> shape;
+    std::copy_n(sum.begin(), symmetric_size<D>, shape.begin());
+    return shape;
+  }
+};
+
+/// The density's differences beyond its slope, so that a surface does not make it diffuse.
+template <int D>
+double difference_beyond_slope(const typename Sums<D>::Values& sum,
+                               const SymmetricTensor<D>& inverse_shape) {
+  double result = sum[Sums<D>::difference];
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b < D; ++b) {
+      result -= sum[Sums<D>::bonds + a] * sum[Sums<D>::slope + b] *
+                inverse_shape[symmetric_index<D>(std::min(a, b), std::max(a, b))];
+    }
+  }
+  return result;
+}
+
+/// Sum of omega V term(r^2) over an endless lattice.
+template <int D, class Term>
+double lattice_sum(double spacing, double horizon, Term&& term) {
   const GaussianInfluence influence(horizon);
   const int reach = static_cast<int>(horizon / spacing) + 1;
   double sum = 0.0;
@@ -33,34 +65,43 @@ double lattice_trace(double spacing, double horizon) {
     for (k[1] = -reach; k[1] <= reach; ++k[1]) {
       for (k[2] = -depth; k[2] <= depth; ++k[2]) {
         const double square = (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) * spacing * spacing;
-        sum += influence(square) * square;
+        sum += influence(square) * term(square);
       }
     }
   }
   return sum * std::pow(spacing, D);
 }
 
+}  // namespace
+
+template <int D>
+double lattice_trace(double spacing, double horizon) {
+  return lattice_sum<D>(spacing, horizon, [](double square) { return square; });
+}
+
+template <int D>
+double lattice_weight(double spacing, double horizon) {
+  return lattice_sum<D>(spacing, horizon, [](double square) { return square > 0.0 ? 1.0 : 0.0; });
+}
+
 template <int D>
 void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
-                  const FluidNeighbours<D>& neighbours, const FluidProperties& fluid,
-                  const GaussianInfluence& influence, const Vector<D>& gravity,
+                  const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
                   FluidMoments<D>& moments) {
-  constexpr int shape_size = symmetric_size<D>;
-  constexpr int size = shape_size + D * D;
   const double bulk = moments.bulk_trace / D;
-  const double at_rest = fluid.density * fluid.density / fluid.bulk_modulus;
   for (auto& values : moments.inverse_shape) values.resize(points.count);
   moments.trace.resize(points.count);
   moments.divergence.resize(points.count);
+  for (auto& values : moments.crowding) values.resize(points.count);
   moments.diffusion.resize(points.count);
 
-  // What all neighbours add: to the shape tensor, and to the velocity gradient before it is shaped.
-  const auto moments_of = [](const PacketVector<D>& y, const PacketVector<D>& relative,
-                             const Packet& weight, Packet* sum) {
+  const auto add_moments = [](const PacketVector<D>& y, const PacketVector<D>& relative,
+                              const Packet& weight, auto& sum) {
     for (int a = 0; a < D; ++a) {
-      const Packet weighted = weight * y[a];
-      for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = weighted * y[b];
-      for (int b = 0; b < D; ++b) sum[shape_size + b * D + a] = weighted * relative[b];
+      const Packet bond = weight * y[a];
+      for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = bond * y[b];
+      for (int b = 0; b < D; ++b) sum[Sums<D>::velocity + a * D + b] = bond * relative[b];
+      sum[Sums<D>::bonds + a] = bond;
     }
   };
 
@@ -69,57 +110,57 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
     Vector<D> v;
     for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
     const double density = points.density[i];
-    auto sum = sum_over_neighbours<size + 1, D>(
+    auto sum = sum_over_neighbours<Sums<D>::size, D>(
         neighbours.fluid_of_fluid(), i, x, points.position, influence,
         [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
           const Packet weight = omega * gather(points.volume, j);
           PacketVector<D> relative;
-          Packet excess = gather(points.density, j) - density;
-          for (int a = 0; a < D; ++a) {
-            relative[a] = gather(points.velocity[a], j) - v[a];
-            excess -= at_rest * gravity[a] * y[a];
-          }
-          std::array<Packet, size + 1> term;
-          moments_of(y, relative, weight, term.data());
-          term[size] = weight * excess;
+          for (int a = 0; a < D; ++a) relative[a] = gather(points.velocity[a], j) - v[a];
+          std::array<Packet, Sums<D>::size> term;
+          add_moments(y, relative, weight, term);
+          const Packet difference = weight * (gather(points.density, j) - density);
+          term[Sums<D>::difference] = difference;
+          for (int a = 0; a < D; ++a) term[Sums<D>::slope + a] = difference * y[a];
           return term;
         });
+    const auto fluid_inverse = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
+    moments.diffusion[i] =
+        2.0 * D / moments.bulk_trace * difference_beyond_slope<D>(sum, fluid_inverse);
+    auto inverted = fluid_inverse;
     if (neighbours.walls_of_fluid().count(i) > 0) {
-      const auto wall = sum_over_neighbours<size, D>(
+      const auto wall = sum_over_neighbours<Sums<D>::of_walls, D>(
           neighbours.walls_of_fluid(), i, x, walls.position, influence,
           [&](const Index* w, const PacketVector<D>& y, const Packet& omega) {
             PacketVector<D> relative;
             for (int a = 0; a < D; ++a) relative[a] = gather(walls.velocity[a], w) - v[a];
-            std::array<Packet, size> term;
-            moments_of(y, relative, omega * gather(walls.volume, w), term.data());
+            std::array<Packet, Sums<D>::of_walls> term;
+            add_moments(y, relative, omega * gather(walls.volume, w), term);
             return term;
           });
-      for (int k = 0; k < size; ++k) sum[k] += wall[k];
+      for (int k = 0; k < Sums<D>::of_walls; ++k) sum[k] += wall[k];
+      inverted = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
     }
-    SymmetricTensor<D> shape;
-    std::copy_n(sum.begin(), shape_size, shape.begin());
-    moments.trace[i] = trace<D>(shape);
-    const SymmetricTensor<D> inverted = inverse<D>(regularised<D>(shape, bulk));
+    moments.trace[i] = std::max(trace<D>(Sums<D>::shape(sum)), least_shape * moments.bulk_trace);
     double divergence = 0.0;
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b < D; ++b) {
-        divergence += sum[shape_size + a * D + b] *
+        divergence += sum[Sums<D>::velocity + a * D + b] *
                       inverted[symmetric_index<D>(std::min(a, b), std::max(a, b))];
       }
     }
-    for (int k = 0; k < shape_size; ++k) moments.inverse_shape[k][i] = inverted[k];
+    for (int k = 0; k < symmetric_size<D>; ++k) moments.inverse_shape[k][i] = inverted[k];
     moments.divergence[i] = divergence;
-    moments.diffusion[i] = 2.0 * D / moments.bulk_trace * sum[size];
+    for (int a = 0; a < D; ++a) moments.crowding[a][i] = sum[Sums<D>::bonds + a] / bulk;
   });
 }
 
 template double lattice_trace<2>(double, double);
 template double lattice_trace<3>(double, double);
+template double lattice_weight<2>(double, double);
+template double lattice_weight<3>(double, double);
 template void find_moments<2>(const FluidPoints<2>&, const NearWalls<2>&, const FluidNeighbours<2>&,
-                              const FluidProperties&, const GaussianInfluence&, const Vector<2>&,
-                              FluidMoments<2>&);
+                              const GaussianInfluence&, FluidMoments<2>&);
 template void find_moments<3>(const FluidPoints<3>&, const NearWalls<3>&, const FluidNeighbours<3>&,
-                              const FluidProperties&, const GaussianInfluence&, const Vector<3>&,
-                              FluidMoments<3>&);
+                              const GaussianInfluence&, FluidMoments<3>&);
 
 }  // namespace perifrac

@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "modules/fluid/bond_flux_exchange.hpp"
 #include "modules/fluid/fluid_blocks.hpp"
 #include "modules/fluid/fluid_walls.hpp"
+#include "modules/fluid/paper_exchange.hpp"
 #include "modules/fluid/semi_lagrangian_fluid.hpp"
+#include "modules/fluid/smoothed_exchange.hpp"
 #include "modules/fluid/two_sided_wall_force.hpp"
 
 namespace perifrac {
@@ -30,6 +33,26 @@ double read_spacing(const Section& section, const Body<D>* body) {
   return body->spacing();
 }
 
+/// Null where no mass passes between fluid and body.
+template <int D>
+std::unique_ptr<Exchange<D>> make_exchange(const Section& scene, const Body<D>* body,
+                                           const FluidWalls<D>& walls, const FluidScheme& scheme) {
+  if (body == nullptr || !scene.has("pore_flow")) return nullptr;
+  const std::string word = scene.word("interface.exchange");
+  if (word == "none") return nullptr;
+  std::unique_ptr<Exchange<D>> exchange;
+  if (word == "paper") {
+    exchange = std::make_unique<PaperExchange<D>>(*body, walls.cloud, walls.period, scheme.horizon);
+  } else {
+    exchange = std::make_unique<BondFluxExchange<D>>(*body, walls.cloud, walls.rigid, walls.period,
+                                                     scheme.horizon);
+  }
+  const double smoothing = scene.number("interface.smoothing");
+  if (smoothing == 0.0) return exchange;
+  return std::make_unique<SmoothedExchange<D>>(std::move(exchange), smoothing, scheme.spacing,
+                                               scheme.horizon);
+}
+
 template <int D>
 std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
@@ -40,11 +63,11 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   }
   const FluidProperties fluid = read_properties(section);
   const double spacing = read_spacing(section, body.get());
-  const FluidScheme scheme{.spacing = spacing,
-                           .horizon = section.number("horizon_ratio") * spacing,
-                           .artificial_viscosity = section.number("artificial_viscosity"),
-                           .density_diffusion = section.number("density_diffusion"),
-                           .courant = section.number("courant")};
+  FluidScheme scheme{.spacing = spacing,
+                     .horizon = section.number("horizon_ratio") * spacing,
+                     .artificial_viscosity = section.number("artificial_viscosity"),
+                     .density_diffusion = section.number("density_diffusion"),
+                     .courant = section.number("courant")};
   Vector<D> gravity{};
   if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
   FluidPoints<D> points = read_fluid_blocks<D>(section, fluid, spacing, gravity);
@@ -52,8 +75,9 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   FluidWalls<D> walls =
       read_fluid_walls<D>(section, body.get(), body_slips, spacing, scheme.horizon);
   const std::size_t body_points = body ? body->points().size() : 0;
-  std::unique_ptr<Exchange<D>> exchange;
+  auto exchange = make_exchange<D>(scene, body.get(), walls, scheme);
   const bool exchanges = exchange != nullptr;
+  if (exchanges) scheme.merge_below = scene.number("interface.merge_below");
   auto dynamics = std::make_unique<FluidDynamics<D>>(
       fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
       std::move(walls.rigid), body_points, std::make_unique<TwoSidedWallForce<D>>(),
@@ -105,6 +129,10 @@ KeyTable fluid_keys() {
        .fallback = "0.5",
        .meaning =
            "Diffusivity of density, over sound speed times spacing; keeps pressures smooth."},
+      {.path = "particle_shifting",
+       .range = "[0, 10]",
+       .fallback = "4",
+       .meaning = "How strongly points move away from crowds as they flow; 0: not at all."},
       {.path = "courant",
        .range = "(0, 0.6]",
        .fallback = "0.35",
@@ -120,6 +148,18 @@ KeyTable fluid_keys() {
 
 const KeyTable& interface_keys() {
   static const KeyTable keys = {
+      {.path = "exchange",
+       .type = KeyType::word,
+       .fallback = "bond_flux",
+       .words = {"bond_flux", "paper", "none"},
+       .meaning =
+           "How mass passes between fluid and pores, where the body has pores. bond_flux: as "
+           "one flux for each bond across; keeps mass."},
+      {.path = "merge_below",
+       .range = "[0, 0.5]",
+       .fallback = "0.1",
+       .meaning = "Where mass passes: fluid points under this part of their mass are merged into "
+                  "their neighbours."},
       {.path = "slip",
        .type = KeyType::word,
        .fallback = "no_slip",

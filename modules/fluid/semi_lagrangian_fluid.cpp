@@ -34,6 +34,11 @@ SemiLagrangianFluid<D>::SemiLagrangianFluid(std::shared_ptr<const Body<D>> body,
     add_port(Quantity::pore_pressure, {"pore_pressure", "Pa", in});
     add_port(Quantity::pore_mobility, {"pore_mobility", "m^2/(Pa s)", in});
     add_port(Quantity::exchanged_mass, {"exchanged_mass", total("kg"), out, extensive});
+    if (!dynamics_->exchange_keeps_mass()) {
+      add_port(Quantity::made_mass,
+               {"mass_made_by_exchange", total("kg"), out, extensive, PortRole::mass_artificial});
+    }
+    add_port(Quantity::merged, {"merged_points", "1", out, extensive, PortRole::work});
   }
   for (const RigidWall<D>& wall : dynamics_->rigid_walls()) {
     if (wall.motion != RigidWall<D>::Motion::piston) continue;
@@ -102,6 +107,10 @@ double SemiLagrangianFluid<D>::scalar(Quantity quantity, PortId) {
     }
     case Quantity::steps:
       return static_cast<double>(steps_);
+    case Quantity::made_mass:
+      return dynamics_->made_mass();
+    case Quantity::merged:
+      return static_cast<double>(dynamics_->merged());
     default:
       return static_cast<double>(dynamics_->searches());
   }

@@ -47,6 +47,8 @@ class SemiLagrangianFluid final : public PhysicsModule {
     pore_pressure,
     pore_mobility,
     exchanged_mass,
+    made_mass,
+    merged,
     piston
   };
 

@@ -41,6 +41,12 @@ struct NearWalls {
   // On it, by the fluid; images apart.
   std::array<std::vector<double>, D> force;  ///< [N]
   std::vector<double> mass_rate;             ///< [kg/s] into it; empty without exchange
+
+  Vector<D> at(Index k) const {
+    Vector<D> x;
+    for (int a = 0; a < D; ++a) x[a] = position[a][k];
+    return x;
+  }
 };
 
 }  // namespace perifrac

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/geometry/body.hpp"
+#include "modules/fluid/exchange.hpp"
+#include "modules/fluid/periodic_images.hpp"
+#include "modules/fluid/rigid_wall.hpp"
+
+namespace perifrac {
+
+/// One flux for each bond between a fluid point i and a point j of the body,
+///   J_ij = rho_0 kappa_j omega 4d / (tr M_i + tr M_j) (p_i - p_j - rho_0 g.(x_i - x_j)) V_i V_j,
+/// which i loses and j gets. The shape tensors M count the neighbours of both phases and the walls
+/// that rest: those of its own phase alone would put the interface a quarter of a spacing off.
+template <int D>
+class BondFluxExchange final : public Exchange<D> {
+ public:
+  BondFluxExchange(const Body<D>& body, const WallCloud<D>& cloud,
+                   std::span<const RigidWall<D>> rigid, const Period<D>& period, double horizon);
+
+  void find(const FluidStep<D>& step, const PoreInput& pores, double t, NearWalls<D>& walls,
+            std::vector<double>& rate) override;
+
+ private:
+  /// The share that body and walls at rest have in tr M, of every point of the cloud.
+  std::vector<double> solid_moment_;
+};
+
+}  // namespace perifrac
