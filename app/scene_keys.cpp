@@ -87,9 +87,9 @@ constexpr const char* body_meaning =
 const Catalogue& scene_catalogue() {
   static const Catalogue catalogue = [] {
     Catalogue all = {
-        {"", "", top_level_keys()},        {"body", "", body_keys(), body_meaning, true},
-        {"time", "", time_keys()},         {"output", "", output_keys()},
-        {"coupling", "", coupling_keys()}, {"reference", "", reference_keys()},
+        {"", "", top_level_keys()},         {"body", "", body_keys(), body_meaning, true},
+        {"time", "", time_keys()},          {"output", "", output_keys()},
+        {"coupling", "", coupling_keys()},  {"reference", "", reference_keys()},
         {"interface", "", interface_keys()}};
     for (const ModuleType& type : module_types()) {
       all.push_back({type.section, type.name, type.keys, type.meaning});

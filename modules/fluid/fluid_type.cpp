@@ -174,9 +174,11 @@ ModuleType semi_lagrangian_type() {
           .name = "semi_lagrangian",
           .meaning = "Free fluid on moving points, weakly compressible; explicit.",
           .keys = fluid_keys(),
-          .make = [](const Section& section, const AnyBody& any) {
-            return std::visit([&](const auto& body) { return make_fluid(section, body); }, any);
-          }};
+          .make =
+              [](const Section& section, const AnyBody& any) {
+                return std::visit([&](const auto& body) { return make_fluid(section, body); }, any);
+              },
+          .needs_body = false};
 }
 
 }  // namespace perifrac
