@@ -82,6 +82,11 @@ Simulation make_simulation(const Section& scene) {
                fmt::format("at least one of the sections {}", fmt::join(physics_order(), ", ")));
   }
   refuse_unreachable_tolerance(scene);
+  for (const char* side : {"fluid", "body"}) {
+    if (!scene.has("interface") || scene.has(side)) continue;
+    scene.fail("interface", fmt::format("the scene has no section '{}'", side),
+               "an interface where free fluid meets a body");
+  }
   simulation.manager = std::make_unique<CouplingManager>(
       std::move(modules), read_coupling_options(scene.at("coupling"), simulation.end));
   return simulation;

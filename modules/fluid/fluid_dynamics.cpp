@@ -8,6 +8,7 @@
 #include "modules/fluid/fluid_momentum.hpp"
 #include "modules/fluid/merge_points.hpp"
 #include "modules/fluid/particle_shifting.hpp"
+#include "modules/fluid/split_points.hpp"
 #include "modules/fluid/wall_contact.hpp"
 
 namespace perifrac {
@@ -33,7 +34,7 @@ template <int D>
 FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vector<D> gravity,
                                 Period<D> period, FluidPoints<D> points, WallCloud<D> cloud,
                                 std::vector<RigidWall<D>> rigid, std::size_t body_points,
-                                std::unique_ptr<WallForce<D>> wall_force,
+                                FluidOpenings<D> openings, std::unique_ptr<WallForce<D>> wall_force,
                                 std::unique_ptr<Exchange<D>> exchange)
     : fluid_(fluid),
       scheme_(scheme),
@@ -42,6 +43,7 @@ FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vecto
       points_(std::move(points)),
       cloud_(std::move(cloud)),
       rigid_(std::move(rigid)),
+      openings_(std::move(openings)),
       wall_force_(std::move(wall_force)),
       exchange_(std::move(exchange)),
       body_points_(body_points),
@@ -106,6 +108,7 @@ void FluidDynamics<D>::step(double t, double length) {
     shift_points<D>(scheme_.shifting, length, scheme_.spacing, moments_, points_);
   }
   drift(0.5 * length);
+  if (openings_.inlets) insert_points(t + length);
 }
 
 template <int D>
@@ -170,6 +173,8 @@ void FluidDynamics<D>::place_walls(double t) {
 
 template <int D>
 void FluidDynamics<D>::find_neighbours(double t) {
+  if (openings_.outlets) openings_.outlets->remove(points_);
+  openings_.domain.remove(points_, t);
   for (int a = 0; a < D; ++a) wall_position_[a].resize(cloud_.size());
   for (Index w = 0; w < cloud_.size(); ++w) {
     const Vector<D> moved = wall_displacement(w, t);
@@ -236,6 +241,7 @@ void FluidDynamics<D>::find_densities(double t, double length) {
   images.copy(moments_.trace, points_.count);
   const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
   if (exchange_) exchange_mass(t, length);
+  if (openings_.inlets) openings_.inlets->feed(points_, t, length);
   const double unpacking = unpacking_rate * fluid_.sound_speed() / scheme_.spacing;
   for (auto& values : stress_) values.resize(points_.count);
   for_each_point(points_.count, [&](Index i) {
@@ -284,6 +290,33 @@ void FluidDynamics<D>::kick(double t, double length) {
 }
 
 template <int D>
+void FluidDynamics<D>::insert_points(double t) {
+  const double heaviest = 1.5 * openings_.inlets->point_mass();
+  Index added = split_points<D>(points_, walls_, neighbours_, heaviest);
+  added += openings_.inlets->make_points(
+      points_, [&](const Vector<D>& x) { return is_free_of_walls(x, t); });
+  if (added == 0) return;
+  neighbours_.forget();
+  ++version_;
+}
+
+/// No wall point is nearer than half a spacing.
+template <int D>
+bool FluidDynamics<D>::is_free_of_walls(const Vector<D>& x, double t) const {
+  const double reach = 0.5 * scheme_.spacing;
+  for (Index w = 0; w < cloud_.size(); ++w) {
+    const Vector<D> moved = wall_displacement(w, t);
+    double square = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double y = cloud_.position[a][w] + moved[a] - x[a];
+      square += y * y;
+    }
+    if (square < reach * reach) return false;
+  }
+  return true;
+}
+
+template <int D>
 void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   constexpr std::array axes = {"x", "y", "z"};
   points_.trim();
@@ -296,8 +329,10 @@ void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("density", points_.density);
   visitor.visit("mass", points_.mass);
   visitor.visit("id", points_.id);
+  visitor.visit("next_id", points_.next_id);
   points_.count = static_cast<Index>(points_.mass.size());
   if (!exchange_keeps_mass()) visitor.visit("made_mass", made_mass_);
+  openings_.visit_state(visitor);
   for (RigidWall<D>& wall : rigid_) {
     if (wall.motion == RigidWall<D>::Motion::fixed) continue;
     visitor.enter(wall.name);
