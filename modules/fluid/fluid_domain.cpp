@@ -46,7 +46,7 @@ KeyTable fluid_domain_keys() {
        .type = KeyType::vector,
        .unit = "m",
        .meaning = "Low corner of the box that fluid stays in; where left out that of all there is "
-                  "at the start, farther out by its longest edge."},
+                  "at the start, farther out by five times its longest edge."},
       {.path = "domain.to",
        .type = KeyType::vector,
        .unit = "m",
