@@ -105,7 +105,7 @@ void FluidDynamics<D>::step(double t, double length) {
   find_densities(middle, length);
   kick(middle, length);
   if (scheme_.shifting > 0.0) {
-    shift_points<D>(scheme_.shifting, length, scheme_.spacing, moments_, points_);
+    shift_points<D>(step_view(), walls_, scheme_.shifting, length, points_);
   }
   drift(0.5 * length);
   if (openings_.inlets) insert_points(t + length);

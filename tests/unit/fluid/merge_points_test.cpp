@@ -108,7 +108,7 @@ TEST(MergePoints, SharesInProportionToInfluenceTimesVolume) {
   EXPECT_DOUBLE_EQ(points.mass[first], 2.0 + share);
   EXPECT_DOUBLE_EQ(points.mass[second], 4.0 + 0.1 - share);
   EXPECT_DOUBLE_EQ(points.position[0][first], 2.0 / (2.0 + share));
-  EXPECT_DOUBLE_EQ(points.velocity[0][first], 3.0 * share / (2.0 + share));
+  EXPECT_NEAR(points.velocity[0][first], 3.0 * share / (2.0 + share), 1e-15);
   EXPECT_DOUBLE_EQ(points.mass[with_id(3)], 1.0);
 }
 

@@ -27,16 +27,26 @@ fluid:
   viscosity: 1 cP
 )";
 
-/// The wall is where x < 0: the least distance of a point from its surface in so many steps [m].
-double closest(const std::string& scene, int steps) {
+/// How deep any point came into the box from `low` to `high` in so many steps [m]; negative: none.
+double deepest(const std::string& scene, const std::vector<double>& low,
+               const std::vector<double>& high, int steps) {
   FluidRun run(scene);
-  double least = 1.0;
+  double most = -1.0;
   for (int n = 0; n < steps; ++n) {
     run.steps(1);
-    const auto x = run.field("position_x");
-    least = std::min(least, *std::ranges::min_element(x));
+    std::vector<std::vector<double>> x;
+    for (int a = 0; a < run.dimension(); ++a) {
+      x.push_back(run.field(std::string("position_") + "xyz"[a]));
+    }
+    for (std::size_t i = 0; i < x[0].size(); ++i) {
+      double depth = 1.0;
+      for (int a = 0; a < run.dimension(); ++a) {
+        depth = std::min({depth, x[a][i] - low[a], high[a] - x[a][i]});
+      }
+      most = std::max(most, depth);
+    }
   }
-  return least;
+  return most;
 }
 
 class FluidThrownAtAWall : public testing::TestWithParam<Throw> {
@@ -53,12 +63,15 @@ class FluidThrownAtAWall : public testing::TestWithParam<Throw> {
 
 TEST_P(FluidThrownAtAWall, StaysOutsideIn2D) {
   const std::string wall = "  walls: [{name: wall, from: [-0.3 m, -1 m], to: [0 m, 3 m]}]\n";
-  EXPECT_GT(closest("dimension: 2\ntime: {end: 10 s}\n" + (fluid + jet_2d()) + wall, 500), 0.0);
+  EXPECT_LT(deepest("dimension: 2\ntime: {end: 10 s}\n" + (fluid + jet_2d()) + wall, {-0.3, -1.0},
+                    {0.0, 3.0}, 500),
+            0.0);
 }
 
 TEST_P(FluidThrownAtAWall, StaysOutsideOfAContainer) {
   const std::string container = "  container: {from: [0 m, 0 m], to: [2 m, 1.5 m]}\n";
-  EXPECT_GT(closest("dimension: 2\ntime: {end: 10 s}\n" + (fluid + jet_2d()) + container, 1000),
+  EXPECT_LT(deepest("dimension: 2\ntime: {end: 10 s}\n" + (fluid + jet_2d()) + container,
+                    {-1.0, -1.0}, {0.0, 2.5}, 1000),
             0.0);
 }
 
@@ -70,7 +83,7 @@ time: {{end: 10 s}}
   walls: [{{name: wall, from: [-0.3 m, -0.5 m, -0.5 m], to: [0 m, 2 m, 2 m]}}]
 )",
       fluid, low(), low(), low() + 0.4, low() + 0.4, -speed());
-  EXPECT_GT(closest(scene, 250), 0.0);
+  EXPECT_LT(deepest(scene, {-0.3, -0.5, -0.5}, {0.0, 2.0, 2.0}, 250), 0.0);
 }
 
 /// One point by itself has no pressure that could stop it.
@@ -82,7 +95,7 @@ TEST_P(FluidThrownAtAWall, OnePointIsStoppedToo) {
       "m, 3 "
       "m]}}]\n",
       fluid, low(), low() + 0.1, -speed());
-  EXPECT_GT(closest(scene, 300), 0.0);
+  EXPECT_LT(deepest(scene, {-0.3, -1.0}, {0.0, 3.0}, 300), 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fluid, FluidThrownAtAWall,
