@@ -193,6 +193,9 @@ FluidStep<D> FluidDynamics<D>::step_view() const {
 
 template <int D>
 void FluidDynamics<D>::exchange_mass(double t, double length) {
+  mass_rate_.assign(points_.count, 0.0);
+  walls_.mass_rate.assign(walls_.count, 0.0);
+  for (auto& values : walls_.momentum_rate) values.assign(walls_.count, 0.0);
   exchange_->find(step_view(), pores_, t, walls_, mass_rate_);
   for (Index i = 0; i < points_.count; ++i) {
     const double gained = length * mass_rate_[i];
@@ -207,6 +210,9 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
     const Index w = walls_.wall[k];
     if (cloud_.is_rigid(w)) continue;
     exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
+    for (int a = 0; a < D; ++a) {
+      impulse_[a * body_points_ + cloud_.owner[w]] += length * walls_.momentum_rate[a][k];
+    }
   }
   if (exchange_->keeps_mass()) return;
   double made = 0.0;
