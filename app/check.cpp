@@ -14,7 +14,7 @@ namespace perifrac {
 
 namespace {
 
-/// Lists every evolving field and its size.
+/// Lists every evolving field and its size; empty ones are those of what is absent.
 class ArrayList final : public StateVisitor {
  public:
   nlohmann::json arrays = nlohmann::json::array();
@@ -27,6 +27,7 @@ class ArrayList final : public StateVisitor {
     add(name, values.size(), sizeof(std::int64_t));
   }
   void add(const std::string& name, std::size_t count, std::size_t size) {
+    if (count == 0) return;
     arrays.push_back({{"name", name}, {"count", count}, {"bytes", count * size}});
   }
 };
@@ -47,6 +48,7 @@ std::size_t family_bytes(const Simulation& simulation) {
   return std::visit(
       [](const auto& body) {
         std::size_t bytes = 0;
+        if (!body) return bytes;
         for (const auto& family : body->families()) bytes += family->bytes();
         return bytes;
       },
@@ -58,9 +60,11 @@ void print(const nlohmann::json& result) {
   fmt::print("{}: fine\n", result["scene"].get<std::string>());
   for (const auto& effect : result["effects"]) fmt::print("  {}\n", effect.get<std::string>());
   for (const auto& link : result["links"]) fmt::print("  link {}\n", link.get<std::string>());
-  fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
-             counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
-             result["family_bytes"].get<long>() / 1000);
+  for (const auto& [name, count] : counts["point_sets"].items()) {
+    fmt::print("  {} points of {}\n", count.get<long>(), name);
+  }
+  fmt::print("  {} ghosts, {} bonds ({} kB)\n", counts["ghosts"].get<long>(),
+             counts["bonds"].get<long>(), result["family_bytes"].get<long>() / 1000);
   for (const auto& array : result["arrays"]) {
     fmt::print("  {:<48} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
                array["count"].get<long>(), array["bytes"].get<long>());

@@ -1,5 +1,8 @@
 #include "app/probes.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "core/geometry/read_point.hpp"
@@ -19,46 +22,88 @@ std::string component_suffix(int component, int components) {
 
 bool has_place(const Field& field) { return field.points().dimension > 0; }
 
+/// The body's points never move.
+bool is_of_body(const Field& field, const Simulation& simulation) {
+  return simulation.has_body() && field.points().name == simulation.points().name;
+}
+
+/// Of points equally near the first; `count` where there are none.
+std::size_t nearest_point(const PointSet& points, std::span<const double> place) {
+  std::size_t nearest = points.count;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.count; ++i) {
+    double square = 0.0;
+    for (std::size_t a = 0; a < place.size(); ++a) {
+      const double distance = points.position[a][i] - place[a];
+      square += distance * distance;
+    }
+    if (square < least) {
+      least = square;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Probes::Probes(const Section& output, const Simulation& simulation) {
-  const std::vector<Field> fields = fields_of(*simulation.manager);
-  std::vector<std::string> names;
-  for (const Field& field : fields) {
-    if (has_place(field)) {
-      names.push_back(field.port.name);
-    } else {
-      add(field, 0, 1, "");
-    }
+  for (const Field& field : fields_of(*simulation.manager)) {
+    if (!has_place(field)) add({field, {}}, "");
   }
   for (std::size_t n = 0; n < output.count("probes"); ++n) {
-    const std::string item = fmt::format("probes[{}]", n);
-    const Index point = std::visit(
-        [&](const auto& body) { return read_point(output, item + ".at", *body); }, simulation.body);
-    const std::string suffix = " at " + output.text(item + ".name");
-    const bool all = !output.has(item + ".field");
-    const std::string wanted = all ? "" : output.text(item + ".field");
-    if (!all && std::ranges::count(names, wanted) == 0) {
-      output.fail_unknown(item + ".field", wanted, names);
-    }
-    for (const Field& field : fields) {
-      if (has_place(field) && (all || field.port.name == wanted)) {
-        add(field, point, simulation.points().count, suffix);
-      }
-    }
+    read(output, fmt::format("probes[{}]", n), simulation);
   }
 }
 
-void Probes::add(const Field& field, Index point, std::size_t count, const std::string& suffix) {
-  for (int c = 0; c < field.port.components; ++c) {
-    probes_.push_back({field, c * count + point});
-    const std::string name = field.port.name + component_suffix(c, field.port.components);
-    columns_.push_back({name + suffix, field.port.unit});
+void Probes::read(const Section& output, const std::string& item, const Simulation& simulation) {
+  std::vector<Field> fields = fields_of(*simulation.manager);
+  std::erase_if(fields, [](const Field& field) { return !has_place(field); });
+  if (output.has(item + ".field")) {
+    std::vector<std::string> names;
+    for (const Field& field : fields) names.push_back(field.port.name);
+    const std::string wanted = output.text(item + ".field");
+    std::erase_if(fields, [&](const Field& field) { return field.port.name != wanted; });
+    if (fields.empty()) output.fail_unknown(item + ".field", wanted, names);
   }
+  const auto of_body = [&](const Field& field) { return is_of_body(field, simulation); };
+  const std::string at = item + ".at";
+  std::size_t point = 0;
+  if (std::ranges::any_of(fields, of_body)) {
+    const auto find_point = [&](const auto& body) {
+      if (std::ranges::all_of(fields, of_body) || is_inside(output, at, *body)) {
+        point = read_point(output, at, *body);
+      } else {
+        std::erase_if(fields, of_body);
+      }
+    };
+    std::visit(find_point, simulation.body);
+  }
+  for (const Field& field : fields) {
+    const std::vector<double> place = of_body(field) ? std::vector<double>{} : output.numbers(at);
+    add({field, place, point}, " at " + output.text(item + ".name"));
+  }
+}
+
+void Probes::add(Probe probe, const std::string& suffix) {
+  const Port& port = probe.field.port;
+  for (int c = 0; c < port.components; ++c) {
+    columns_.push_back({port.name + component_suffix(c, port.components) + suffix, port.unit});
+  }
+  probes_.push_back(std::move(probe));
 }
 
 void Probes::append_values(std::vector<double>& row) const {
-  for (const Probe& probe : probes_) row.push_back(probe.field.values()[probe.place]);
+  for (const Probe& probe : probes_) {
+    const PointSet& points = probe.field.points();
+    const std::size_t point =
+        probe.place.empty() ? probe.point : nearest_point(points, probe.place);
+    const std::span<const double> values = probe.field.values();
+    for (int c = 0; c < probe.field.port.components; ++c) {
+      row.push_back(point < points.count ? values[c * points.count + point]
+                                         : std::numeric_limits<double>::quiet_NaN());
+    }
+  }
 }
 
 }  // namespace perifrac

@@ -115,7 +115,22 @@ void Recorder::write_checkpoint(bool if_due) {
 }
 
 void Recorder::check_finite() {
-  FiniteCheck check(simulation_.manager->time(), &simulation_.points());
+  const CouplingManager& manager = *simulation_.manager;
+  // Fields are named after their module; its arrays lie on the points that its own fields lie on.
+  const auto points_of = [&](std::string_view name) -> const PointSet* {
+    for (const ModuleSlot& slot : manager.modules()) {
+      if (!name.starts_with(slot.name + "/")) continue;
+      const auto ports = slot.module->ports();
+      for (std::size_t id = 0; id < ports.size(); ++id) {
+        if (ports[id].direction != PortDirection::out || ports[id].role != PortRole::field)
+          continue;
+        const PointSet* const points = slot.module->port(static_cast<PortId>(id)).points;
+        if (points->dimension > 0) return points;
+      }
+    }
+    return nullptr;
+  };
+  FiniteCheck check(manager.time(), points_of);
   simulation_.manager->visit_state(check);
 }
 

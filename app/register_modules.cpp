@@ -1,5 +1,8 @@
 #include "app/register_modules.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "modules/fluid/fluid_type.hpp"
 #include "modules/pore_flow/darcy_type.hpp"
 #include "modules/solid/solid_types.hpp"
@@ -17,6 +20,15 @@ const std::vector<ModuleType>& module_types() {
 const std::vector<std::string>& physics_order() {
   static const std::vector<std::string> order = {"fluid", "pore_flow", "solid"};
   return order;
+}
+
+std::vector<std::string> physics_of(const Section& scene) {
+  const std::vector<std::string> written = scene.names("");
+  std::vector<std::string> named;
+  std::ranges::copy_if(physics_order(), std::back_inserter(named), [&](const std::string& physics) {
+    return std::ranges::count(written, physics) > 0;
+  });
+  return named;
 }
 
 }  // namespace perifrac

@@ -79,14 +79,23 @@ KeyTable reference_keys() {
            .meaning = "Analytic solution that the run is compared with."}};
 }
 
+constexpr const char* body_meaning =
+    "The porous rock that solid and pore flow share. A scene without them needs none.";
+
+constexpr const char* interface_meaning =
+    "What free fluid and a body do to each other. Needed where a scene has both.";
+
 }  // namespace
 
 const Catalogue& scene_catalogue() {
   static const Catalogue catalogue = [] {
-    Catalogue all = {{"", "", top_level_keys()},         {"body", "", body_keys()},
-                     {"time", "", time_keys()},          {"output", "", output_keys()},
-                     {"coupling", "", coupling_keys()},  {"reference", "", reference_keys()},
-                     {"interface", "", interface_keys()}};
+    Catalogue all = {{"", "", top_level_keys()},
+                     {"body", "", body_keys(), body_meaning, true},
+                     {"time", "", time_keys()},
+                     {"output", "", output_keys()},
+                     {"coupling", "", coupling_keys()},
+                     {"reference", "", reference_keys()},
+                     {"interface", "", interface_keys(), interface_meaning, true}};
     for (const ModuleType& type : module_types()) {
       all.push_back({type.section, type.name, type.keys, type.meaning});
     }

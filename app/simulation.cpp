@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/register_modules.hpp"
 #include "core/errors.hpp"
@@ -19,11 +20,22 @@ const ModuleType& type_of(const std::string& physics, const std::string& name) {
   });
 }
 
+AnyBody make_body_if_any(const Section& scene) {
+  const int dimension = scene.integer("dimension");
+  if (scene.has("body")) return make_body(scene.at("body"), dimension);
+  if (dimension == 2) return std::shared_ptr<const Body<2>>();
+  return std::shared_ptr<const Body<3>>();
+}
+
 std::unique_ptr<PhysicsModule> make_module(const Section& scene, const std::string& physics,
                                            const AnyBody& body) {
   const Section section = scene.at(physics);
+  const ModuleType& type = type_of(physics, section.word("type"));
+  if (type.needs_body && !scene.has("body")) {
+    scene.fail(physics, "the scene has no body", "a section 'body'");
+  }
   try {
-    return type_of(physics, section.word("type")).make(section, body);
+    return type.make(section, body);
   } catch (const BodyError& error) {
     scene.fail("body", error.what(), error.expected());
   }
@@ -48,23 +60,33 @@ void refuse_unreachable_tolerance(const Section& scene) {
 
 }  // namespace
 
+bool Simulation::has_body() const {
+  return std::visit([](const auto& b) { return b != nullptr; }, body);
+}
+
 const PointSet& Simulation::points() const {
+  if (!has_body()) throw std::logic_error("the points of a body that the scene has not");
   return std::visit([](const auto& b) -> const PointSet& { return b->point_set(); }, body);
 }
 
 Simulation make_simulation(const Section& scene) {
   Simulation simulation;
-  simulation.body = make_body(scene.at("body"), scene.integer("dimension"));
+  simulation.body = make_body_if_any(scene);
   simulation.end = scene.number("time.end");
   std::vector<ModuleSlot> modules;
-  for (const std::string& physics : physics_order()) {
-    if (!scene.has(physics)) continue;
+  for (const std::string& physics : physics_of(scene)) {
     modules.push_back({physics, make_module(scene, physics, simulation.body)});
   }
   if (modules.empty()) {
-    scene.fail("", "no physics is named", "at least one of the sections solid, pore_flow");
+    scene.fail("", "no physics is named",
+               fmt::format("at least one of the sections {}", fmt::join(physics_order(), ", ")));
   }
   refuse_unreachable_tolerance(scene);
+  for (const char* side : {"fluid", "body"}) {
+    if (!scene.has("interface") || scene.has(side)) continue;
+    scene.fail("interface", fmt::format("the scene has no section '{}'", side),
+               "an interface where free fluid meets a body");
+  }
   simulation.manager = std::make_unique<CouplingManager>(
       std::move(modules), read_coupling_options(scene.at("coupling"), simulation.end));
   return simulation;

@@ -12,11 +12,12 @@ namespace perifrac {
 
 /// What a scene makes: a body, the physics on it, and the manager that couples them.
 struct Simulation {
-  AnyBody body;
+  AnyBody body;  ///< null where the scene has none
   std::unique_ptr<CouplingManager> manager;
   double end;  ///< [s]
 
-  const PointSet& points() const;
+  bool has_body() const;
+  const PointSet& points() const;  ///< of the body, which the scene must have
 };
 
 /// Builds all that the scene calls for and nothing else. Throws InputError.

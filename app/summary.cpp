@@ -70,23 +70,29 @@ nlohmann::json modules_summary(const Section& scene, const CouplingManager& mana
 
 std::vector<std::string> effects(const Section& scene) {
   std::vector<std::string> result;
-  for (const std::string& physics : physics_order()) {
-    if (scene.has(physics)) result.push_back(physics + ": " + scene.word(physics + ".type"));
+  for (const std::string& physics : physics_of(scene)) {
+    result.push_back(physics + ": " + scene.word(physics + ".type"));
   }
   return result;
 }
 
 nlohmann::json counts(const Simulation& simulation) {
-  return std::visit(
-      [](const auto& body) -> nlohmann::json {
-        std::size_t bonds = 0, ghosts = 0;
-        for (const auto& family : body->families()) {
-          bonds += family->other.size();
-          ghosts += family->ghost_source.size();
-        }
-        return {{"points", body->points().size()}, {"ghosts", ghosts}, {"bonds", bonds}};
-      },
-      simulation.body);
+  std::map<std::string, std::size_t> sets;
+  std::size_t points = 0, bonds = 0, ghosts = 0;
+  const auto count_body = [&](const auto& body) {
+    if (!body) return;
+    sets[body->point_set().name] = points = body->points().size();
+    for (const auto& family : body->families()) {
+      bonds += family->other.size();
+      ghosts += family->ghost_source.size();
+    }
+  };
+  std::visit(count_body, simulation.body);
+  for (const Field& field : fields_of(*simulation.manager)) {
+    const PointSet& set = field.points();
+    if (set.dimension > 0) sets[set.name] = set.count;
+  }
+  return {{"points", points}, {"ghosts", ghosts}, {"bonds", bonds}, {"point_sets", sets}};
 }
 
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
@@ -125,12 +131,15 @@ void write_summary(const std::filesystem::path& folder, const nlohmann::json& su
 }
 
 std::string summary_text(const nlohmann::json& summary) {
-  std::string text =
-      fmt::format("{}: {} at t = {:g} s; {} points, {} windows, {:.2f} s, {:.0f} MB\n",
-                  summary["scene"]["path"].get<std::string>(),
-                  summary["outcome"].get<std::string>(), summary["time"]["value"].get<double>(),
-                  summary["counts"]["points"].get<long>(), summary["counts"]["windows"].get<long>(),
-                  summary["wall_time"].get<double>(), summary["peak_memory"].get<double>() / 1e6);
+  long points = 0;
+  for (const auto& [name, count] : summary["counts"]["point_sets"].items()) {
+    points += count.get<long>();
+  }
+  std::string text = fmt::format(
+      "{}: {} at t = {:g} s; {} points, {} windows, {:.2f} s, {:.0f} MB\n",
+      summary["scene"]["path"].get<std::string>(), summary["outcome"].get<std::string>(),
+      summary["time"]["value"].get<double>(), points, summary["counts"]["windows"].get<long>(),
+      summary["wall_time"].get<double>(), summary["peak_memory"].get<double>() / 1e6);
   for (const auto& module : summary["modules"]) {
     text += fmt::format("  {:<10} {:<14} {:6d} advances {:8.3f} s\n",
                         module["name"].get<std::string>(), module["type"].get<std::string>(),

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/references/beam_section.hpp"
 #include "app/references/bisection.hpp"
 
 namespace perifrac {
@@ -22,21 +23,19 @@ double frequency_condition(double b, double r, double s) {
 }  // namespace
 
 CantileverSolution::CantileverSolution(const CantileverProblem& problem) {
-  const double nu = problem.poisson_ratio;
-  const double stiffness = problem.youngs_modulus / (1.0 - nu * nu);
+  const BeamSection section(problem.youngs_modulus, problem.poisson_ratio, problem.height);
   const double length = problem.length;
   const double area = problem.height;  // per metre of thickness
-  const double bending = stiffness * std::pow(problem.height, 3) / 12.0;
-  const double shear = 5.0 / 6.0 * problem.youngs_modulus / (2.0 * (1.0 + nu)) * area;
   const double r = std::pow(problem.height / length, 2) / 12.0;
-  const double s = bending / (shear * length * length);
+  const double s = section.bending / (section.shear * length * length);
   // Without shear and rotation the first b is 1.8751^4 = 12.3624; both only lower it.
   const double b =
       bisect([=](double value) { return frequency_condition(value, r, s); }, 1e-6, 12.4);
-  angular_frequency_ = std::sqrt(b * bending / (problem.density * area)) / (length * length);
+  angular_frequency_ =
+      std::sqrt(b * section.bending / (problem.density * area)) / (length * length);
   const double load = problem.load * area;
-  static_deflection_ =
-      load * std::pow(length, 4) / (8.0 * bending) + load * length * length / (2.0 * shear);
+  static_deflection_ = load * std::pow(length, 4) / (8.0 * section.bending) +
+                       load * length * length / (2.0 * section.shear);
 }
 
 double CantileverSolution::period() const { return 2.0 * std::numbers::pi / angular_frequency_; }

@@ -45,6 +45,7 @@ nlohmann::json Reference::summary() const {
                                     {"exact", {{"value", figure.exact}, {"unit", figure.unit}}}});
   }
   for (const auto& history : histories_) result["histories"].push_back(history_summary(history));
+  for (const Rate& rate : rates_) result["histories"].push_back(rate_summary(rate));
   for (const auto& profile : profiles_) result["profiles"].push_back(profile_summary(profile));
   return result;
 }
@@ -66,6 +67,22 @@ nlohmann::json Reference::history_summary(const Recorded<History>& history) cons
           {"unit", history.compared.unit},
           {"time", history_time_},
           {"computed", history.values},
+          {"exact", exact}};
+}
+
+nlohmann::json Reference::rate_summary(const Rate& rate) const {
+  const auto& [history, values] = histories_.at(rate.history);
+  std::vector<double> times, computed, exact;
+  for (std::size_t n = 1; n < history_time_.size(); ++n) {
+    const double from = history_time_[n - 1], to = history_time_[n];
+    times.push_back(0.5 * (from + to));
+    computed.push_back((values[n] - values[n - 1]) / (to - from));
+    exact.push_back((history.exact(to) - history.exact(from)) / (to - from));
+  }
+  return {{"name", rate.name},
+          {"unit", rate.unit},
+          {"time", times},
+          {"computed", computed},
           {"exact", exact}};
 }
 

@@ -26,6 +26,12 @@ class Reference {
     Computed computed;
     OfTime exact;
   };
+  /// The rate of a history, from one row to the next, of the exact values alike.
+  struct Rate {
+    std::string name;  ///< `QUANTITY at PLACE`
+    std::string unit;
+    std::size_t history;
+  };
   /// An error over the whole body, recorded with every output.
   struct Error {
     std::string name;
@@ -45,8 +51,8 @@ class Reference {
     std::string name;
     std::string unit;
     double exact;
-    double scale;         ///< the error is |computed - exact| / scale
-    std::size_t history;  ///< in the order in which they were added
+    double scale;  ///< the error is |computed - exact| / scale
+    std::size_t history;
     std::function<std::optional<double>(std::span<const double> times,
                                         std::span<const double> values)>
         computed;
@@ -56,7 +62,12 @@ class Reference {
   Reference(std::string type, std::string title, double time_scale)
       : type_(std::move(type)), title_(std::move(title)), time_scale_(time_scale) {}
 
-  void add(History history) { histories_.push_back({std::move(history), {}}); }
+  /// Returns its number, for rates and figures.
+  std::size_t add(History history) {
+    histories_.push_back({std::move(history), {}});
+    return histories_.size() - 1;
+  }
+  void add(Rate rate) { rates_.push_back(std::move(rate)); }
   void add(Error error) { errors_.push_back({std::move(error), {}}); }
   void add(Profile profile) { profiles_.push_back({std::move(profile), {}}); }
   void add(Figure figure) { figures_.push_back(std::move(figure)); }
@@ -80,12 +91,14 @@ class Reference {
   std::optional<double> computed(const Figure& figure) const;
   nlohmann::json table_summary() const;
   nlohmann::json history_summary(const Recorded<History>& history) const;
+  nlohmann::json rate_summary(const Rate& rate) const;
   nlohmann::json profile_summary(const Recorded<Profile>& profile) const;
 
   std::string type_;
   std::string title_;
   double time_scale_;
   std::vector<Recorded<History>> histories_;
+  std::vector<Rate> rates_;
   std::vector<Recorded<Error>> errors_;
   std::vector<Recorded<Profile>> profiles_;  ///< values place by place, output by output
   std::vector<Figure> figures_;

@@ -4,10 +4,15 @@
 
 #include "app/references/cantilever_reference.hpp"
 #include "app/references/column_reference.hpp"
+#include "app/references/constant_head_reference.hpp"
 #include "app/references/cryer_reference.hpp"
+#include "app/references/dam_break_reference.hpp"
 #include "app/references/diffusion_reference.hpp"
 #include "app/references/drained_plate_reference.hpp"
+#include "app/references/hydrostatic_reference.hpp"
 #include "app/references/mandel_reference.hpp"
+#include "app/references/poiseuille_reference.hpp"
+#include "app/references/water_on_plate_reference.hpp"
 
 namespace perifrac {
 
@@ -20,6 +25,11 @@ const std::vector<ReferenceType>& reference_types() {
       {"diffusion", make_diffusion_reference},
       {"drained_plate", make_drained_plate_reference},
       {"cantilever", make_cantilever_reference},
+      {"hydrostatic", make_hydrostatic_reference},
+      {"poiseuille", make_poiseuille_reference},
+      {"dam_break", make_dam_break_reference},
+      {"constant_head", make_constant_head_reference},
+      {"water_on_plate", make_water_on_plate_reference},
   };
   return types;
 }

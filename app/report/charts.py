@@ -194,8 +194,9 @@ def history_charts(run: Run) -> list[Chart]:
         same = len({place_of(c.name)[0] for c in columns}) == 1
         names = [place_of(c.name)[1] if same else words(c.name) for c in columns]
         series = [Series(name, time, c.values, i) for i, (name, c) in enumerate(zip(names, columns))]
-        firsts = {words(c.name).split()[0] for c in columns}
-        label = firsts.pop() if len(firsts) == 1 and not same else title
+        first, *others = [words(c.name).split() for c in columns]
+        shared = " ".join(word for word in first if all(word in other for other in others))
+        label = title if same or not shared else shared
         x, y = axis("time", "s", [time]), axis(label, unit, [c.values for c in columns])
         charts.append(
             Chart(sentence(title), x, y, series, "history", log_x=spans_decades(time), groups=names)

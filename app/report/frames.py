@@ -28,12 +28,13 @@ class Field:
 class Frame:
     time: float  # [s]
     points: np.ndarray  # (count, 2) [m], along the two axes that are drawn
+    edges: np.ndarray  # of the squares that points are drawn as [m]
     fields: list[Field]
 
 
 @dataclass(frozen=True)
 class Slice:
-    """The layer of points that a body is drawn by: all of them in 2D, else one across its shortest edge."""
+    """The layer of points that a run is drawn by: all of them in 2D, else one across its shortest edge."""
 
     axes: tuple[int, int]  # across and up
     normal: int
@@ -54,6 +55,17 @@ class FrameSeries:
     available: int  # how many the run has written
     cut: Slice
 
+    @property
+    def moves(self) -> bool:
+        return not np.array_equal(self.frames[0].points, self.frames[-1].points)
+
+    @property
+    def velocity(self) -> list[str]:
+        """The fields of its components along the map's axes, where points move; else none."""
+        names = [field.name for field in self.frames[-1].fields]
+        found = [next((n for n in names if n.endswith(f"velocity {axis}")), "") for axis in self.cut.names]
+        return found if self.moves and all(found) else []
+
 
 def spacing(points: np.ndarray) -> float:
     """Edge of the squares (cubes) with which `points` fill their bounding box [m].
@@ -73,20 +85,28 @@ def spacing(points: np.ndarray) -> float:
     return high
 
 
-def middle_layer(points: np.ndarray) -> tuple[np.ndarray, Slice]:
-    """Indices of the points to draw: all in 2D, in 3D the layer in the middle of the shortest edge.
+def middle_cut(points: np.ndarray) -> Slice:
+    """None in 2D, in 3D through the middle of the shortest edge.
 
     A body as long in depth as in height or width is cut along x and z: what falls shows.
     """
     if len(points) == 0 or np.ptp(points[:, 2]) == 0:
-        return np.arange(len(points)), Slice((0, 1), 2, None)
+        return Slice((0, 1), 2, None)
     extent = np.ptp(points, axis=0)
     normal = 1 if extent[1] <= 1.001 * extent.min() else int(np.argmin(extent))
-    along = points[:, normal]
-    nearest = along[np.argmin(np.abs(along - 0.5 * (along.min() + along.max())))]
-    chosen = np.flatnonzero(np.abs(along - nearest) <= 0.499 * spacing(points))
     first, second = (axis for axis in range(3) if axis != normal)
-    return chosen, Slice((first, second), normal, float(nearest))
+    along = points[:, normal]
+    middle = 0.5 * (along.min() + along.max())
+    return Slice((first, second), normal, float(along[np.argmin(np.abs(along - middle))]))
+
+
+def layer(points: np.ndarray, cut: Slice) -> np.ndarray:
+    """Indices of the points that the cut shows: those about as far along its normal as the nearest to it."""
+    if cut.at is None or len(points) == 0:
+        return np.arange(len(points))
+    along = points[:, cut.normal]
+    nearest = along[np.argmin(np.abs(along - cut.at))]
+    return np.flatnonzero(np.abs(along - nearest) <= 0.499 * spacing(points))
 
 
 def scalar_fields(name: str, unit: str, values: np.ndarray, axes: str) -> list[Field]:
@@ -99,18 +119,32 @@ def scalar_fields(name: str, unit: str, values: np.ndarray, axes: str) -> list[F
     return [magnitude] + [Field(f"{name} {axis}", unit, values[:, i]) for i, axis in enumerate(axes)]
 
 
-def read_frame(path: Path, time: float) -> tuple[Frame, Slice]:
+def square_edges(points: np.ndarray, fields: list[Field], cut: Slice) -> np.ndarray:
+    """Squares of the points' own volumes where these are known, as of fluid; else all alike."""
+    known = {field.name: field.values for field in fields}
+    if "fluid_mass" in known and "fluid_density" in known:
+        return (known["fluid_mass"] / known["fluid_density"]) ** (1 / (2 if cut.at is None else 3))
+    return np.full(len(points), spacing(points))
+
+
+def read_points(path: Path) -> np.ndarray:
+    with h5py.File(path, "r") as file:
+        return file["VTKHDF"]["Points"][()].astype(float)
+
+
+def read_frame(path: Path, time: float, cut: Slice) -> Frame:
     with h5py.File(path, "r") as file:
         group = file["VTKHDF"]
         points = group["Points"][()].astype(float)
-        chosen, cut = middle_layer(points)
+        chosen = layer(points, cut)
         fields: list[Field] = []
         for name, data in group["PointData"].items():
             unit = data.attrs.get("units", "")
             unit = unit.decode() if isinstance(unit, bytes) else str(unit)
             axes = "xy" if cut.at is None else "xyz"
             fields += scalar_fields(name, unit, data[()][chosen], axes)
-    return Frame(time, points[chosen][:, cut.axes], fields), cut
+    shown = points[chosen][:, cut.axes]
+    return Frame(time, shown, square_edges(shown, fields, cut), fields)
 
 
 def evenly(count: int, wanted: int) -> list[int]:
@@ -118,35 +152,89 @@ def evenly(count: int, wanted: int) -> list[int]:
     return sorted({round(i) for i in np.linspace(count - 1, 0, max(1, min(count, wanted)))})
 
 
-def readable(path: Path, time: float) -> tuple[Frame, Slice] | None:
+WHOLE = Slice((0, 1), 2, None)
+
+
+def readable(path: Path, time: float, cut: Slice) -> Frame | None:
     try:
-        return read_frame(path, time)
+        return read_frame(path, time, cut)
     except (OSError, KeyError) as error:
         print(f"{path}: unreadable, left out of the report ({error})", file=sys.stderr)
         return None
 
 
-def read_series(path: Path) -> FrameSeries | None:
+def listed_frames(path: Path) -> list[tuple[Path, float]]:
+    """What a series lists, up to the last that can be read."""
     listed = json.loads(path.read_text(encoding="utf-8"))["files"]
     files = [(path.parent / entry["name"], float(entry["time"])) for entry in listed]
-    last = None
-    while files and last is None:
-        last = readable(*files[-1])
-        if last is None:
-            files.pop()
-    if last is None:
+    while files and readable(*files[-1], WHOLE) is None:
+        files.pop()
+    return files
+
+
+def values_of(files: list[tuple[Path, float]], cut: Slice) -> int:
+    """Numbers that a frame takes: points may have come or gone since the start."""
+    ends = [readable(*files[place], cut) for place in (0, -1)]
+    return max(len(end.points) * (len(end.fields) + 3) for end in ends if end)
+
+
+def read_series(name: str, files: list[tuple[Path, float]], cut: Slice, wanted: int) -> FrameSeries | None:
+    read = [readable(*files[place], cut) for place in evenly(len(files), wanted)]
+    frames = [frame for frame in read if frame]
+    if not any(len(frame.points) for frame in frames):
         return None
-    frame, cut = last
-    values = len(frame.points) * (len(frame.fields) + 2)
-    places = evenly(len(files), min(MOST_FRAMES, LARGEST_VALUES // max(values, 1)))
-    earlier = [readable(*files[place]) for place in places[:-1]]
-    frames = [e[0] for e in earlier if e] + [frame]
-    if not any(len(f.points) for f in frames):
-        return None
-    name = path.name.removesuffix(".series").removesuffix(".hdf")
     return FrameSeries(name, frames, len(files), cut)
 
 
+def quantity_of(name: str) -> str:
+    """What fields of several points may share: `pore_pressure` -> `pressure`, `fluid_velocity x` -> `velocity x`."""
+    base, _, component = name.partition(" ")
+    return f"{base.rpartition('_')[2]} {component}".strip()
+
+
+def by_quantity(frame: Frame) -> dict[tuple[str, str], np.ndarray]:
+    """Values by quantity and unit; the first of a frame where there are two, as of velocities."""
+    found: dict[tuple[str, str], np.ndarray] = {}
+    for field in frame.fields:
+        found.setdefault((quantity_of(field.name), field.unit), field.values)
+    return found
+
+
+def together(series: list[FrameSeries]) -> FrameSeries | None:
+    """All points in one map, by what they share and what moving points have besides; None elsewhere."""
+    if len(series) < 2:
+        return None
+    known = [by_quantity(s.frames[-1]) for s in series]
+    shown = [
+        key
+        for key in dict.fromkeys(key for k in known for key in k)
+        if sum(key in k for k in known) > 1 or any(s.moves and key in k for s, k in zip(series, known))
+    ]
+    times = [{frame.time: frame for frame in s.frames} for s in series]
+    frames = []
+    for time in sorted(set.intersection(*(set(t) for t in times))):
+        parts = [t[time] for t in times]
+        values = [by_quantity(part) for part in parts]
+        fields = [
+            Field(name, unit, np.concatenate([v.get((name, unit), np.full(len(p.points), np.nan))
+                                              for v, p in zip(values, parts)]))
+            for name, unit in shown
+        ]  # fmt: skip
+        points, edges = (np.concatenate([getattr(part, name) for part in parts]) for name in ("points", "edges"))
+        frames.append(Frame(time, points, edges, fields))
+    if not frames:
+        return None
+    return FrameSeries("all", frames, min(s.available for s in series), series[0].cut)
+
+
 def read_all_series(folder: Path) -> list[FrameSeries]:
-    found = [read_series(path) for path in sorted(folder.glob("*.hdf.series"))]
-    return [series for series in found if series is not None]
+    """Every point set's series; before them, where there are several, one of all points together."""
+    listed = {path.name.removesuffix(".hdf.series"): listed_frames(path) for path in folder.glob("*.hdf.series")}
+    files = {name: found for name, found in sorted(listed.items()) if found}
+    if not files:
+        return []
+    cut = middle_cut(np.concatenate([read_points(found[-1][0]) for found in files.values()]))
+    wanted = min(MOST_FRAMES, LARGEST_VALUES // max(sum(values_of(found, cut) for found in files.values()), 1))
+    series = [s for name, found in files.items() if (s := read_series(name, found, cut, wanted)) is not None]
+    all_points = together(series)
+    return [all_points, *series] if all_points else series

@@ -14,7 +14,7 @@ import numpy as np
 
 import tables
 from charts import Axis, Chart, all_charts, start_of_change, time_label
-from frames import Frame, FrameSeries, spacing
+from frames import Frame, FrameSeries
 from quantities import display_for, pretty_unit, quantity, sentence, words
 from run import Run
 
@@ -75,7 +75,8 @@ def frame_data(frame: Frame, before: Frame | None) -> dict[str, Any]:
         "values": {field.name: encoded(field.values) for field in frame.fields},
     }
     if before is None or not np.array_equal(before.points, frame.points):
-        data["points"] = {"x": encoded(frame.points[:, 0]), "y": encoded(frame.points[:, 1])}
+        x, y = frame.points.T
+        data["points"] = {"x": encoded(x), "y": encoded(y), "edge": encoded(frame.edges)}
     return data
 
 
@@ -91,7 +92,7 @@ def series_data(series: FrameSeries) -> dict[str, Any]:
         "note": note,
         "axes": series.cut.names,
         "length": {"factor": length.factor, "unit": pretty_unit(length.unit)},
-        "spacing": spacing(frames[-1].points),
+        "velocity": series.velocity,
         "fields": field_data(series),
         "frames": [frame_data(f, b) for f, b in zip(frames, [None, *frames[:-1]])],
     }

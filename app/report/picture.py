@@ -16,12 +16,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from charts import Chart, Series, all_charts, start_of_change, time_label
-from frames import Field, Frame, FrameSeries, spacing
+from frames import Field, Frame, FrameSeries
 from quantities import described, display_for, quantity, sentence, words
 from run import Run
 
 INCHES, DOTS_PER_INCH = (10.0, 7.5), 200
-COLOUR_MAP = "viridis"
+COLOUR_MAP = matplotlib.colormaps["viridis"].with_extremes(bad="#c9cfd6")  # grey: the quantity is not there
+ARROWS_ACROSS = 24
 # Okabe and Ito's colours, distinct to every kind of colour vision.
 PALETTE = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5D5D5D"]
 INK, FAINT = "#1c2733", "#5b6875"
@@ -56,7 +57,7 @@ Panel = Callable[[Axes], None]
 def colours(chart: Chart) -> list:
     count = len(chart.groups)
     if chart.ordered:
-        return list(plt.get_cmap(COLOUR_MAP)(np.linspace(0.05, 0.85, max(count, 2))))
+        return list(COLOUR_MAP(np.linspace(0.05, 0.85, max(count, 2))))
     return [PALETTE[i % len(PALETTE)] for i in range(count)]
 
 
@@ -140,24 +141,42 @@ def chart_panel(chart: Chart) -> Panel:
     return draw
 
 
-def tiles(points: np.ndarray) -> np.ndarray:
-    half = 0.5 * spacing(points)
-    corners = half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-    return points[:, None, :] + corners
+def tiles(frame: Frame) -> np.ndarray:
+    corners = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
+    return frame.points[:, None, :] + frame.edges[:, None, None] * corners
+
+
+def draw_arrows(axes: Axes, series: FrameSeries, frame: Frame, factor: float) -> str:
+    """Velocities at a few points, evenly spread; says how fast the longest is."""
+    fields = {field.name: field.values for field in frame.fields}
+    velocity = [fields[name] for name in series.velocity]
+    speed = np.hypot(*velocity) if velocity else np.zeros(0)
+    fastest = float(np.nanmax(speed, initial=0.0))
+    if fastest == 0.0:
+        return ""
+    known = np.flatnonzero(speed > 0.01 * fastest)
+    cells = np.floor(frame.points[known] / (np.ptp(frame.points, axis=0).max() / ARROWS_ACROSS))
+    at = known[np.unique(cells, axis=0, return_index=True)[1]]
+    x, y = factor * frame.points[at].T
+    u, v = (component[at] for component in velocity)
+    axes.quiver(x, y, u, v, scale=fastest * ARROWS_ACROSS / 2, scale_units="width", width=0.003, color=INK)
+    return f"; longest arrow {quantity(fastest, 'm/s', 3)}"
 
 
 def map_panel(series: FrameSeries, frame: Frame, field: Field) -> Panel:
     def draw(axes: Axes) -> None:
+        known = np.ma.masked_invalid(field.values)
         length = display_for("m", float(np.abs(frame.points).max(initial=0.0)))
-        shown = display_for(field.unit, float(np.abs(field.values).max(initial=0.0)))
-        squares = PolyCollection(list(tiles(frame.points) * length.factor), array=field.values * shown.factor,
+        shown = display_for(field.unit, float(np.abs(known).max()) if known.count() else 0.0)
+        squares = PolyCollection(list(tiles(frame) * length.factor), array=known * shown.factor,
                                  cmap=COLOUR_MAP, edgecolors="face", linewidths=0.4, rasterized=True)  # fmt: skip
         squares.autoscale_None()
         axes.add_collection(squares)
         axes.autoscale_view()
         # A column a few points wide is drawn wider than it is: its map is about the other direction.
-        width, height = np.maximum(np.ptp(frame.points, axis=0), spacing(frame.points))
+        width, height = np.maximum(np.ptp(frame.points, axis=0), frame.edges.max())
         axes.set_aspect("equal" if 1 / 6 < width / height < 6 else "auto", anchor="N")
+        arrows = draw_arrows(axes, series, frame, length.factor)
         lowest, highest = squares.get_clim()
         if highest - lowest < 1e-9 * max(abs(lowest), abs(highest)):  # round-off is not a pattern
             squares.set_clim(*sorted((0.999 * lowest, 1.001 * highest)))
@@ -165,24 +184,26 @@ def map_panel(series: FrameSeries, frame: Frame, field: Field) -> Panel:
         across, up = series.cut.names
         at = f", {series.cut.note(3)}" if series.cut.note() else ""
         axes.set(title=f"{sentence(words(field.name))} at t = {time_label(frame.time)}",
-                 xlabel=f"{across} [{length.unit}]{at}", ylabel=f"{up} [{length.unit}]")  # fmt: skip
+                 xlabel=f"{across} [{length.unit}]{at}{arrows}", ylabel=f"{up} [{length.unit}]")  # fmt: skip
         # An inset follows the map's own box, which the equal aspect makes smaller than its cell.
         bar = axes.figure.colorbar(squares, cax=axes.inset_axes((1.04, 0.0, 0.035, 1.0)))
         bar.outline.set_visible(False)
         bar.ax.grid(False)
+        bar.ax.ticklabel_format(useOffset=False)
         bar.set_label(f"[{shown.unit}]" if shown.unit else "")
 
     return draw
 
 
 def field_rank(field: Field) -> int:
-    """Pressure tells most; where it is missing, damage, then displacement."""
-    telling = ("pressure", "damage", "displacement (magnitude)")
+    """Pressure tells most; where it is missing, damage, then displacement and velocity."""
+    telling = ("pressure", "damage", "displacement (magnitude)", "velocity (magnitude)")
     return next((i for i, word in enumerate(telling) if word in field.name), len(telling))
 
 
 def map_panels(run: Run, count: int) -> list[Panel]:
-    found = [(series, series.frames[-1], field) for series in run.series for field in series.frames[-1].fields]
+    """Of the last frame; of all points together where there are several sets."""
+    found = [(series, series.frames[-1], field) for series in run.series[:1] for field in series.frames[-1].fields]
     found.sort(key=lambda entry: field_rank(entry[2]))
     return [map_panel(*entry) for entry in found[:count]]
 

@@ -11,7 +11,7 @@ function decoded(text) {
 function framePoints(series, place) {
   while (!series.frames[place].points) --place;
   const frame = series.frames[place];
-  frame.decodedPoints ??= { x: decoded(frame.points.x), y: decoded(frame.points.y) };
+  frame.decodedPoints ??= { x: decoded(frame.points.x), y: decoded(frame.points.y), edge: decoded(frame.points.edge) };
   return frame.decodedPoints;
 }
 
@@ -21,12 +21,15 @@ function extent(series) {
   series.frames.forEach((frame, place) => {
     if (!frame.points) return;
     const points = framePoints(series, place);
-    for (const x of points.x) { box.left = Math.min(box.left, x); box.right = Math.max(box.right, x); }
-    for (const y of points.y) { box.bottom = Math.min(box.bottom, y); box.top = Math.max(box.top, y); }
+    points.edge.forEach((edge, i) => {
+      box.left = Math.min(box.left, points.x[i] - edge / 2);
+      box.right = Math.max(box.right, points.x[i] + edge / 2);
+      box.bottom = Math.min(box.bottom, points.y[i] - edge / 2);
+      box.top = Math.max(box.top, points.y[i] + edge / 2);
+    });
   });
-  const half = series.spacing / 2;
-  series.extent = { left: box.left - half, right: box.right + half, bottom: box.bottom - half, top: box.top + half };
-  return series.extent;
+  series.extent = box;
+  return box;
 }
 
 function rangeOf(values) {
@@ -35,6 +38,9 @@ function rangeOf(values) {
   return low <= high ? { low, high } : { low: 0, high: 0 };
 }
 
+// What a point is drawn in where the field is not there, as the water's velocity in rock.
+const ABSENT = "#9aa5b1";
+
 class PointMap {
   constructor(canvas, colours) {
     this.canvas = canvas;
@@ -42,11 +48,15 @@ class PointMap {
   }
 
   // Shows `field` of frame `place`; returns the range of its colours, in SI.
-  show(series, place, field, ownRange) {
+  show(series, place, field, ownRange, arrows) {
     this.series = series;
     this.points = framePoints(series, place);
-    const text = series.frames[place].values[field.name];
-    this.values = text === undefined ? new Float32Array(this.points.x.length).fill(NaN) : decoded(text);
+    const valuesOf = (name) => {
+      const text = series.frames[place].values[name];
+      return text === undefined ? new Float32Array(this.points.x.length).fill(NaN) : decoded(text);
+    };
+    this.values = valuesOf(field.name);
+    this.velocity = arrows ? series.velocity.map(valuesOf) : [];
     this.range = ownRange ? rangeOf(this.values) : { low: field.low, high: field.high };
     this.draw();
     return this.range;
@@ -71,18 +81,51 @@ class PointMap {
     const context = this.canvas.getContext("2d");
     const box = extent(this.series);
     const { low, high } = this.range;
-    const half = this.series.spacing / 2;
     const column = (x) => Math.round(this.offset + (x - box.left) * this.scale);
     const row = (y) => Math.round((box.top - y) * this.scale);
     for (let i = 0; i < this.values.length; ++i) {
       const v = this.values[i];
-      if (!Number.isFinite(v)) continue;
+      const half = this.points.edge[i] / 2;
       const share = high > low ? (v - low) / (high - low) : 0.5;
-      context.fillStyle = this.colours[Math.round(255 * Math.min(Math.max(share, 0), 1))];
+      context.fillStyle = Number.isFinite(v) ? this.colours[Math.round(255 * Math.min(Math.max(share, 0), 1))] : ABSENT;
       const left = column(this.points.x[i] - half), top = row(this.points.y[i] + half);
       const right = column(this.points.x[i] + half), bottom = row(this.points.y[i] - half);
       context.fillRect(left, top, Math.max(right - left, 1), Math.max(bottom - top, 1));
     }
+    this.fastest = 0;
+    if (this.velocity.length) this.drawArrows(context, box);
+  }
+
+  // Velocities of one point in each cell of a grid; the fastest is two cells long.
+  drawArrows(context, box) {
+    const [u, v] = this.velocity;
+    const speed = u.map((_, i) => Math.hypot(u[i], v[i]));
+    const fastest = rangeOf(speed).high;
+    this.fastest = fastest;
+    if (!(fastest > 0)) return;
+    const cell = Math.max(box.right - box.left, box.top - box.bottom) / 30;
+    const taken = new Set();
+    context.strokeStyle = styleValue("--ink");
+    context.lineWidth = 1.2 * this.ratio;
+    context.beginPath();
+    for (let i = 0; i < speed.length; ++i) {
+      const { x, y } = this.points;
+      const key = `${Math.floor(x[i] / cell)} ${Math.floor(y[i] / cell)}`;
+      if (!(speed[i] > 0.01 * fastest) || taken.has(key)) continue;
+      taken.add(key);
+      const length = (2 * cell * this.scale) / fastest;
+      const from = [this.offset + (x[i] - box.left) * this.scale, (box.top - y[i]) * this.scale];
+      const to = [from[0] + u[i] * length, from[1] - v[i] * length];
+      const back = Math.atan2(from[1] - to[1], from[0] - to[0]);
+      const head = 0.3 * Math.hypot(to[0] - from[0], to[1] - from[1]);
+      context.moveTo(...from);
+      context.lineTo(...to);
+      for (const turn of [-0.45, 0.45]) {
+        context.moveTo(...to);
+        context.lineTo(to[0] + head * Math.cos(back + turn), to[1] + head * Math.sin(back + turn));
+      }
+    }
+    context.stroke();
   }
 
   // Index of the point under the mouse, or -1.
@@ -90,9 +133,9 @@ class PointMap {
     const box = extent(this.series);
     const x = box.left + (event.offsetX * this.ratio - this.offset) / this.scale;
     const y = box.top - (event.offsetY * this.ratio) / this.scale;
-    let nearest = -1, least = this.series.spacing ** 2;
+    let nearest = -1, least = 1;
     for (let i = 0; i < this.points.x.length; ++i) {
-      const distance = (this.points.x[i] - x) ** 2 + (this.points.y[i] - y) ** 2;
+      const distance = ((this.points.x[i] - x) ** 2 + (this.points.y[i] - y) ** 2) / this.points.edge[i] ** 2;
       if (distance < least) { least = distance; nearest = i; }
     }
     return nearest;

@@ -29,7 +29,7 @@ class MapControls {
     drawBar(element("bar"));
     fillSelect(element("series"), run.series.map((series) => series.name));
     element("series").addEventListener("change", () => this.chooseSeries());
-    for (const name of ["field", "rescale"]) element(name).addEventListener("change", () => this.show());
+    for (const name of ["field", "rescale", "arrows"]) element(name).addEventListener("change", () => this.show());
     element("time").addEventListener("input", () => this.show());
     element("play").addEventListener("click", () => this.play(!this.timer));
     element("canvas").addEventListener("mousemove", (event) => this.read(event));
@@ -46,6 +46,7 @@ class MapControls {
     element("time").max = String(this.series.frames.length - 1);
     element("time").value = element("time").max;
     element("note").textContent = this.series.note;
+    element("arrows").closest("label").hidden = !this.series.velocity.length;
     this.show();
   }
 
@@ -57,7 +58,8 @@ class MapControls {
 
   show() {
     if (!this.field) return;
-    const range = this.map.show(this.series, this.place, this.field, element("rescale").checked);
+    const [ownRange, arrows] = ["rescale", "arrows"].map((name) => element(name).checked);
+    const range = this.map.show(this.series, this.place, this.field, ownRange, arrows);
     element("high").textContent = this.shown(range.high);
     element("low").textContent = this.shown(range.low);
     element("now").textContent = `t = ${this.label}`;
@@ -68,7 +70,8 @@ class MapControls {
   describe() {
     const { low, high } = rangeOf(this.map.values);
     const range = `from ${this.shown(low)} to ${this.shown(high)}`;
-    element("readout").textContent = `${this.field.label} at t = ${this.label}: ${range}.`;
+    const arrows = this.map.fastest > 0 ? ` Longest arrow: ${shortNumber(this.map.fastest)} m/s.` : "";
+    element("readout").textContent = `${this.field.label} at t = ${this.label}: ${range}.${arrows}`;
   }
 
   read(event) {

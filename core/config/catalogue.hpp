@@ -9,13 +9,14 @@ namespace perifrac {
 
 /// The keys of one top-level section of a scene (of the top level itself: `section` is empty).
 /// With a `type`, they are those of one implementation: the section gets a key `type` that picks
-/// it. A section with a key `type`, so made or declared, is off where the scene leaves it out; the
-/// keys of all others hold in every scene.
+/// it. A section with a key `type`, so made or declared, and an optional one are off where the
+/// scene leaves them out; the keys of all others hold in every scene.
 struct SectionKeys {
   std::string section;
   std::string type;
   KeyTable keys;
-  std::string meaning{};  ///< of the type
+  std::string meaning{};  ///< of the type, or of the section
+  bool optional = false;
 };
 
 /// All that a scene may say. The top level must declare an integer `dimension`, 2 or 3.

@@ -104,6 +104,7 @@ KeyNode build_key_tree(const Catalogue& catalogue) {
       choice.declarations[0].key.words.push_back(entry.type);
     }
     for (const Key& key : entry.keys) declare(root, entry.section, entry.type, key);
+    if (entry.optional) declared_child(root, entry.section).optional = true;
   }
   check(root);
   return root;

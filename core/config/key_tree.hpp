@@ -25,6 +25,7 @@ struct KeyNode {
   std::string name;                         ///< `*`: any name; `[]`: the items of a list
   std::vector<Declaration> declarations{};  ///< several where `type` or Key::when differ
   std::vector<KeyNode> children{};          ///< in the order of declaration
+  bool optional = false;                    ///< a section whose keys hold only where it is written
 
   bool is_list() const { return children.size() == 1 && children[0].name == "[]"; }
   bool takes_any_name() const { return children.size() == 1 && children[0].name == "*"; }

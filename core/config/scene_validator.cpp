@@ -121,8 +121,10 @@ class Validator {
       return;
     }
     if (written != nullptr) require_map(*written, keys, path, type);
+    if (is_section && written == nullptr && (keys.optional || keys.has_types())) {
+      return;  // what the scene does not call for
+    }
     if (is_section && keys.has_types()) {
-      if (written == nullptr) return;  // a physics that the scene does not call for
       type = section_type(keys, *written, path);
     } else if (written == nullptr && !keys.holds_under(type)) {
       return;

@@ -84,6 +84,7 @@ class Body {
   mutable std::vector<SharedFamily> families_;
 };
 
+/// Null in a scene without a body: what is held then only says the scene's dimension.
 using AnyBody = std::variant<std::shared_ptr<const Body<2>>, std::shared_ptr<const Body<3>>>;
 
 /// The keys of the scene's `body` section.

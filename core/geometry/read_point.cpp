@@ -7,10 +7,18 @@
 
 namespace perifrac {
 
+namespace {
+
+struct Nearest {
+  Index point;
+  double distance;  ///< [m]
+  bool is_inside;
+};
+
 template <int D>
-Index read_point(const Section& section, const std::string& path, const Body<D>& body) {
+Nearest find_nearest(const std::vector<double>& place, const Body<D>& body) {
   Vector<D> x;
-  std::ranges::copy(section.numbers(path), x.begin());
+  std::ranges::copy(place, x.begin());
   const Index point = body.nearest_point(x);
   const Vector<D> nearest = body.points().at(point);
   double r2 = 0.0;
@@ -18,14 +26,29 @@ Index read_point(const Section& section, const std::string& path, const Body<D>&
   // A corner of the body is half a spacing along every axis from its point, or, where points are
   // no lattice, about one.
   const double cell = (body.irregular() ? 1.0 : 0.5) * std::sqrt(double{D}) * body.spacing();
-  if (std::sqrt(r2) > cell * (1.0 + 1e-9)) {
-    section.fail(path,
-                 fmt::format("lies {:.3g} m from the nearest point of the body", std::sqrt(r2)),
-                 "a place inside the body");
-  }
-  return point;
+  return {point, std::sqrt(r2), std::sqrt(r2) <= cell * (1.0 + 1e-9)};
 }
 
+}  // namespace
+
+template <int D>
+bool is_inside(const Section& section, const std::string& path, const Body<D>& body) {
+  return find_nearest(section.numbers(path), body).is_inside;
+}
+
+template <int D>
+Index read_point(const Section& section, const std::string& path, const Body<D>& body) {
+  const Nearest nearest = find_nearest(section.numbers(path), body);
+  if (!nearest.is_inside) {
+    section.fail(path,
+                 fmt::format("lies {:.3g} m from the nearest point of the body", nearest.distance),
+                 "a place inside the body");
+  }
+  return nearest.point;
+}
+
+template bool is_inside<2>(const Section&, const std::string&, const Body<2>&);
+template bool is_inside<3>(const Section&, const std::string&, const Body<3>&);
 template Index read_point<2>(const Section&, const std::string&, const Body<2>&);
 template Index read_point<3>(const Section&, const std::string&, const Body<3>&);
 

@@ -18,8 +18,11 @@ struct ModuleType {
   std::string meaning;
   KeyTable keys;  ///< of the section, `type` apart
 
-  /// Makes the module that the section describes; throws InputError.
+  /// Makes the module that the section describes; throws InputError. `body` is null in a scene
+  /// without one.
   std::unique_ptr<PhysicsModule> (*make)(const Section& section, const AnyBody& body);
+
+  bool needs_body = true;  ///< is refused in a scene without one
 };
 
 }  // namespace perifrac

@@ -58,12 +58,22 @@ std::array<int, D> cells_of_box(const Section& section, const std::string& path,
 }
 
 template <int D>
+Points<D> box_points(const Section& section, const std::string& path, double spacing) {
+  Points<D> points = box_lattice<D>(cells_of_box<D>(section, path, spacing), spacing);
+  const std::vector<double> from = section.numbers(path + ".from");
+  for (int a = 0; a < D; ++a) {
+    for (double& x : points.position[a]) x += from[a];
+  }
+  return points;
+}
+
+template <int D>
 FluidPoints<D> read_fluid_blocks(const Section& section, const FluidProperties& fluid,
                                  double spacing, const Vector<D>& gravity) {
   FluidPoints<D> points;
   for (std::size_t k = 0; k < section.count("blocks"); ++k) {
     const std::string path = fmt::format("blocks[{}]", k);
-    const Points<D> lattice = box_lattice<D>(cells_of_box<D>(section, path, spacing), spacing);
+    const Points<D> lattice = box_points<D>(section, path, spacing);
     const std::vector<double> from = section.numbers(path + ".from");
     const std::vector<double> to = section.numbers(path + ".to");
     const double top = fluid.density_at(section.number(path + ".pressure"));
@@ -73,14 +83,13 @@ FluidPoints<D> read_fluid_blocks(const Section& section, const FluidProperties& 
       std::ranges::copy(section.numbers(path + ".velocity"), velocity.begin());
     }
     for (Index i = 0; i < lattice.size(); ++i) {
-      Vector<D> x = lattice.at(i);
+      const Vector<D> x = lattice.at(i);
       double below = 0.0;
       for (int a = 0; a < D; ++a) {
-        x[a] += from[a];
         below += gravity[a] * (x[a] - (gravity[a] > 0.0 ? from[a] : to[a]));
       }
       const double density = hydrostatic ? fluid.density_below(top, below) : top;
-      points.add(x, velocity, density, density * lattice.volume[i], points.count);
+      points.add(x, velocity, density, density * lattice.volume[i]);
     }
   }
   return points;
@@ -90,6 +99,8 @@ template FluidPoints<2> read_fluid_blocks<2>(const Section&, const FluidProperti
                                              const Vector<2>&);
 template FluidPoints<3> read_fluid_blocks<3>(const Section&, const FluidProperties&, double,
                                              const Vector<3>&);
+template Points<2> box_points<2>(const Section&, const std::string&, double);
+template Points<3> box_points<3>(const Section&, const std::string&, double);
 template std::array<int, 2> cells_of_box<2>(const Section&, const std::string&, double);
 template std::array<int, 3> cells_of_box<3>(const Section&, const std::string&, double);
 

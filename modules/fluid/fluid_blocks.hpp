@@ -16,6 +16,10 @@ template <int D>
 FluidPoints<D> read_fluid_blocks(const Section& section, const FluidProperties& fluid,
                                  double spacing, const Vector<D>& gravity);
 
+/// Points at the centres of the cells of the box `path`.from, `path`.to. Throws InputError.
+template <int D>
+Points<D> box_points(const Section& section, const std::string& path, double spacing);
+
 /// Cells of `spacing` along each axis of the box `path`.from, `path`.to; throws InputError where
 /// they are no whole number.
 template <int D>

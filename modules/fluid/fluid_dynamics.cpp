@@ -7,6 +7,9 @@
 #include "core/operators/bond_traversal.hpp"
 #include "modules/fluid/fluid_momentum.hpp"
 #include "modules/fluid/merge_points.hpp"
+#include "modules/fluid/particle_shifting.hpp"
+#include "modules/fluid/split_points.hpp"
+#include "modules/fluid/wall_contact.hpp"
 
 namespace perifrac {
 
@@ -16,13 +19,22 @@ namespace {
 /// longer and cost more in every step.
 constexpr double skin = 0.25;
 
+/// A point with less than this part of a lattice's shape tensor lies at a free surface: fluid there
+/// bears no tension. A flat surface has .64, the row below it .95.
+constexpr double surface_shape = 0.8;
+
+/// Continuity alone forgets how densely points lie, and in long flows with free surfaces they end
+/// up ever closer. Where their shape tensor is above a lattice's, density is raised at this rate
+/// times the excess, in units of sound speed over spacing, so that pressure parts them again.
+constexpr double unpacking_rate = 0.01;
+
 }  // namespace
 
 template <int D>
 FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vector<D> gravity,
                                 Period<D> period, FluidPoints<D> points, WallCloud<D> cloud,
                                 std::vector<RigidWall<D>> rigid, std::size_t body_points,
-                                std::unique_ptr<WallForce<D>> wall_force,
+                                FluidOpenings<D> openings, std::unique_ptr<WallForce<D>> wall_force,
                                 std::unique_ptr<Exchange<D>> exchange)
     : fluid_(fluid),
       scheme_(scheme),
@@ -31,6 +43,7 @@ FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vecto
       points_(std::move(points)),
       cloud_(std::move(cloud)),
       rigid_(std::move(rigid)),
+      openings_(std::move(openings)),
       wall_force_(std::move(wall_force)),
       exchange_(std::move(exchange)),
       body_points_(body_points),
@@ -88,10 +101,14 @@ void FluidDynamics<D>::step(double t, double length) {
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
   merge_small_points(middle);
-  find_moments<D>(points_, walls_, neighbours_, fluid_, influence_, gravity_, moments_);
+  find_moments<D>(points_, walls_, neighbours_, influence_, moments_);
   find_densities(middle, length);
   kick(middle, length);
+  if (scheme_.shifting > 0.0) {
+    shift_points<D>(scheme_.shifting, length, scheme_.spacing, moments_, points_);
+  }
   drift(0.5 * length);
+  if (openings_.inlets) insert_points(t + length);
 }
 
 template <int D>
@@ -156,6 +173,8 @@ void FluidDynamics<D>::place_walls(double t) {
 
 template <int D>
 void FluidDynamics<D>::find_neighbours(double t) {
+  if (openings_.outlets) openings_.outlets->remove(points_);
+  openings_.domain.remove(points_, t);
   for (int a = 0; a < D; ++a) wall_position_[a].resize(cloud_.size());
   for (Index w = 0; w < cloud_.size(); ++w) {
     const Vector<D> moved = wall_displacement(w, t);
@@ -228,10 +247,15 @@ void FluidDynamics<D>::find_densities(double t, double length) {
   images.copy(moments_.trace, points_.count);
   const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
   if (exchange_) exchange_mass(t, length);
+  if (openings_.inlets) openings_.inlets->feed(points_, t, length);
+  const double unpacking = unpacking_rate * fluid_.sound_speed() / scheme_.spacing;
   for (auto& values : stress_) values.resize(points_.count);
   for_each_point(points_.count, [&](Index i) {
     double& rho = points_.density[i];
+    const double packing = moments_.trace[i] / moments_.bulk_trace;
     rho += length * (diffusivity * moments_.diffusion[i] - rho * moments_.divergence[i]);
+    rho += length * unpacking * rho * std::max(0.0, packing - 1.0);
+    if (packing < surface_shape) rho = std::max(rho, fluid_.density);
     points_.volume[i] = points_.mass[i] / rho;
     points_.pressure[i] = fluid_.pressure(rho);
     for (int k = 0; k < symmetric_size<D>; ++k) {
@@ -254,6 +278,7 @@ void FluidDynamics<D>::kick(double t, double length) {
       points_.velocity[a][i] += length * (force_[a][i] / points_.mass[i] + gravity_[a]);
     }
   }
+  stop_at_walls<D>(view, length, points_, walls_);
   std::vector<Vector<D>> on_rigid(rigid_.size(), Vector<D>{});
   for (Index k = 0; k < walls_.count; ++k) {
     const Index w = walls_.wall[k];
@@ -271,6 +296,33 @@ void FluidDynamics<D>::kick(double t, double length) {
 }
 
 template <int D>
+void FluidDynamics<D>::insert_points(double t) {
+  const double heaviest = 1.5 * openings_.inlets->point_mass();
+  Index added = split_points<D>(points_, walls_, neighbours_, heaviest);
+  added += openings_.inlets->make_points(
+      points_, [&](const Vector<D>& x) { return is_free_of_walls(x, t); });
+  if (added == 0) return;
+  neighbours_.forget();
+  ++version_;
+}
+
+/// No wall point is nearer than half a spacing.
+template <int D>
+bool FluidDynamics<D>::is_free_of_walls(const Vector<D>& x, double t) const {
+  const double reach = 0.5 * scheme_.spacing;
+  for (Index w = 0; w < cloud_.size(); ++w) {
+    const Vector<D> moved = wall_displacement(w, t);
+    double square = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double y = cloud_.position[a][w] + moved[a] - x[a];
+      square += y * y;
+    }
+    if (square < reach * reach) return false;
+  }
+  return true;
+}
+
+template <int D>
 void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   constexpr std::array axes = {"x", "y", "z"};
   points_.trim();
@@ -283,8 +335,10 @@ void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("density", points_.density);
   visitor.visit("mass", points_.mass);
   visitor.visit("id", points_.id);
+  visitor.visit("next_id", points_.next_id);
   points_.count = static_cast<Index>(points_.mass.size());
   if (!exchange_keeps_mass()) visitor.visit("made_mass", made_mass_);
+  openings_.visit_state(visitor);
   for (RigidWall<D>& wall : rigid_) {
     if (wall.motion == RigidWall<D>::Motion::fixed) continue;
     visitor.enter(wall.name);

@@ -8,6 +8,7 @@
 #include "core/state/state_visitor.hpp"
 #include "modules/fluid/exchange.hpp"
 #include "modules/fluid/fluid_neighbours.hpp"
+#include "modules/fluid/fluid_openings.hpp"
 #include "modules/fluid/rigid_wall.hpp"
 #include "modules/fluid/wall_force.hpp"
 
@@ -29,8 +30,8 @@ class FluidDynamics {
  public:
   FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vector<D> gravity, Period<D> period,
                 FluidPoints<D> points, WallCloud<D> cloud, std::vector<RigidWall<D>> rigid,
-                std::size_t body_points, std::unique_ptr<WallForce<D>> wall_force,
-                std::unique_ptr<Exchange<D>> exchange);
+                std::size_t body_points, FluidOpenings<D> openings,
+                std::unique_ptr<WallForce<D>> wall_force, std::unique_ptr<Exchange<D>> exchange);
 
   void set_body(const BodyInput& body) { body_ = body; }
   void set_pores(const PoreInput& pores);
@@ -55,12 +56,13 @@ class FluidDynamics {
   FluidPoints<D>& points() { return points_; }
   const FluidPoints<D>& points() const { return points_; }
   const std::vector<RigidWall<D>>& rigid_walls() const { return rigid_; }
+  const FluidOpenings<D>& openings() const { return openings_; }
   const FluidProperties& fluid() const { return fluid_; }
   const FluidScheme& scheme() const { return scheme_; }
   const Vector<D>& gravity() const { return gravity_; }
   std::int64_t searches() const { return neighbours_.searches(); }
   std::int64_t merged() const { return merged_; }  ///< points, in this process
-  /// Raised where points were reordered.
+  /// Raised where points were reordered, or their number changed.
   std::uint64_t version() const { return version_; }
 
  private:
@@ -74,6 +76,8 @@ class FluidDynamics {
   void exchange_mass(double t, double length);
   void find_densities(double t, double length);
   void kick(double t, double length);
+  void insert_points(double t);
+  bool is_free_of_walls(const Vector<D>& x, double t) const;
   FluidStep<D> step_view() const;
 
   FluidProperties fluid_;
@@ -83,6 +87,7 @@ class FluidDynamics {
   FluidPoints<D> points_;
   WallCloud<D> cloud_;
   std::vector<RigidWall<D>> rigid_;
+  FluidOpenings<D> openings_;
   std::unique_ptr<WallForce<D>> wall_force_;
   std::unique_ptr<Exchange<D>> exchange_;
   BodyInput body_;

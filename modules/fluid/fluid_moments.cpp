@@ -8,7 +8,8 @@ namespace perifrac {
 namespace {
 
 /// Where fluid points lie on one side only, or are few, the shape tensor is lifted to this part of
-/// that of an endless lattice in its weakest direction.
+/// that of an endless lattice in its weakest direction,
+/// and its trace to this part.
 constexpr double least_shape = 0.4;
 
 template <int D>
@@ -18,6 +19,38 @@ SymmetricTensor<D> regularised(SymmetricTensor<D> shape, double bulk) {
   if (missing <= 0.0) return shape;
   for (int a = 0; a < D; ++a) shape[symmetric_index<D>(a, a)] += missing;
   return shape;
+}
+
+/// What neighbours add up to, in this order: shape tensor, velocity differences times bonds,
+/// density differences, the same times bonds, bonds.
+template <int D>
+struct Sums {
+  static constexpr int velocity = symmetric_size<D>;
+  static constexpr int difference = velocity + D * D;
+  static constexpr int slope = difference + 1;
+  static constexpr int bonds = slope + D;
+  static constexpr int size = bonds + D;
+  using Values = std::array<double, size>;
+
+  static SymmetricTensor<D> shape(const Values& sum) {
+    SymmetricTensor<D> shape;
+    std::copy_n(sum.begin(), symmetric_size<D>, shape.begin());
+    return shape;
+  }
+};
+
+/// The density's differences beyond its slope, so that a surface does not make it diffuse.
+template <int D>
+double difference_beyond_slope(const typename Sums<D>::Values& sum,
+                               const SymmetricTensor<D>& inverse_shape) {
+  double result = sum[Sums<D>::difference];
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b < D; ++b) {
+      result -= sum[Sums<D>::bonds + a] * sum[Sums<D>::slope + b] *
+                inverse_shape[symmetric_index<D>(std::min(a, b), std::max(a, b))];
+    }
+  }
+  return result;
 }
 
 /// Sum of omega V term(r^2) over an endless lattice.
@@ -53,16 +86,16 @@ double lattice_weight(double spacing, double horizon) {
 
 template <int D>
 void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
-                  const FluidNeighbours<D>& neighbours, const FluidProperties& fluid,
-                  const GaussianInfluence& influence, const Vector<D>& gravity,
+                  const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
                   FluidMoments<D>& moments) {
   constexpr int shape_size = symmetric_size<D>;
-  constexpr int size = shape_size + D * D;
+  constexpr int wall_bonds = shape_size + D * D;
+  constexpr int wall_size = wall_bonds + D;
   const double bulk = moments.bulk_trace / D;
-  const double at_rest = fluid.density * fluid.density / fluid.bulk_modulus;
   for (auto& values : moments.inverse_shape) values.resize(points.count);
   moments.trace.resize(points.count);
   moments.divergence.resize(points.count);
+  for (auto& values : moments.crowding) values.resize(points.count);
   moments.diffusion.resize(points.count);
 
   const auto add_moments = [](const Vector<D>& y, const Vector<D>& v, double weight, auto& sum) {
@@ -76,48 +109,53 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
     const Vector<D> x = points.at(i);
     Vector<D> v;
     for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
-    auto sum = sum_over_neighbours<size + 1, D>(
+    auto sum = sum_over_neighbours<Sums<D>::size, D>(
         neighbours.fluid_of_fluid(), i, x, points.position, influence,
         [&](Index j, const Vector<D>& y, double omega) {
           const double weight = omega * points.volume[j];
           Vector<D> relative;
-          double depth = 0.0;
-          for (int a = 0; a < D; ++a) {
-            relative[a] = points.velocity[a][j] - v[a];
-            depth += gravity[a] * y[a];
-          }
-          std::array<double, size + 1> term;
+          for (int a = 0; a < D; ++a) relative[a] = points.velocity[a][j] - v[a];
+          typename Sums<D>::Values term;
           add_moments(y, relative, weight, term);
-          term[size] = weight * (points.density[j] - points.density[i] - at_rest * depth);
+          const double difference = weight * (points.density[j] - points.density[i]);
+          term[Sums<D>::difference] = difference;
+          for (int a = 0; a < D; ++a) {
+            term[Sums<D>::slope + a] = difference * y[a];
+            term[Sums<D>::bonds + a] = weight * y[a];
+          }
           return term;
         });
+    const auto fluid_inverse = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
+    moments.diffusion[i] =
+        2.0 * D / moments.bulk_trace * difference_beyond_slope<D>(sum, fluid_inverse);
+    auto inverted = fluid_inverse;
     if (neighbours.walls_of_fluid().offset[i] < neighbours.walls_of_fluid().offset[i + 1]) {
-      const auto wall =
-          sum_over_neighbours<size, D>(neighbours.walls_of_fluid(), i, x, walls.position, influence,
-                                       [&](Index w, const Vector<D>& y, double omega) {
-                                         Vector<D> relative;
-                                         for (int a = 0; a < D; ++a)
-                                           relative[a] = walls.velocity[a][w] - v[a];
-                                         std::array<double, size> term;
-                                         add_moments(y, relative, omega * walls.volume[w], term);
-                                         return term;
-                                       });
-      for (int k = 0; k < size; ++k) sum[k] += wall[k];
+      const auto wall = sum_over_neighbours<wall_size, D>(
+          neighbours.walls_of_fluid(), i, x, walls.position, influence,
+          [&](Index w, const Vector<D>& y, double omega) {
+            Vector<D> relative;
+            for (int a = 0; a < D; ++a) relative[a] = walls.velocity[a][w] - v[a];
+            std::array<double, wall_size> term;
+            const double weight = omega * walls.volume[w];
+            add_moments(y, relative, weight, term);
+            for (int a = 0; a < D; ++a) term[wall_bonds + a] = weight * y[a];
+            return term;
+          });
+      for (int k = 0; k < wall_bonds; ++k) sum[k] += wall[k];
+      for (int a = 0; a < D; ++a) sum[Sums<D>::bonds + a] += wall[wall_bonds + a];
+      inverted = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
     }
-    SymmetricTensor<D> shape;
-    std::copy_n(sum.begin(), shape_size, shape.begin());
-    moments.trace[i] = trace<D>(shape);
-    const SymmetricTensor<D> inverted = inverse<D>(regularised<D>(shape, bulk));
+    moments.trace[i] = std::max(trace<D>(Sums<D>::shape(sum)), least_shape * moments.bulk_trace);
     double divergence = 0.0;
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b < D; ++b) {
-        divergence += sum[shape_size + a * D + b] *
+        divergence += sum[Sums<D>::velocity + a * D + b] *
                       inverted[symmetric_index<D>(std::min(a, b), std::max(a, b))];
       }
     }
     for (int k = 0; k < shape_size; ++k) moments.inverse_shape[k][i] = inverted[k];
     moments.divergence[i] = divergence;
-    moments.diffusion[i] = 2.0 * D / moments.bulk_trace * sum[size];
+    for (int a = 0; a < D; ++a) moments.crowding[a][i] = sum[Sums<D>::bonds + a] / bulk;
   });
 }
 
@@ -126,10 +164,8 @@ template double lattice_trace<3>(double, double);
 template double lattice_weight<2>(double, double);
 template double lattice_weight<3>(double, double);
 template void find_moments<2>(const FluidPoints<2>&, const NearWalls<2>&, const FluidNeighbours<2>&,
-                              const FluidProperties&, const GaussianInfluence&, const Vector<2>&,
-                              FluidMoments<2>&);
+                              const GaussianInfluence&, FluidMoments<2>&);
 template void find_moments<3>(const FluidPoints<3>&, const NearWalls<3>&, const FluidNeighbours<3>&,
-                              const FluidProperties&, const GaussianInfluence&, const Vector<3>&,
-                              FluidMoments<3>&);
+                              const GaussianInfluence&, FluidMoments<3>&);
 
 }  // namespace perifrac

@@ -14,9 +14,11 @@ template <int D>
 struct FluidMoments {
   /// Inverse of the shape tensor (paper Eqs 19, 23), regularised.
   std::array<std::vector<double>, symmetric_size<D>> inverse_shape;
-  std::vector<double> trace;       ///< of the shape tensor, as it is, with images
+  std::vector<double> trace;       ///< of the shape tensor, likewise, with images
   std::vector<double> divergence;  ///< of the velocity (paper Eq 20) [1/s]
-  std::vector<double> diffusion;   ///< Laplacian of the density beyond that of rest [kg/m^5]
+  std::vector<double> diffusion;   ///< Laplacian of the density, its slope left out [kg/m^5]
+  /// Which way neighbours are denser: their mean bond over the shape of a lattice [1/m].
+  std::array<std::vector<double>, D> crowding;
 
   /// tr M of an endless lattice: what a point inside the fluid has, and every wall point is given.
   double bulk_trace = 0.0;
@@ -31,11 +33,10 @@ template <int D>
 double lattice_weight(double spacing, double horizon);
 
 /// Finds the moments of all points from positions, velocities, densities and volumes, those of
-/// images and near walls included. `gravity` [m/s^2]: fluid at rest does not diffuse.
+/// images and near walls included.
 template <int D>
 void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
-                  const FluidNeighbours<D>& neighbours, const FluidProperties& fluid,
-                  const GaussianInfluence& influence, const Vector<D>& gravity,
+                  const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
                   FluidMoments<D>& moments);
 
 }  // namespace perifrac

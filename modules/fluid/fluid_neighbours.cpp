@@ -95,8 +95,7 @@ template <int D>
 void FluidNeighbours<D>::wrap(FluidPoints<D>& points) const {
   for (int a = 0; a < D; ++a) {
     if (!period_.ends[a]) continue;
-    const auto [low, high] = *period_.ends[a];
-    for (double& x : points.position[a]) x -= (high - low) * std::floor((x - low) / (high - low));
+    for (double& x : points.position[a]) x = period_.wrapped(a, x);
   }
 }
 

@@ -28,12 +28,13 @@ struct FluidPoints {
   std::vector<double> density;                  ///< [kg/m^3], with images
   std::vector<double> mass;                     ///< [kg; in 2D kg/m]
   std::vector<std::int64_t> id;                 ///< given at birth, never twice
+  std::int64_t next_id = 0;
 
   // Found anew in every step.
   std::vector<double> volume;    ///< mass / density, with images
   std::vector<double> pressure;  ///< [Pa], with images
 
-  void add(const Vector<D>& x, const Vector<D>& v, double rho, double m, std::int64_t name) {
+  void add(const Vector<D>& x, const Vector<D>& v, double rho, double m) {
     trim();
     for (int a = 0; a < D; ++a) {
       position[a].push_back(x[a]);
@@ -41,8 +42,31 @@ struct FluidPoints {
     }
     density.push_back(rho);
     mass.push_back(m);
-    id.push_back(name);
+    id.push_back(next_id++);
     ++count;
+  }
+
+  /// Takes out the points for which gone(i) holds, called once each in order; returns how many.
+  template <class Gone>
+  Index remove_if(Gone&& gone) {
+    trim();
+    Index kept = 0;
+    for (Index i = 0; i < count; ++i) {
+      if (gone(i)) continue;
+      for (int a = 0; a < D; ++a) {
+        position[a][kept] = position[a][i];
+        velocity[a][kept] = velocity[a][i];
+      }
+      density[kept] = density[i];
+      mass[kept] = mass[i];
+      id[kept++] = id[i];
+    }
+    const Index removed = count - kept;
+    count = kept;
+    mass.resize(kept);
+    id.resize(kept);
+    trim();
+    return removed;
   }
 
   /// Forgets the images, so that arrays hold the points alone.

@@ -44,6 +44,7 @@ struct FluidScheme {
   double
       artificial_viscosity;  ///< least kinematic viscosity between fluid points, over c_0 spacing
   double density_diffusion;  ///< diffusivity of density, over c_0 spacing
+  double shifting;           ///< of points away from crowds (particle_shifting.hpp)
   double courant;            ///< step over spacing / (c + |v|)
   double merge_below = 0.0;  ///< mass under which points are merged, over that of a new one
 };

@@ -6,6 +6,7 @@
 
 #include "modules/fluid/bond_flux_exchange.hpp"
 #include "modules/fluid/fluid_blocks.hpp"
+#include "modules/fluid/fluid_scene_checks.hpp"
 #include "modules/fluid/fluid_walls.hpp"
 #include "modules/fluid/paper_exchange.hpp"
 #include "modules/fluid/semi_lagrangian_fluid.hpp"
@@ -67,9 +68,11 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                      .horizon = section.number("horizon_ratio") * spacing,
                      .artificial_viscosity = section.number("artificial_viscosity"),
                      .density_diffusion = section.number("density_diffusion"),
+                     .shifting = section.number("particle_shifting"),
                      .courant = section.number("courant")};
   Vector<D> gravity{};
   if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
+  check_fluid_scene(section, body.get(), spacing);
   FluidPoints<D> points = read_fluid_blocks<D>(section, fluid, spacing, gravity);
   const bool body_slips = body && scene.word("interface.slip") == "free";
   FluidWalls<D> walls =
@@ -78,10 +81,12 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   auto exchange = make_exchange<D>(scene, body.get(), walls, scheme);
   const bool exchanges = exchange != nullptr;
   if (exchanges) scheme.merge_below = scene.number("interface.merge_below");
+  FluidOpenings<D> openings = read_fluid_openings(section, body.get(), walls, fluid, spacing);
   auto dynamics = std::make_unique<FluidDynamics<D>>(
       fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
-      std::move(walls.rigid), body_points, std::make_unique<TwoSidedWallForce<D>>(),
-      std::move(exchange));
+      std::move(walls.rigid), body_points, std::move(openings),
+      std::make_unique<TwoSidedWallForce<D>>(), std::move(exchange));
+  check_fluid_steps(section, *dynamics);
   return std::make_unique<SemiLagrangianFluid<D>>(std::move(body), exchanges, std::move(dynamics));
 }
 
@@ -129,12 +134,17 @@ KeyTable fluid_keys() {
        .fallback = "0.5",
        .meaning =
            "Diffusivity of density, over sound speed times spacing; keeps pressures smooth."},
+      {.path = "particle_shifting",
+       .range = "[0, 10]",
+       .fallback = "4",
+       .meaning = "How strongly points move away from crowds as they flow; 0: not at all."},
       {.path = "courant",
        .range = "(0, 0.6]",
        .fallback = "0.35",
        .meaning = "Step over the time that sound and fluid take across a spacing."},
   };
-  for (const KeyTable& part : {fluid_block_keys(), fluid_wall_keys()}) {
+  for (const KeyTable& part :
+       {fluid_block_keys(), fluid_wall_keys(), inlet_keys(), outlet_keys(), fluid_domain_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;
@@ -170,9 +180,11 @@ ModuleType semi_lagrangian_type() {
           .name = "semi_lagrangian",
           .meaning = "Free fluid on moving points, weakly compressible; explicit.",
           .keys = fluid_keys(),
-          .make = [](const Section& section, const AnyBody& any) {
-            return std::visit([&](const auto& body) { return make_fluid(section, body); }, any);
-          }};
+          .make =
+              [](const Section& section, const AnyBody& any) {
+                return std::visit([&](const auto& body) { return make_fluid(section, body); }, any);
+              },
+          .needs_body = false};
 }
 
 }  // namespace perifrac

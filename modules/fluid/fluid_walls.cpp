@@ -36,6 +36,9 @@ void add_point(WallCloud<D>& cloud, const Vector<D>& x, int axis, int direction,
 /// The rigid walls outside the closed faces of a box. Walls go on past open faces and corners.
 template <int D>
 void read_container(const Section& section, double spacing, double horizon, FluidWalls<D>& walls) {
+  for (const char* corner : {"container.from", "container.to"}) {
+    if (!section.has(corner)) section.fail(corner, "missing", "a corner of the box");
+  }
   const std::array<int, D> cells = cells_of_box<D>(section, "container", spacing);
   const Vector<D> from = vector_at<D>(section, "container.from");
   const Vector<D> to = vector_at<D>(section, "container.to");
@@ -86,7 +89,6 @@ void read_container(const Section& section, double spacing, double horizon, Flui
 template <int D>
 void read_wall(const Section& section, const std::string& path, double spacing, double horizon,
                FluidWalls<D>& walls) {
-  const std::array<int, D> cells = cells_of_box<D>(section, path, spacing);
   const Vector<D> from = vector_at<D>(section, path + ".from");
   const Vector<D> to = vector_at<D>(section, path + ".to");
   using Motion = typename RigidWall<D>::Motion;
@@ -106,13 +108,12 @@ void read_wall(const Section& section, const std::string& path, double spacing, 
   }
   wall.schedule = read_schedule(section, path);
   const bool slips = section.word(path + ".slip") == "free";
-  const Points<D> lattice = box_lattice<D>(cells, spacing);
+  const Points<D> lattice = box_points<D>(section, path, spacing);
   for (Index i = 0; i < lattice.size(); ++i) {
-    Vector<D> x = lattice.at(i);
+    const Vector<D> x = lattice.at(i);
     int axis = 0, direction = 0;
     double depth = std::numeric_limits<double>::infinity();
     for (int a = 0; a < D; ++a) {
-      x[a] += from[a];
       const double low = x[a] - from[a], high = to[a] - x[a];
       if (low < depth) axis = a, direction = -1, depth = low;
       if (high < depth) axis = a, direction = +1, depth = high;
@@ -124,39 +125,51 @@ void read_wall(const Section& section, const std::string& path, double spacing, 
   walls.rigid.push_back(std::move(wall));
 }
 
+template <int D>
+Positions<D> spans(const std::array<std::vector<double>, D>& position) {
+  Positions<D> result;
+  for (int a = 0; a < D; ++a) result[a] = position[a];
+  return result;
+}
+
 /// Takes out the container's points that lie where the body is.
 template <int D>
 void leave_room_for_body(const Body<D>& body, double spacing, WallCloud<D>& cloud) {
-  const auto spans = [](const std::array<std::vector<double>, D>& position) {
-    Positions<D> result;
-    for (int a = 0; a < D; ++a) result[a] = position[a];
-    return result;
-  };
   CellGrid<D> grid;
-  grid.build(spans(body.points().position), body.spacing() + spacing);
+  grid.build(spans<D>(body.points().position), body.spacing() + spacing);
   Neighbours near;
   const double reach = 0.5 * (body.spacing() + spacing) * (1.0 - 1e-9);
-  grid.find(spans(cloud.position), reach, near);
-  Index kept = 0;
+  grid.find(spans<D>(cloud.position), reach, near);
+  cloud.remove_if([&](Index w) { return near.offset[w] < near.offset[w + 1]; });
+}
+
+/// Where fixed walls lie in each other takes out the later one's points; others may not.
+template <int D>
+void remove_doubles(const Section& section, double spacing, FluidWalls<D>& walls) {
+  WallCloud<D>& cloud = walls.cloud;
+  CellGrid<D> grid;
+  const double reach = 0.5 * spacing * (1.0 - 1e-6);
+  grid.build(spans<D>(cloud.position), reach);
+  Neighbours near;
+  grid.find_others(cloud.size(), reach, near);
+  std::vector<bool> doubled(cloud.size(), false);
   for (Index w = 0; w < cloud.size(); ++w) {
-    if (near.offset[w] < near.offset[w + 1]) continue;
-    for (int a = 0; a < D; ++a) {
-      cloud.position[a][kept] = cloud.position[a][w];
-      cloud.normal[a][kept] = cloud.normal[a][w];
+    for (Index k = near.offset[w]; k < near.offset[w + 1]; ++k) {
+      const Index own = cloud.owner[w], other = cloud.owner[near.other[k]];
+      if (own <= other) continue;
+      doubled[w] = true;
+      using Motion = typename RigidWall<D>::Motion;
+      if (walls.rigid[own].motion == Motion::fixed && walls.rigid[other].motion == Motion::fixed) {
+        continue;
+      }
+      const Index first = section.has("container") ? 1 : 0;
+      section.fail(fmt::format("walls[{}]", own - first),
+                   fmt::format("wall '{}' lies in wall '{}', and one of them moves",
+                               walls.rigid[own].name, walls.rigid[other].name),
+                   "walls that touch at most");
     }
-    cloud.depth[kept] = cloud.depth[w];
-    cloud.volume[kept] = cloud.volume[w];
-    cloud.slips[kept] = cloud.slips[w];
-    cloud.owner[kept++] = cloud.owner[w];
   }
-  for (int a = 0; a < D; ++a) {
-    cloud.position[a].resize(kept);
-    cloud.normal[a].resize(kept);
-  }
-  cloud.depth.resize(kept);
-  cloud.volume.resize(kept);
-  cloud.slips.resize(kept);
-  cloud.owner.resize(kept);
+  cloud.remove_if([&](Index w) { return doubled[w]; });
 }
 
 /// Depth below the nearest flat face, or below a curved one, and that face's normal.
@@ -189,12 +202,10 @@ KeyTable fluid_wall_keys() {
       {.path = "container.from",
        .type = KeyType::vector,
        .unit = "m",
-       .required = true,
        .meaning = "Low corner of a box that rigid walls hold the fluid in."},
       {.path = "container.to",
        .type = KeyType::vector,
        .unit = "m",
-       .required = true,
        .meaning = "Its high corner, whole spacings away."},
       {.path = "container.slip",
        .type = KeyType::word,
@@ -265,6 +276,7 @@ FluidWalls<D> read_fluid_walls(const Section& section, const Body<D>* body, bool
   for (std::size_t k = 0; k < section.count("walls"); ++k) {
     read_wall(section, fmt::format("walls[{}]", k), spacing, horizon, walls);
   }
+  remove_doubles(section, spacing, walls);
   walls.cloud.rigid_count = walls.cloud.size();
   if (body != nullptr) add_body(*body, body_slips, horizon, walls.cloud);
   return walls;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,17 @@ struct Period {
       if (end) return true;
     }
     return false;
+  }
+
+  /// x, brought back between the ends along `axis`.
+  double wrapped(int axis, double x) const {
+    if (!ends[axis]) return x;
+    const auto [low, high] = *ends[axis];
+    return x - (high - low) * std::floor((x - low) / (high - low));
+  }
+  Vector<D> wrapped(Vector<D> x) const {
+    for (int a = 0; a < D; ++a) x[a] = wrapped(a, x[a]);
+    return x;
   }
 };
 

@@ -23,6 +23,18 @@ SemiLagrangianFluid<D>::SemiLagrangianFluid(std::shared_ptr<const Body<D>> body,
   add_port(Quantity::mass, {"fluid_mass", total("kg"), out, extensive});
   add_port(Quantity::free_mass,
            {"free_fluid_mass", total("kg"), out, extensive, PortRole::mass_stored});
+  const FluidOpenings<D>& openings = dynamics_->openings();
+  if (openings.inlets) {
+    add_port(Quantity::injected_mass,
+             {"injected_fluid_mass", total("kg"), out, extensive, PortRole::mass_gained});
+  }
+  if (openings.may_lose()) {
+    add_port(Quantity::removed_mass,
+             {"removed_fluid_mass", total("kg"), out, extensive, PortRole::mass_gained});
+  }
+  if (openings.domain.may_lose()) {
+    add_port(Quantity::points_left, {"points_left", "1", out, extensive, PortRole::work});
+  }
   add_port(Quantity::steps, {"integrator_steps", "1", out, extensive, PortRole::work});
   add_port(Quantity::searches, {"neighbour_searches", "1", out, extensive, PortRole::work});
   if (body_) {
@@ -99,7 +111,14 @@ std::vector<double>& SemiLagrangianFluid<D>::field(Quantity quantity) {
 
 template <int D>
 double SemiLagrangianFluid<D>::scalar(Quantity quantity, PortId) {
+  const FluidOpenings<D>& openings = dynamics_->openings();
   switch (quantity) {
+    case Quantity::injected_mass:
+      return openings.inlets->injected();
+    case Quantity::removed_mass:
+      return -openings.domain.removed() - (openings.outlets ? openings.outlets->removed() : 0.0);
+    case Quantity::points_left:
+      return static_cast<double>(openings.domain.points_left());
     case Quantity::free_mass: {
       double sum = 0.0;
       for (const double mass : dynamics_->points().mass) sum += mass;

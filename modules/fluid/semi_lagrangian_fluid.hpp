@@ -14,7 +14,8 @@ namespace perifrac {
 ///
 /// Ports, on its own moving points: out `fluid_pressure` [Pa], `fluid_velocity` [m/s],
 /// `fluid_density` [kg/m^3], `fluid_mass` [kg]; on its own: `free_fluid_mass` [kg],
-/// `<name>_displacement` [m] of each piston, and counts of work.
+/// `<name>_displacement` [m] of each piston, and counts of work; with inlets `injected_fluid_mass`
+/// [kg], where points may be removed `removed_fluid_mass` [kg, negative] and `points_left`.
 /// On the points of a body, if there is one: in `displacement` [m]; out `interface_impulse` [N s],
 /// what the fluid gave each point over the window. If it has pores: in `pore_pressure` [Pa],
 /// `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg], likewise.
@@ -40,6 +41,9 @@ class SemiLagrangianFluid final : public PhysicsModule {
     density,
     mass,
     free_mass,
+    injected_mass,
+    removed_mass,
+    points_left,
     steps,
     searches,
     displacement,

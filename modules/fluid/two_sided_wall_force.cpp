@@ -18,7 +18,7 @@ Vector<D> pair_force(const FluidStep<D>& step, const NearWalls<D>& walls, Index 
   Vector<D> force;
   for (int a = 0; a < D; ++a) {
     double stress = -walls.pressure[w] / bulk * y[a];
-    for (int b = 0; b < D; ++b) {
+    for (int b = 0; b < D && points.pressure[i] > 0.0; ++b) {
       stress += step.stress[symmetric_index<D>(std::min(a, b), std::max(a, b))][i] * y[b];
     }
     force[a] = volumes * stress;

@@ -22,7 +22,38 @@ struct WallCloud {
   Index rigid_count = 0;
 
   Index size() const { return static_cast<Index>(volume.size()); }
+
+  Vector<D> at(Index w) const {
+    Vector<D> x;
+    for (int a = 0; a < D; ++a) x[a] = position[a][w];
+    return x;
+  }
   bool is_rigid(Index w) const { return w < rigid_count; }
+
+  /// Takes out the points for which gone(w) holds.
+  template <class Gone>
+  void remove_if(Gone&& gone) {
+    Index kept = 0;
+    for (Index w = 0; w < size(); ++w) {
+      if (gone(w)) continue;
+      for (int a = 0; a < D; ++a) {
+        position[a][kept] = position[a][w];
+        normal[a][kept] = normal[a][w];
+      }
+      depth[kept] = depth[w];
+      volume[kept] = volume[w];
+      slips[kept] = slips[w];
+      owner[kept++] = owner[w];
+    }
+    for (int a = 0; a < D; ++a) {
+      position[a].resize(kept);
+      normal[a].resize(kept);
+    }
+    depth.resize(kept);
+    volume.resize(kept);
+    slips.resize(kept);
+    owner.resize(kept);
+  }
 };
 
 /// The points of a wall cloud that fluid is near, with what fluid points need of them; and behind

@@ -15,6 +15,7 @@ Reference reference_of(const double& state) {
   Reference reference("made_up", "Twice the time", 10.0);
   const auto exact = [](double t) { return 2.0 * t; };
   reference.add(Reference::History{"state at home", "Pa", [&] { return state; }, exact});
+  reference.add(Reference::Rate{"rate at home", "Pa/s", 0});
   reference.add(Reference::Error{"state_error", [&](double t) { return state - 2.0 * t; }});
   reference.add(Reference::Profile{"state along x",
                                    "Pa",
@@ -45,6 +46,8 @@ TEST(Reference, TellsWhatWasRecorded) {
   EXPECT_EQ(summary["histories"][0]["time"], nlohmann::json({1.0, 2.0}));
   EXPECT_EQ(summary["histories"][0]["computed"], nlohmann::json({5.0, 8.0}));
   EXPECT_EQ(summary["histories"][0]["exact"], nlohmann::json({2.0, 4.0}));
+  EXPECT_EQ(summary["histories"][1], nlohmann::json::parse(R"({
+      "name": "rate at home", "unit": "Pa/s", "time": [1.5], "computed": [3.0], "exact": [2.0]})"));
   EXPECT_EQ(summary["profiles"][0]["computed"], nlohmann::json::parse("[[8.0, 9.0]]"));
   EXPECT_EQ(summary["profiles"][0]["exact"], nlohmann::json::parse("[[2.0, 6.0]]"));
   EXPECT_EQ(summary["quantities"][0]["max_error"], 0.5);

@@ -19,6 +19,7 @@ import matplotlib.image
 import numpy as np
 
 import mandel_run
+import puddle_run
 
 REPORT = Path(__file__).resolve().parents[3] / "app" / "report"
 sys.path.insert(0, str(REPORT))
@@ -156,7 +157,8 @@ class WithReference(unittest.TestCase):
             self.assertEqual("points" in frame, number == 0, "points are written once while they rest")
             if number == 0:
                 np.testing.assert_array_equal(floats(frame["points"]["x"]), points[:, 0])
-        self.assertAlmostEqual(series["spacing"], 1.0, places=9)
+        np.testing.assert_allclose(floats(series["frames"][0]["points"]["edge"]), 1.0, rtol=1e-6)
+        self.assertEqual(series["velocity"], [], "points at rest have no arrows")
         units = {field["name"]: (field["unit"], field["factor"]) for field in series["fields"]}
         self.assertEqual(units["pore_pressure"], ("Pa", 1.0))
         self.assertEqual(units["displacement x"][0], "µm")
@@ -182,6 +184,61 @@ class WithoutReference(ReportTest):
         self.assertEqual([c["title"] for c in page.data["charts"]], ["Pore pressure", "Fluid mass"])
         self.assertEqual([s["label"] for s in page.data["charts"][0]["series"]], list(mandel_run.PROBES))
         self.assertNotIn("errors", page.sections)
+
+
+class MovingPoints(ReportTest):
+    """A body and a fluid whose points move and vanish, in one picture."""
+
+    def series(self) -> dict[str, dict]:
+        puddle_run.write_run(self.folder)
+        return {series["name"]: series for series in self.reported().data["series"]}
+
+    def test_all_points_stand_in_one_map_on_one_scale(self) -> None:
+        series = self.series()
+        self.assertEqual(list(series), ["all", "body", "fluid"])
+        fields = {field["name"]: field for field in series["all"]["fields"]}
+        self.assertIn("pressure", fields)
+        self.assertNotIn("displacement x", fields, "the body's alone, and it does not move")
+        for step, frame in enumerate(series["all"]["frames"]):
+            self.assertEqual(frame["time"], puddle_run.TIMES[step])
+            points = np.concatenate([puddle_run.ground(), puddle_run.water(step)])
+            np.testing.assert_allclose(floats(frame["points"]["x"]), points[:, 0], rtol=1e-6)
+            np.testing.assert_allclose(floats(frame["points"]["y"]), points[:, 1], rtol=1e-6)
+            pressure = np.concatenate([puddle_run.pore_pressure(step), puddle_run.fluid_pressure(step)])
+            np.testing.assert_allclose(floats(frame["values"]["pressure"]), pressure, rtol=1e-6)
+            speed = floats(frame["values"]["velocity x"])
+            rock = len(puddle_run.ground())
+            self.assertTrue(np.all(np.isnan(speed[:rock])))
+            np.testing.assert_allclose(speed[rock:], puddle_run.velocity(step)[:, 0], rtol=1e-6)
+        pressures = [puddle_run.pore_pressure(3).max(), *(puddle_run.fluid_pressure(s).max() for s in range(4))]
+        self.assertEqual(fields["pressure"]["high"], max(pressures))
+
+    def test_fluid_points_are_as_large_as_their_volume(self) -> None:
+        for step, frame in enumerate(self.series()["fluid"]["frames"]):
+            edge = puddle_run.SPACING * np.sqrt(1.0 - 0.2 * step)
+            self.assertEqual(len(floats(frame["points"]["x"])), len(puddle_run.water(step)))
+            np.testing.assert_allclose(floats(frame["points"]["edge"]), edge, rtol=1e-6)
+
+    def test_arrows_are_of_what_moves(self) -> None:
+        series = self.series()
+        self.assertEqual(series["body"]["velocity"], [])
+        self.assertEqual(series["fluid"]["velocity"], ["fluid_velocity x", "fluid_velocity y"])
+        self.assertEqual(series["all"]["velocity"], ["velocity x", "velocity y"])
+
+    def test_picture_and_history_show_them(self) -> None:
+        puddle_run.write_run(self.folder)
+        page = self.reported()
+        check_picture(self, self.folder / "report.png")
+        drawn = page.chart("Free fluid mass, fluid mass stored, fluid mass gained")["series"]
+        self.assertEqual(drawn[0]["y"][0], puddle_run.mass(0) * 24)
+
+    def test_fluid_that_has_drained_away(self) -> None:
+        puddle_run.write_run(self.folder)
+        nothing = {name: (unit, values[:0]) for name, (unit, values) in puddle_run.fluid_frame(3)[1].items()}
+        puddle_run.write_frame(self.folder / "frames" / "fluid_000003.hdf", np.empty((0, 3)), nothing)
+        series = {series["name"]: series for series in self.reported().data["series"]}
+        self.assertEqual(len(floats(series["fluid"]["frames"][-1]["points"]["x"])), 0)
+        self.assertEqual(len(floats(series["all"]["frames"][-1]["points"]["x"])), len(puddle_run.ground()))
 
 
 class BrokenRuns(ReportTest):
@@ -289,7 +346,8 @@ class Parts(unittest.TestCase):
         ):
             axes = [np.arange(n) * 0.25 for n in counts]
             points = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
-            chosen, cut = frames.middle_layer(points)
+            cut = frames.middle_cut(points)
+            chosen = frames.layer(points, cut)
             self.assertEqual((cut.names, cut.normal, cut.at), (names, normal, at))
             self.assertEqual(len(chosen), len(points) // counts[normal])
             self.assertTrue(np.all(points[chosen, normal] == at))
@@ -297,7 +355,8 @@ class Parts(unittest.TestCase):
     def test_plane_body_is_shown_whole(self) -> None:
         points = np.zeros((5, 3))
         points[:, 0] = np.arange(5)
-        chosen, cut = frames.middle_layer(points)
+        cut = frames.middle_cut(points)
+        chosen = frames.layer(points, cut)
         self.assertEqual((len(chosen), cut.names, cut.at, cut.note()), (5, ("x", "y"), None, ""))
 
     def test_frames_are_chosen_evenly_and_end_with_the_last(self) -> None:

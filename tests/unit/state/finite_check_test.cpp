@@ -19,7 +19,7 @@ const std::vector<double> y{5.0, 6.0, 7.5};
 const PointSet points{.name = "solid", .dimension = 2, .position = {x, y}, .count = 3};
 
 std::optional<NumericalError> check(std::vector<double> values, const PointSet* on = nullptr) {
-  FiniteCheck checker(12.5, on);
+  FiniteCheck checker(12.5, [on](std::string_view) { return on; });
   try {
     checker.enter("solid");
     checker.visit("displacement", values);
@@ -56,6 +56,33 @@ TEST(FiniteCheck, FindsBothInfinities) {
 TEST(FiniteCheck, GivesThePlaceInAnArrayThatIsNotOnPoints) {
   EXPECT_EQ(check({0, 0, 0, nan}, &points)->place(), "value 3 of 4");
   EXPECT_EQ(check({nan})->place(), "value 0 of 1");
+}
+
+TEST(FiniteCheck, NamesThePointsOfTheModuleThatIsVisited) {
+  const std::vector<double> far{10.0, 11.0, 12.0, 13.0};
+  const PointSet four{.name = "fluid", .dimension = 2, .position = {far, far}, .count = 4};
+  FiniteCheck checker(0.0, [&](std::string_view field) {
+    return field.starts_with("fluid/") ? &four : field.starts_with("solid/") ? &points : nullptr;
+  });
+  const auto place_in = [&](const std::string& module, std::vector<double> values) {
+    checker.enter(module);
+    try {
+      checker.visit("density", values);
+    } catch (const NumericalError& error) {
+      checker.leave();
+      return error.place();
+    }
+    return std::string("nowhere");
+  };
+  const std::vector<double> fourth{0, 0, 0, nan, 0, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(place_in("solid", fourth), "point 0 at (0, 5) m");
+  EXPECT_EQ(place_in("fluid", fourth), "point 3 at (13, 13) m");
+  EXPECT_EQ(place_in("coupling", fourth), "value 3 of 12");
+}
+
+TEST(FiniteCheck, TakesASetWithoutPoints) {
+  const PointSet none{.name = "fluid", .dimension = 2, .count = 0};
+  EXPECT_EQ(check({nan}, &none)->place(), "value 0 of 1");
 }
 
 TEST(FiniteCheck, ChecksScalars) {

@@ -1,0 +1,66 @@
+#include "app/references/water_on_plate_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/references/beam_section.hpp"
+#include "app/references/comparison.hpp"
+#include "app/references/free_fluid.hpp"
+#include "app/references/rock.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const std::string problem = "water on a clamped plate";
+
+/// Deflection in the middle [m], downwards negative.
+double read_deflection(const Section& scene) {
+  if (scene.integer("dimension") != 2) {
+    scene.fail("reference.type", "the plate is plane", "dimension: 2");
+  }
+  require_word(scene, problem, "body.shape", {"box"});
+  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
+  for (const char* const side : {"left", "right"}) {
+    require_word(scene, problem, std::string("solid.boundary.") + side + ".type", {"fixed"});
+  }
+  require_absent(scene, problem,
+                 {"pore_flow", "solid.regions", "solid.body_force", "solid.boundary.top",
+                  "solid.boundary.bottom", "fluid.walls", "fluid.inlets", "fluid.outlets"});
+  const std::vector<double> size = scene.numbers("body.size");
+  const Box water = read_block(scene, problem);
+  if (water.from != std::vector{0.0, size[1]} || water.to[0] != size[0]) {
+    scene.fail("reference.type", "this scene is not " + problem,
+               "a block of fluid that covers the body");
+  }
+  const double gravity = read_weight(scene, problem);
+  const double load = read_free_fluid(scene).pressure_at_rest(water.size(1), gravity) +
+                      scene.number("solid.density") * gravity * size[1];
+  const ElasticRock plate = read_elastic_rock(scene);
+  const BeamSection section(plate.youngs_modulus(), plate.poisson_ratio(), size[1]);
+  const double length = size[0] + outside(scene, "left") + outside(scene, "right");
+  return -section.clamped_deflection(length, load);
+}
+
+}  // namespace
+
+std::unique_ptr<Reference> make_water_on_plate_reference(const Section& scene,
+                                                         const Simulation& simulation) {
+  const double deflection = read_deflection(scene);
+  const std::vector<double> size = scene.numbers("body.size");
+  const PointSet& points = simulation.points();
+  const Field displacement = field_named(*simulation.manager, "displacement");
+  const std::vector<Index> row = points_along(scene, points, 0, {0.0, 0.5 * size[1]});
+  const Index middle = nearest_in(row, points, 0, 0.5 * size[0]);
+  const auto computed = value_at(displacement, middle, 1);
+
+  auto reference =
+      std::make_unique<Reference>("water_on_plate", "Timoshenko's beam, clamped at both ends", 0.0);
+  reference->add(Reference::Error{"deflection_error",
+                                  [=](double) { return std::abs(computed() / deflection - 1.0); }});
+  reference->add(Reference::History{"deflection at the middle", "m", computed,
+                                    [=](double) { return deflection; }});
+  return reference;
+}
+
+}  // namespace perifrac

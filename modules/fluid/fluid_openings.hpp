@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+
+#include "modules/fluid/fluid_domain.hpp"
+#include "modules/fluid/fluid_walls.hpp"
+#include "modules/fluid/inlets.hpp"
+#include "modules/fluid/outlets.hpp"
+
+namespace perifrac {
+
+/// Where fluid comes in and goes out.
+template <int D>
+struct FluidOpenings {
+  std::unique_ptr<Inlets<D>> inlets;    ///< null: none
+  std::unique_ptr<Outlets<D>> outlets;  ///< null: none
+  FluidDomain<D> domain;
+
+  /// Some points may be removed in the course of a run.
+  bool may_lose() const { return outlets || domain.may_lose(); }
+
+  void visit_state(StateVisitor& visitor) {
+    if (inlets) inlets->visit_state(visitor);
+    if (outlets) outlets->visit_state(visitor);
+    domain.visit_state(visitor);
+  }
+};
+
+/// Reads them. `body` may be null. Throws InputError.
+template <int D>
+FluidOpenings<D> read_fluid_openings(const Section& section, const Body<D>* body,
+                                     const FluidWalls<D>& walls, const FluidProperties& fluid,
+                                     double spacing);
+
+}  // namespace perifrac
