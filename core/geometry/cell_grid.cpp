@@ -7,11 +7,15 @@
 
 #include <omp.h>
 
+#include "core/geometry/append_near.hpp"
+
 namespace perifrac {
 
 namespace {
 
 constexpr double farthest_cell = 1e18;  // differences of cells fit 64 bits
+
+constexpr Index no_place = -1;
 
 bool is_cell(double c) { return std::abs(c) < farthest_cell; }
 
@@ -71,7 +75,7 @@ void CellGrid<D>::sort_into_cells(const Positions<D>& position) {
   for (int a = 0; a < D; ++a) cells *= size_[a];
   first_.assign(cells + 1, 0);
   cell_.resize(n);
-  order_.resize(n);
+  order_.resize(n + packet_size);  // a run's last packet reads on
   place_.resize(n);
 #pragma omp parallel for schedule(static)
   for (Index i = 0; i < n; ++i) {
@@ -106,15 +110,15 @@ void CellGrid<D>::build(const Positions<D>& position, double cell) {
   choose_size(position[0].size());
   sort_into_cells(position);
   for (int a = 0; a < D; ++a) {
-    sorted_[a].resize(n);
+    sorted_[a].resize(n + packet_size);
     for (Index k = 0; k < n; ++k) sorted_[a][k] = position[a][order_[k]];
   }
 }
 
 template <int D>
-template <class Use>
-void CellGrid<D>::for_runs_near(const Vector<D>& x, Use&& use) const {
+typename CellGrid<D>::Runs CellGrid<D>::runs_near(const Vector<D>& x) const {
   const Cell centre = cell_of(x);
+  Runs runs;
   const int rows = D == 2 ? 3 : 9;
   for (int row = 0; row < rows; ++row) {
     std::int64_t flat = 0;
@@ -123,40 +127,58 @@ void CellGrid<D>::for_runs_near(const Vector<D>& x, Use&& use) const {
     }
     flat *= size_[0];
     if (centre[0] >= 1 && centre[0] + 1 < size_[0]) {
-      use(first_[flat + centre[0] - 1], first_[flat + centre[0] + 2]);
+      runs.add(first_[flat + centre[0] - 1], first_[flat + centre[0] + 2]);
       continue;
     }
     for (std::int64_t c = centre[0] - 1; c <= centre[0] + 1; ++c) {
       const std::int64_t cell = flat + wrapped(c, 0);
-      use(first_[cell], first_[cell + 1]);
+      runs.add(first_[cell], first_[cell + 1]);
     }
   }
+  return runs;
 }
 
 template <int D>
-template <class Target, class Self>
-void CellGrid<D>::search(Index targets, double reach, Target&& target, Self&& self,
-                         Neighbours& result) const {
+void CellGrid<D>::append_points_near(const Vector<D>& x, double reach, Index self,
+                                     std::vector<Index>& found, std::size_t& count) const {
+  const Runs runs = runs_near(x);
+  std::size_t most = count + packet_size;
+  for (int r = 0; r < runs.count; ++r) most += runs.last[r] - runs.first[r];
+  if (found.size() < most) found.resize(2 * most);
+  const Vector<D> at = x;
+  const Index *const order = order_.data(), *const begin = found.data();
+  std::array<const double*, D> sorted;
+  for (int a = 0; a < D; ++a) sorted[a] = sorted_[a].data();
+  Index* end = found.data() + count;
+  for (int r = 0; r < runs.count; ++r) {
+    for (Index k = runs.first[r]; k < runs.last[r]; k += packet_size) {
+      Packet r_square{};
+      for (int a = 0; a < D; ++a) {
+        const Packet y = load(sorted[a] + k) - at[a];
+        r_square += y * y;
+      }
+      end += append_near(r_square, reach * reach, runs.last[r] - k, self - k, order + k, end);
+    }
+  }
+  count = end - begin;
+}
+
+template <int D>
+template <class Target, class Place>
+void CellGrid<D>::search(Index targets, double reach, Target&& target, Place&& place_of_self,
+                         Neighbours& result) {
   assert(reach * inverse_width_ <= 1.0 + 1e-12);
   result.offset.resize(targets + 1);
   result.offset[0] = 0;
+  found_.resize(std::max(found_.size(), static_cast<std::size_t>(omp_get_max_threads())));
 #pragma omp parallel
   {
-    thread_local std::vector<Index> found;  // of all targets of this thread
+    std::vector<Index>& found = found_[omp_get_thread_num()];
     const auto [begin, end] = share_of_thread(targets);
     std::size_t count = 0;
     for (Index i = begin; i < end; ++i) {
       const std::size_t before = count;
-      const Vector<D> x = target(i);
-      for_runs_near(x, [&](Index first, Index last) {
-        if (found.size() < count + (last - first)) found.resize(2 * count + (last - first));
-        for (Index k = first; k < last; ++k) {
-          double r2 = 0.0;
-          for (int a = 0; a < D; ++a) r2 += (sorted_[a][k] - x[a]) * (sorted_[a][k] - x[a]);
-          found[count] = order_[k];
-          count += (r2 < reach * reach) & (order_[k] != self(i));
-        }
-      });
+      append_points_near(target(i), reach, place_of_self(i), found, count);
       const std::span<Index> own(found.data() + before, count - before);
       if (!std::ranges::is_sorted(own)) std::ranges::sort(own);
       result.offset[i + 1] = static_cast<Index>(own.size());
@@ -172,17 +194,17 @@ void CellGrid<D>::search(Index targets, double reach, Target&& target, Self&& se
 }
 
 template <int D>
-void CellGrid<D>::find(const Positions<D>& targets, double reach, Neighbours& result) const {
+void CellGrid<D>::find(const Positions<D>& targets, double reach, Neighbours& result) {
   search(
       static_cast<Index>(targets[0].size()), reach, [&](Index i) { return at<D>(targets, i); },
-      [](Index) { return Index{-1}; }, result);
+      [](Index) { return no_place; }, result);
 }
 
 template <int D>
-void CellGrid<D>::find_others(Index targets, double reach, Neighbours& result) const {
+void CellGrid<D>::find_others(Index targets, double reach, Neighbours& result) {
   search(
-      targets, reach, [&](Index i) { return at<D>(sorted_, place_[i]); }, [](Index i) { return i; },
-      result);
+      targets, reach, [&](Index i) { return at<D>(sorted_, place_[i]); },
+      [&](Index i) { return place_[i]; }, result);
 }
 
 template class CellGrid<2>;

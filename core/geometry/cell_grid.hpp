@@ -25,13 +25,13 @@ class CellGrid {
 
   /// The points in the order of their cells, rows along the first axis: sorted so, points close in
   /// space are close in memory.
-  std::span<const Index> order() const { return order_; }
+  std::span<const Index> order() const { return std::span(order_).first(place_.size()); }
 
   /// The grid's points nearer than `reach` <= cell [m] to each target.
-  void find(const Positions<D>& targets, double reach, Neighbours& result) const;
+  void find(const Positions<D>& targets, double reach, Neighbours& result);
 
   /// The same for the grid's own first `targets` points, themselves left out.
-  void find_others(Index targets, double reach, Neighbours& result) const;
+  void find_others(Index targets, double reach, Neighbours& result);
 
  private:
   using Cell = std::array<std::int64_t, D>;
@@ -41,13 +41,31 @@ class CellGrid {
   void choose_size(std::size_t points);
   void sort_into_cells(const Positions<D>& position);
 
-  /// Calls use(first, last) for runs of places in order() that hold all points nearer than a cell.
-  template <class Use>
-  void for_runs_near(const Vector<D>& x, Use&& use) const;
+  /// Runs of places in order(): first[r] .. last[r].
+  struct Runs {
+    static constexpr int most = D == 2 ? 9 : 27;
+    int count = 0;
+    std::array<Index, most> first, last;
 
-  /// `target(i)` gives the position of target i, `self(i)` the point that is no neighbour of it.
-  template <class Target, class Self>
-  void search(Index targets, double reach, Target&& target, Self&& self, Neighbours& result) const;
+    void add(Index from, Index to) {
+      first[count] = from;
+      last[count++] = to;
+    }
+  };
+
+  /// All points nearer than a cell, and others.
+  Runs runs_near(const Vector<D>& x) const;
+
+  /// Appends the points nearer than `reach` to the first `count` that were found, the one at the
+  /// place `self` left out.
+  void append_points_near(const Vector<D>& x, double reach, Index self, std::vector<Index>& found,
+                          std::size_t& count) const;
+
+  /// `target(i)` gives the position of target i, `place_of_self(i)` the place of the point that is
+  /// no neighbour of it.
+  template <class Target, class Place>
+  void search(Index targets, double reach, Target&& target, Place&& place_of_self,
+              Neighbours& result);
 
   double inverse_width_ = 1.0;
   Cell low_{};                                 ///< of the cells with finite points
@@ -57,6 +75,7 @@ class CellGrid {
   std::vector<Index> place_;                   ///< place of a point
   std::vector<Index> cell_;                    ///< cell of a point
   std::array<std::vector<double>, D> sorted_;  ///< [m], by place
+  std::vector<std::vector<Index>> found_;      ///< workspace of each thread
 };
 
 }  // namespace perifrac

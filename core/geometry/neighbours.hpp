@@ -12,6 +12,7 @@ struct Neighbours {
   std::vector<Index> other;   ///< ascending for each target
 
   Index target_count() const { return static_cast<Index>(offset.size()) - 1; }
+  Index count(Index target) const { return offset[target + 1] - offset[target]; }
 };
 
 }  // namespace perifrac

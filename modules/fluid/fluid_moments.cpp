@@ -8,8 +8,7 @@ namespace perifrac {
 namespace {
 
 /// Where fluid points lie on one side only, or are few, the shape tensor is lifted to this part of
-/// that of an endless lattice in its weakest direction,
-/// and its trace to this part.
+/// that of an endless lattice in its weakest direction, and its trace to this part.
 constexpr double least_shape = 0.4;
 
 template <int D>
@@ -21,15 +20,16 @@ SymmetricTensor<D> regularised(SymmetricTensor<D> shape, double bulk) {
   return shape;
 }
 
-/// What neighbours add up to, in this order: shape tensor, velocity differences times bonds,
-/// density differences, the same times bonds, bonds.
+/// What neighbours add up to, in this order: shape tensor, bonds times velocity differences, bonds;
+/// and fluid alone: density differences, the same times bonds.
 template <int D>
 struct Sums {
   static constexpr int velocity = symmetric_size<D>;
-  static constexpr int difference = velocity + D * D;
+  static constexpr int bonds = velocity + D * D;
+  static constexpr int of_walls = bonds + D;
+  static constexpr int difference = of_walls;
   static constexpr int slope = difference + 1;
-  static constexpr int bonds = slope + D;
-  static constexpr int size = bonds + D;
+  static constexpr int size = slope + D;
   using Values = std::array<double, size>;
 
   static SymmetricTensor<D> shape(const Values& sum) {
@@ -88,9 +88,6 @@ template <int D>
 void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
                   const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
                   FluidMoments<D>& moments) {
-  constexpr int shape_size = symmetric_size<D>;
-  constexpr int wall_bonds = shape_size + D * D;
-  constexpr int wall_size = wall_bonds + D;
   const double bulk = moments.bulk_trace / D;
   for (auto& values : moments.inverse_shape) values.resize(points.count);
   moments.trace.resize(points.count);
@@ -98,10 +95,13 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
   for (auto& values : moments.crowding) values.resize(points.count);
   moments.diffusion.resize(points.count);
 
-  const auto add_moments = [](const Vector<D>& y, const Vector<D>& v, double weight, auto& sum) {
+  const auto add_moments = [](const PacketVector<D>& y, const PacketVector<D>& relative,
+                              const Packet& weight, auto& sum) {
     for (int a = 0; a < D; ++a) {
-      for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = weight * y[a] * y[b];
-      for (int b = 0; b < D; ++b) sum[shape_size + a * D + b] = weight * v[a] * y[b];
+      const Packet bond = weight * y[a];
+      for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = bond * y[b];
+      for (int b = 0; b < D; ++b) sum[Sums<D>::velocity + a * D + b] = bond * relative[b];
+      sum[Sums<D>::bonds + a] = bond;
     }
   };
 
@@ -109,40 +109,35 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
     const Vector<D> x = points.at(i);
     Vector<D> v;
     for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
+    const double density = points.density[i];
     auto sum = sum_over_neighbours<Sums<D>::size, D>(
         neighbours.fluid_of_fluid(), i, x, points.position, influence,
-        [&](Index j, const Vector<D>& y, double omega) {
-          const double weight = omega * points.volume[j];
-          Vector<D> relative;
-          for (int a = 0; a < D; ++a) relative[a] = points.velocity[a][j] - v[a];
-          typename Sums<D>::Values term;
+        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
+          const Packet weight = omega * gather(points.volume, j);
+          PacketVector<D> relative;
+          for (int a = 0; a < D; ++a) relative[a] = gather(points.velocity[a], j) - v[a];
+          std::array<Packet, Sums<D>::size> term;
           add_moments(y, relative, weight, term);
-          const double difference = weight * (points.density[j] - points.density[i]);
+          const Packet difference = weight * (gather(points.density, j) - density);
           term[Sums<D>::difference] = difference;
-          for (int a = 0; a < D; ++a) {
-            term[Sums<D>::slope + a] = difference * y[a];
-            term[Sums<D>::bonds + a] = weight * y[a];
-          }
+          for (int a = 0; a < D; ++a) term[Sums<D>::slope + a] = difference * y[a];
           return term;
         });
     const auto fluid_inverse = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
     moments.diffusion[i] =
         2.0 * D / moments.bulk_trace * difference_beyond_slope<D>(sum, fluid_inverse);
     auto inverted = fluid_inverse;
-    if (neighbours.walls_of_fluid().offset[i] < neighbours.walls_of_fluid().offset[i + 1]) {
-      const auto wall = sum_over_neighbours<wall_size, D>(
+    if (neighbours.walls_of_fluid().count(i) > 0) {
+      const auto wall = sum_over_neighbours<Sums<D>::of_walls, D>(
           neighbours.walls_of_fluid(), i, x, walls.position, influence,
-          [&](Index w, const Vector<D>& y, double omega) {
-            Vector<D> relative;
-            for (int a = 0; a < D; ++a) relative[a] = walls.velocity[a][w] - v[a];
-            std::array<double, wall_size> term;
-            const double weight = omega * walls.volume[w];
-            add_moments(y, relative, weight, term);
-            for (int a = 0; a < D; ++a) term[wall_bonds + a] = weight * y[a];
+          [&](const Index* w, const PacketVector<D>& y, const Packet& omega) {
+            PacketVector<D> relative;
+            for (int a = 0; a < D; ++a) relative[a] = gather(walls.velocity[a], w) - v[a];
+            std::array<Packet, Sums<D>::of_walls> term;
+            add_moments(y, relative, omega * gather(walls.volume, w), term);
             return term;
           });
-      for (int k = 0; k < wall_bonds; ++k) sum[k] += wall[k];
-      for (int a = 0; a < D; ++a) sum[Sums<D>::bonds + a] += wall[wall_bonds + a];
+      for (int k = 0; k < Sums<D>::of_walls; ++k) sum[k] += wall[k];
       inverted = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
     }
     moments.trace[i] = std::max(trace<D>(Sums<D>::shape(sum)), least_shape * moments.bulk_trace);
@@ -153,7 +148,7 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
                       inverted[symmetric_index<D>(std::min(a, b), std::max(a, b))];
       }
     }
-    for (int k = 0; k < shape_size; ++k) moments.inverse_shape[k][i] = inverted[k];
+    for (int k = 0; k < symmetric_size<D>; ++k) moments.inverse_shape[k][i] = inverted[k];
     moments.divergence[i] = divergence;
     for (int a = 0; a < D; ++a) moments.crowding[a][i] = sum[Sums<D>::bonds + a] / bulk;
   });

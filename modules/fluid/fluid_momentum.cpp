@@ -22,18 +22,20 @@ void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, 
     const double trace = moments.trace[i];
     const auto sum = sum_over_neighbours<D, D>(
         step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, step.influence,
-        [&](Index j, const Vector<D>& y, double omega) {
-          const double weight = omega * points.volume[j];
-          const double drag = viscosity / (trace + moments.trace[j]);
-          Vector<D> term;
-          for (int a = 0; a < D; ++a) term[a] = drag * (points.velocity[a][j] - v[a]);
+        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
+          const Packet weight = omega * gather(points.volume, j);
+          const Packet drag = viscosity / (trace + gather(moments.trace, j));
+          PacketVector<D> term;
+          for (int a = 0; a < D; ++a) term[a] = drag * (gather(points.velocity[a], j) - v[a]);
           for (int a = 0; a < D; ++a) {
-            for (int b = 0; b < D; ++b) {
-              const int k = symmetric_index<D>(std::min(a, b), std::max(a, b));
-              term[a] += (own[k] + step.stress[k][j]) * y[b];
+            for (int b = a; b < D; ++b) {
+              const int k = symmetric_index<D>(a, b);
+              const Packet stress = own[k] + gather(step.stress[k], j);
+              term[a] += stress * y[b];
+              if (b > a) term[b] += stress * y[a];
             }
           }
-          for (double& component : term) component *= weight;
+          for (Packet& component : term) component *= weight;
           return term;
         });
     for (int a = 0; a < D; ++a) force[a][i] = points.volume[i] * sum[a];
