@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -12,49 +11,79 @@
 namespace perifrac {
 namespace {
 
-TEST(Draining, Explore) {
-  test::FluidOverBody<2> scene(12, 4, 0.1);
-  const double K = 2e4;
-  FluidProperties fluid{.density = 1000.0, .bulk_modulus = K, .viscosity = 1e-3};
-  FluidScheme scheme = scene.scheme;
-  scheme.merge_below = 0.1;
-  const Vector<2> gravity{0.0, -9.81};
-  auto period = test::FluidOverBody<2>::make_period(1.2);
-  auto exchange = std::make_unique<BondFluxExchange<2>>(*scene.body, scene.cloud, scene.rigid, period, scheme.horizon);
-  FluidPoints<2> points = scene.points;
-  for (Index i = 0; i < points.count; ++i) {
-    points.density[i] = fluid.density_below(1000.0, 9.81 * (0.4 - points.position[1][i]));
-    points.mass[i] = points.density[i] * 0.01;
-  }
-  FluidDynamics<2> dynamics(fluid, scheme, gravity, period, points, scene.cloud, {}, scene.body->points().size(),
-                            std::make_unique<TwoSidedWallForce<2>>(), std::move(exchange));
-  scene.mobility.assign(scene.mobility.size(), 5e-7);
-  double given = 0.0, start = std::accumulate(points.mass.begin(), points.mass.end(), 0.0);
-  double t = 0.0;
-  for (int w = 0; w < 6000 && dynamics.points().count > 0; ++w) {
-    dynamics.set_pores({scene.pressure, scene.rate, scene.mobility, t});
-    dynamics.start_totals();
-    const double end = t + 0.01;
-    int steps = 0;
-    while (t < end - 1e-12) {
-      const double dt = std::min(dynamics.longest_step(t), end - t);
-      dynamics.step(t, dt);
-      t += dt;
-      ++steps;
+/// What the fluid has and has given away: mass, then momentum.
+template <int D>
+struct Account {
+  double mass = 0.0;
+  Vector<D> momentum{};
+
+  void add(const FluidPoints<D>& points) {
+    for (Index i = 0; i < points.count; ++i) {
+      mass += points.mass[i];
+      for (int a = 0; a < D; ++a) momentum[a] += points.mass[i] * points.velocity[a][i];
     }
-    given += std::accumulate(dynamics.exchanged_mass().begin(), dynamics.exchanged_mass().end(), 0.0);
-    const auto& p = dynamics.points();
-    const double free = std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
-    double pmax = 0, ymin = 1e9, vmax = 0;
-    for (Index i = 0; i < p.count; ++i) {
-      pmax = std::max(pmax, fluid.pressure(p.density[i]));
-      ymin = std::min(ymin, p.position[1][i]);
-      vmax = std::max(vmax, std::hypot(p.velocity[0][i], p.velocity[1][i]));
-    }
-    if (w % 200 == 0)
-      std::printf("t %.3g steps %d n %d free %.4g of %.4g err %.2e merged %ld pmax %.3g ymin %.3g vmax %.2g minm %.2g\n", t, steps, p.count, free, start,
-                  (free + given - start) / start, dynamics.merged(), pmax, ymin, vmax, p.count ? *std::ranges::min_element(p.mass) : 0.0);
   }
+  void add(const FluidDynamics<D>& dynamics) {
+    for (const double given : dynamics.exchanged_mass()) mass += given;
+    const std::size_t count = dynamics.exchanged_mass().size();
+    for (std::size_t k = 0; k < D * count; ++k) momentum[k / count] += dynamics.impulse()[k];
+  }
+};
+
+/// Water, `across` points wide and `high` points high, over pores that a drain keeps at no
+/// pressure, until nothing is left of it.
+template <int D>
+void expect_drains_wholly(int across, int high) {
+  test::FluidOverBody<D> scene(across, high, 0.1);
+  const FluidProperties fluid{.density = 1000.0, .bulk_modulus = 2e4, .viscosity = 1e-3};
+  scene.scheme.merge_below = 0.1;
+  Vector<D> gravity{};
+  gravity[D - 1] = -9.81;
+  const double top = 0.1 * high;
+  for (Index i = 0; i < scene.points.count; ++i) {
+    scene.points.density[i] =
+        fluid.density_below(1000.0, 9.81 * (top - scene.points.position[D - 1][i]));
+    scene.points.mass[i] *= scene.points.density[i] / 1000.0;
+    scene.points.velocity[0][i] = 0.2;
+  }
+  const auto period = test::FluidOverBody<D>::make_period(0.1 * across);
+  Vector<D> low, far;
+  low.fill(-9.0);
+  far.fill(9.0);
+  FluidDynamics<D> dynamics(
+      fluid, scene.scheme, gravity, period, scene.points, scene.cloud, {},
+      scene.body->points().size(),
+      {.inlets = nullptr, .outlets = nullptr, .domain = FluidDomain<D>({"all", low, far}, 0)},
+      std::make_unique<TwoSidedWallForce<D>>(),
+      std::make_unique<BondFluxExchange<D>>(*scene.body, scene.cloud, scene.rigid, period,
+                                            scene.scheme.horizon));
+  scene.mobility.assign(scene.mobility.size(), 2e-5);
+  dynamics.set_pores(scene.pores());
+  dynamics.start_totals();
+
+  Account<D> start;
+  start.add(dynamics.points());
+  double weight = 0.0;  // times time
+  for (double t = 0.0; t < 20.0 && dynamics.points().count > 0;) {
+    const double length = dynamics.longest_step(t);
+    dynamics.step(t, length);
+    t += length;
+    for (const double mass : dynamics.points().mass) weight += length * mass * 9.81;
+  }
+  EXPECT_EQ(dynamics.points().count, 0);
+  EXPECT_GT(dynamics.merged(), scene.points.count / 2);
+  Account<D> end;
+  end.add(dynamics);
+  EXPECT_NEAR(end.mass, start.mass, 1e-12 * start.mass);
+  for (int a = 0; a < D; ++a) {
+    const double pulled = a == D - 1 ? -weight : 0.0;
+    EXPECT_NEAR(end.momentum[a], start.momentum[a] + pulled, 1e-12 * weight);
+  }
+}
+
+TEST(Draining, LosesNothingUntilNothingIsLeft) {
+  expect_drains_wholly<2>(24, 8);
+  expect_drains_wholly<3>(6, 4);
 }
 
 }  // namespace
