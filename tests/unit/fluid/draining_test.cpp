@@ -64,7 +64,7 @@ void expect_drains_wholly(int across, int high) {
   Account<D> start;
   start.add(dynamics.points());
   double weight = 0.0;  // times time
-  for (double t = 0.0; t < 20.0 && dynamics.points().count > 0;) {
+  for (double t = 0.0; t < 10.0 && dynamics.points().count > 0;) {
     const double length = dynamics.longest_step(t);
     dynamics.step(t, length);
     t += length;
@@ -82,8 +82,8 @@ void expect_drains_wholly(int across, int high) {
 }
 
 TEST(Draining, LosesNothingUntilNothingIsLeft) {
-  expect_drains_wholly<2>(24, 8);
-  expect_drains_wholly<3>(6, 4);
+  expect_drains_wholly<2>(20, 6);
+  expect_drains_wholly<3>(6, 2);
 }
 
 }  // namespace
