@@ -16,13 +16,7 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
   AnyBody body = std::shared_ptr<const Body<2>>();
   if (dimension == 3) body = std::shared_ptr<const Body<3>>();
   if (scene.has("body")) body = make_body(scene.at("body"), dimension);
-  const Section section = scene.at(physics);
-  for (const ModuleType& type : module_types()) {
-    if (type.section == physics && type.name == section.word("type")) {
-      return type.make(section, body);
-    }
-  }
-  return nullptr;
+  return make_module(scene, physics, body);
 }
 
 /// The nested operator takes no inflow at a face.
@@ -44,8 +38,8 @@ Variant variant(std::string name, std::string type, std::string text,
                                      {"displacement", 1e-3},
                                      {"pore_pressure", 1e3},
                                      {"pore_mobility", 1e-9},
-                                     {"interface_impulse", 1.0},
-                                     {"exchanged_mass", 1e-3}}};
+                                     {"interface_impulse", 1e3},
+                                     {"exchanged_mass", 0.1}}};
   return {std::move(type), std::move(contract)};
 }
 

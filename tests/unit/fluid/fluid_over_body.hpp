@@ -90,6 +90,15 @@ struct FluidOverBody {
     neighbours.images().copy(moments.trace, points.count);
   }
 
+  /// What the fluid's points get per time.
+  std::vector<double> find(Exchange<D>& exchange, double t = 0.0) {
+    std::vector<double> rate(points.count);
+    walls.mass_rate.assign(walls.count, 0.0);
+    for (auto& values : walls.momentum_rate) values.assign(walls.count, 0.0);
+    exchange.find(step(), pores(), t, walls, rate);
+    return rate;
+  }
+
   FluidStep<D> step() const {
     return {points, cloud, neighbours, moments, fluid, scheme, influence, gravity, stress};
   }
