@@ -14,9 +14,10 @@ enum class PortDirection { in, out };
 enum class PortKind { intensive, extensive };
 
 /// What a port is for, beyond being linked to a port of the same name: frames and history write
-/// fields, the ledger adds up masses and energies, the summary lists work.
+/// fields, the ledger adds up masses and energies, the summary lists work; nobody shows properties.
 enum class PortRole {
   field,              ///< a quantity on points
+  property,           ///< a quantity on points that never changes, for links only
   mass_stored,        ///< fluid mass held now [kg], one value
   mass_gained,        ///< fluid mass taken in through boundaries and sources since the start [kg]
   mass_artificial,    ///< fluid mass that a numerical measure made [kg]: shown, never excused

@@ -20,6 +20,7 @@ class CvodeIntegrator final : public Integrator {
 
   void reset(double t, std::span<const double> y) override;
   void advance(double t_end, std::span<double> y) override;
+  bool is_multistep() const override { return true; }
   double longest_step() const override;
   IntegratorStatistics statistics() const override;
 

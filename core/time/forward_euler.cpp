@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/operators/compensated_sum.hpp"
 #include "core/time/equal_steps.hpp"
 #include "core/time/spectral_radius.hpp"
 
@@ -23,6 +24,7 @@ void ForwardEuler::reset(double t, std::span<const double>) {
     limit_version_ = system_.jacobian_version();
   }
   rate_.resize(system_.size());
+  lost_.assign(system_.accumulators(), 0.0);
 }
 
 void ForwardEuler::advance(double t_end, std::span<double> y) {
@@ -40,7 +42,11 @@ void ForwardEuler::advance(double t_end, std::span<double> y) {
       step = (t_end - begin) / static_cast<double>(steps);
     }
     system_.rhs(t + step, y, rate_);
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] += step * rate_[i];
+    const std::size_t plain = y.size() - lost_.size();
+    for (std::size_t i = 0; i < plain; ++i) y[i] += step * rate_[i];
+    for (std::size_t k = 0; k < lost_.size(); ++k) {
+      add_compensated(y[plain + k], lost_[k], step * rate_[plain + k]);
+    }
   }
   t_ = t_end;
   statistics_.rhs_evaluations = statistics_.steps;

@@ -20,6 +20,7 @@ class ForwardEuler final : public Integrator {
 
   void reset(double t, std::span<const double> y) override;
   void advance(double t_end, std::span<double> y) override;
+  bool is_multistep() const override { return false; }
   double longest_step() const override { return safety_ * stable_step_; }
   /// 2 / |largest eigenvalue of J| [s].
   double stable_step() const { return stable_step_; }
@@ -32,6 +33,7 @@ class ForwardEuler final : public Integrator {
   double stable_step_ = std::numeric_limits<double>::infinity();
   std::optional<std::uint64_t> limit_version_;  // the J that stable_step_ belongs to
   std::vector<double> rate_;
+  std::vector<double> lost_;  ///< to rounding, by accumulator: they add up very many steps
   IntegratorStatistics statistics_;
 };
 

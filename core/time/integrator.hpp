@@ -30,6 +30,9 @@ class Integrator {
   /// Throws NumericalError; y is then not to be used.
   virtual void advance(double t_end, std::span<double> y) = 0;
 
+  /// Its steps build on those before: they would smear a rate that jumps.
+  virtual bool is_multistep() const = 0;
+
   /// The longest step that stability lets it take [s], known after reset; infinity where there is
   /// no limit.
   virtual double longest_step() const = 0;

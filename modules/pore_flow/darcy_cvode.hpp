@@ -14,6 +14,7 @@ class DarcyCvode final : public Integrator {
 
   void reset(double t, std::span<const double> y) override { cvode_.reset(t, y); }
   void advance(double t_end, std::span<double> y) override { cvode_.advance(t_end, y); }
+  bool is_multistep() const override { return true; }
   double longest_step() const override { return cvode_.longest_step(); }
   IntegratorStatistics statistics() const override { return cvode_.statistics(); }
 

@@ -21,11 +21,12 @@ enum class InitialState { uniform, hydrostatic };
 
 /// Pore flow after Darcy, by whichever integrator it is given.
 ///
-/// Ports: in `dilatation`; out `pore_pressure` [Pa], `pore_stress` (alpha p) with its undrained
-/// slope d(pore_stress)/d(dilatation) [Pa], `fluid_content`, `darcy_velocity` [m/s], and for the
-/// ledger `pore_fluid_mass`, `pore_fluid_gained` [kg], `pore_fluid_energy`, `pore_fluid_work`,
-/// `darcy_dissipation` [J] (per metre in 2D); `artificial_fluid_mass` [kg] where pressures are
-/// smoothed.
+/// Ports: in `dilatation`, `exchanged_mass` [kg] that others hand over to each point; out
+/// `pore_pressure` [Pa], `pore_stress` (alpha p) with its undrained
+/// slope d(pore_stress)/d(dilatation) [Pa], `fluid_content`, `darcy_velocity` [m/s], the property
+/// `pore_mobility` [m^2/(Pa s)], and for the ledger `pore_fluid_mass`, `pore_fluid_gained` [kg],
+/// `pore_fluid_energy`, `pore_fluid_work`, `darcy_dissipation` [J] (per metre in 2D);
+/// `artificial_fluid_mass` [kg] where pressures are smoothed.
 template <int D>
 class DarcyFlow final : public PhysicsModule {
  public:
@@ -44,10 +45,12 @@ class DarcyFlow final : public PhysicsModule {
  private:
   enum Id : PortId {
     dilatation,
+    exchanged_mass,
     pore_pressure,
     pore_stress,
     fluid_content,
     darcy_velocity,
+    pore_mobility,
     mass_stored,
     mass_gained,
     energy_stored,
@@ -63,8 +66,12 @@ class DarcyFlow final : public PhysicsModule {
   };
 
   void integrate(const TimeWindow& window);
+  void flow(const TimeWindow& window);
+  void update_content();
+  std::span<double> content();
   void update_pore_stress();
-  double scalar(PortId id) const;
+  void find_mobility();
+  double scalar(PortId id);
   double work(PortId id) const;
 
   std::shared_ptr<const Body<D>> body_;
@@ -81,10 +88,12 @@ class DarcyFlow final : public PhysicsModule {
   std::vector<double> dilatation_;  ///< input and its companions; empty until somebody links it
   std::vector<double> dilatation_rate_;
   std::vector<double> dilatation_slope_;
+  std::vector<double> content_;  ///< empty where it is the unknowns' own
   std::vector<double> pressure_;
   std::vector<double> pore_stress_;
   std::vector<double> pore_stress_slope_;
   std::vector<double> velocity_;  ///< empty until somebody asks
+  std::vector<double> mobility_;  ///< likewise
   std::array<double, port_count - mass_stored> scalars_{};
 };
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/errors.hpp"
 #include "core/operators/bond_traversal.hpp"
+#include "core/operators/compensated_sum.hpp"
 
 namespace perifrac {
 
@@ -34,6 +34,7 @@ DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow,
     break_points_.insert(break_points_.end(), times.begin(), times.end());
   }
   std::ranges::sort(break_points_);
+  taken_out_.resize(2 * accumulators());
   find_face_potential(0.0);
   sources_.at(0.0, source_rate_);
   for (const double t : face_pressures_.is_constant() ? std::vector{0.0} : break_points_) {
@@ -72,11 +73,16 @@ double DarcySystem<D>::held_pressure(double t, const HeldPoint& held) {
 
 template <int D>
 void DarcySystem<D>::lead_held_points(const TimeWindow& window, std::span<const double> y) {
+  const std::span<const double> zeta = fluid_content(window.begin, y);
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const auto [i, face_value] = held_[k];
-    if (face_value < 0) continue;
+    if (face_value < 0) {
+      held_rate_[k] = exchange_.has_rate() ? exchange_.rate(i) : 0.0;
+      continue;
+    }
     const double content = storage_->content(window.end, i, held_pressure(window.end, held_[k]));
-    held_rate_[k] = (content - y[i]) / window.length();
+    const double handed_over = exchange_.is_beside() ? exchange_.added_beside(i) : 0.0;
+    held_rate_[k] = (content - handed_over - zeta[i]) / window.length();
   }
 }
 
@@ -84,6 +90,7 @@ template <int D>
 void DarcySystem<D>::set_smoothing(PressureSmoothing<D> smoothing) {
   smoothing_ = std::move(smoothing);
   smoothed_.resize(smoothing_->points().size());
+  taken_out_.resize(2 * accumulators());
 }
 
 template <int D>
@@ -93,11 +100,12 @@ void DarcySystem<D>::smooth(double t, std::span<double> y) {
   pressure_to_potential(t);
   smoothing_->apply(potential_, smoothed_);
   const auto points = smoothing_->points();
+  const std::span<const double> zeta = fluid_content(t, y);
   double made = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Index i = points[k];
     const double p = fluid_.pressure_of(smoothed_[k] - gravity(i));
-    const double change = storage_->content(t, i, p) - y[i];
+    const double change = storage_->content(t, i, p) - zeta[i];
     y[i] += change;
     made += volume()[i] * change;
   }
@@ -105,14 +113,33 @@ void DarcySystem<D>::smooth(double t, std::span<double> y) {
 }
 
 template <int D>
+std::span<const double> DarcySystem<D>::fluid_content(double t, std::span<const double> y) {
+  if (!exchange_.is_beside()) return y.first(points_);
+  content_.resize(points_);
+  exchange_.add_to(t, y.first(points_), content_);
+  return content_;
+}
+
+template <int D>
+double DarcySystem<D>::exchanged_energy(double t, std::span<const double> y) {
+  pressure(t, y, potential_);
+  double sum = 0.0;
+  for (Index i = 0; i < points_; ++i) {
+    const double potential = fluid_.potential(potential_[i]) + gravity(i);
+    sum += volume()[i] * exchange_.added()[i] * potential;
+  }
+  return sum;
+}
+
+template <int D>
 void DarcySystem<D>::pressure(double t, std::span<const double> y, std::span<double> p) {
-  storage_->pressure(t, y.first(points_), p);
+  storage_->pressure(t, fluid_content(t, y), p);
   for (const HeldPoint& held : held_) p[held.point] = held_pressure(t, held);
 }
 
 template <int D>
 std::span<const double> DarcySystem<D>::effective_storage(double t, std::span<const double> y) {
-  return storage_->effective_storage(t, y.empty() ? y : y.first(points_));
+  return storage_->effective_storage(t, y.empty() ? y : fluid_content(t, y));
 }
 
 template <int D>
@@ -166,6 +193,9 @@ void DarcySystem<D>::rhs(double t, std::span<const double> y, std::span<double> 
       dydt[i] += source_rate_[i] / v[i];
       brought += source_rate_[i] * potential_[i];
     }
+  }
+  if (exchange_.has_rate()) {
+    for (Index i = 0; i < points_; ++i) dydt[i] += exchange_.rate(i);
   }
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const auto [i, face_value] = held_[k];
@@ -247,27 +277,51 @@ void DarcySystem<D>::darcy_velocity(double t, std::span<const double> p,
 }
 
 template <int D>
+void DarcySystem<D>::renew(std::span<double> y) {
+  for (std::size_t k = 0; k < accumulators(); ++k) {
+    add_compensated(taken_out_[2 * k], taken_out_[2 * k + 1], y[points_ + k]);
+    y[points_ + k] = 0.0;
+  }
+  exchange_.merge_into(y);
+}
+
+template <int D>
+void DarcySystem<D>::visit_state(StateVisitor& visitor) {
+  visitor.visit("accumulated", taken_out_);
+  exchange_.visit_state(visitor);
+}
+
+template <int D>
 double DarcySystem<D>::gained_volume(double start, double t, std::span<const double> y) const {
-  const double* const accumulated = y.data() + points_;
-  const double sum = std::accumulate(accumulated, accumulated + faces(), 0.0);
-  if (brings_volume()) return sum + accumulated[faces() + 2];
-  return has_sources() ? sum + (t - start) * source_rate_.sum() : sum;
+  CompensatedSum sum;
+  const auto add = [&](std::size_t k) {
+    for (const double part : {taken_out_[2 * k], taken_out_[2 * k + 1], y[points_ + k]}) {
+      sum.add(part);
+    }
+  };
+  for (Index f = 0; f < faces(); ++f) add(f);
+  if (brings_volume()) {
+    add(faces() + 2);
+  } else if (has_sources()) {
+    sum.add((t - start) * source_rate_.sum());
+  }
+  return sum.value();
 }
 
 template <int D>
 double DarcySystem<D>::gained_energy(std::span<const double> y) const {
-  const double* const accumulated = y.data() + points_;
-  double sum = brings_energy() ? accumulated[faces() + 1] : 0.0;
+  double sum = brings_energy() ? accumulated(y, faces() + 1) : 0.0;
   if (!face_pressures_.is_constant()) return sum;
-  for (Index f = 0; f < faces(); ++f) sum += face_potential_[f] * accumulated[f];
+  for (Index f = 0; f < faces(); ++f) sum += face_potential_[f] * accumulated(y, f);
   return sum;
 }
 
 template <int D>
-double DarcySystem<D>::stored_energy(std::span<const double> y, std::span<const double> p) const {
+double DarcySystem<D>::stored_energy(std::span<const double> zeta,
+                                     std::span<const double> p) const {
   double sum = 0.0;
   for (Index i = 0; i < points_; ++i) {
-    sum += volume()[i] * (storage_->energy(i, y[i], p[i]) + gravity(i) * y[i]);
+    sum += volume()[i] * (storage_->energy(i, zeta[i], p[i]) + gravity(i) * zeta[i]);
   }
   return sum;
 }

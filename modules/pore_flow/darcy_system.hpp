@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "core/time/scheduled_vector.hpp"
 #include "modules/pore_flow/flow_operator.hpp"
 #include "modules/pore_flow/held_point.hpp"
+#include "modules/pore_flow/mass_exchange.hpp"
 #include "modules/pore_flow/pore_storage.hpp"
 #include "modules/pore_flow/pressure_smoothing.hpp"
 
@@ -29,10 +31,11 @@ namespace perifrac {
 /// follows at a steady rate within a window, to be what belongs to its pressure at the end; what it
 /// takes, and what flows off into the rock, is inflow through the face.
 ///
-/// Unknowns: zeta at the points; then what accumulates: volume that came in through each face of
-/// prescribed pressure, energy dissipated by the flow, energy brought by sources and by faces whose
-/// pressure changes (if any), volume brought by sources that change (if any), volume that smoothing
-/// made (if it is on). Volumes are at zero pressure.
+/// Unknowns: zeta at the points, what other modules handed over apart; then what accumulates:
+/// volume that came in through each face of prescribed pressure, energy dissipated by the flow,
+/// energy brought by sources and by faces whose pressure changes (if any), volume brought by
+/// sources that change (if any), volume that smoothing made (if it is on). Volumes are at zero
+/// pressure.
 template <int D>
 class DarcySystem final : public OdeSystem {
  public:
@@ -59,6 +62,13 @@ class DarcySystem final : public OdeSystem {
   /// Takes the input of the next window; spans must stay valid while it is integrated.
   void set_dilatation(const DilatationInput& input);
 
+  /// What other modules hand over within windows.
+  MassExchange& exchange() { return exchange_; }
+  /// zeta at the points. Valid until the next call.
+  std::span<const double> fluid_content(double t, std::span<const double> y);
+  /// Energy that comes with the fluid handed over in this window, at the potentials of time t [J].
+  double exchanged_energy(double t, std::span<const double> y);
+
   /// Takes y at the window's beginning, after its dilatation: the rates of held points follow.
   void lead_held_points(const TimeWindow& window, std::span<const double> y);
 
@@ -78,12 +88,22 @@ class DarcySystem final : public OdeSystem {
   /// Where schedules change their rate, rising [s]: integrate up to them and start anew.
   const std::vector<double>& break_points() const { return break_points_; }
 
+  /// An integrator starts anew: takes out of y what only added up, so that it stays small beside
+  /// its own rounding, and puts in what was handed over.
+  void renew(std::span<double> y);
+  void start() { std::ranges::fill(taken_out_, 0.0); }
+  void visit_state(StateVisitor& visitor);
+
   /// What came in since `start` by faces and sources: volume at zero pressure, and energy [J].
   double gained_volume(double start, double t, std::span<const double> y) const;
   double gained_energy(std::span<const double> y) const;
-  double dissipated_energy(std::span<const double> y) const { return y[points_ + faces()]; }
-  /// Energy of fluid and pores, that of the fluid's height included [J].
-  double stored_energy(std::span<const double> y, std::span<const double> p) const;
+  double dissipated_energy(std::span<const double> y) const { return accumulated(y, faces()); }
+  /// What smoothing made, volume at zero pressure.
+  double artificial_volume(std::span<const double> y) const {
+    return accumulated(y, accumulators() - 1);
+  }
+  /// Energy of fluid and pores at the fluid content zeta, that of the fluid's height included [J].
+  double stored_energy(std::span<const double> zeta, std::span<const double> p) const;
 
   std::span<const HeldPoint> held_points() const { return held_; }
   /// Of a held point at time t [Pa].
@@ -108,6 +128,9 @@ class DarcySystem final : public OdeSystem {
   bool has_sources() const { return sources_.size() > 0; }
   bool brings_energy() const { return has_sources() || !face_pressures_.is_constant(); }
   bool brings_volume() const { return !sources_.is_constant(); }
+  double accumulated(std::span<const double> y, std::size_t k) const {
+    return taken_out_[2 * k] + (taken_out_[2 * k + 1] + y[points_ + k]);
+  }
   void find_face_potential(double t);
   void scale_mobility(std::span<const double> p);
   void pressure_to_potential(double t);
@@ -119,7 +142,10 @@ class DarcySystem final : public OdeSystem {
   ScheduledVector sources_;
   Eigen::VectorXd gravity_;
   std::vector<HeldPoint> held_;
-  std::vector<double> held_rate_;  ///< d(zeta)/dt of the held points in this window [1/s]
+  std::vector<double> held_rate_;  ///< dy/dt of the held points in this window [1/s]
+  MassExchange exchange_;
+  std::vector<double> content_;    ///< workspace: zeta, where there is an exchange
+  std::vector<double> taken_out_;  ///< of each accumulator: a sum, and what rounding cuts off it
   Index points_;
   std::vector<double> break_points_;
   double largest_face_pressure_ = 0.0;  ///< of all times [Pa]

@@ -20,6 +20,9 @@ class FlowOperator {
   virtual const Family<D>& family() const = 0;
   virtual Index size() const = 0;
 
+  /// Of point i, the mean over all directions; the factors of scale_mobility apart [m^2/(Pa s)].
+  virtual double mobility(Index i) const = 0;
+
   /// Multiplies the mobility of every point by a factor, from now on; for fluids whose density
   /// changes. Throws std::logic_error where the operator was not made for it.
   virtual void scale_mobility(std::span<const double> factor) {

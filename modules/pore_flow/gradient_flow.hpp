@@ -18,6 +18,14 @@ class GradientFlow : public FlowOperator<D> {
   const Family<D>& family() const override { return operator_.family(); }
   Index size() const override { return operator_.size(); }
 
+  double mobility(Index i) const override {
+    if constexpr (requires(Law law) { law.factor; }) {
+      return operator_.law().law.at(i).mean_mobility();
+    } else {
+      return law_at(operator_.law(), i).mean_mobility();
+    }
+  }
+
   void scale_mobility(std::span<const double> factor) override {
     if constexpr (requires(Law law) { law.factor; }) {
       operator_.change_law([&](Law& law) { law.factor.assign(factor.begin(), factor.end()); });

@@ -30,6 +30,7 @@ class SmoothedEuler final : public Integrator {
     }
   }
 
+  bool is_multistep() const override { return false; }
   double longest_step() const override { return euler_.longest_step(); }
   IntegratorStatistics statistics() const override { return euler_.statistics(); }
 

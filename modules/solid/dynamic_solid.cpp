@@ -24,6 +24,7 @@ DynamicSolid<D>::DynamicSolid(std::shared_ptr<const Body<D>> body,
   };
   ports_ = {
       {"pore_stress", "Pa", PortDirection::in},
+      InterfaceForce::port(D),
       vector("displacement", "m"),
       vector("velocity", "m/s"),
       {"dilatation", "1", PortDirection::out},
@@ -55,6 +56,8 @@ PortView DynamicSolid<D>::port(PortId id) {
       pore_stress_rate_.resize(count);
       pore_stress_slope_.resize(count);
       return {points, pore_stress_, pore_stress_rate_, pore_stress_slope_};
+    case interface_impulse:
+      return {points, interface_.impulse(D * count)};
     case displacement:
       return {points, std::span(system_->unknowns()).first(D * count)};
     case velocity:
@@ -110,9 +113,12 @@ double DynamicSolid<D>::stable_time_step() const {
 template <int D>
 double DynamicSolid<D>::advance(const TimeWindow& window) {
   system_->set_pore_stress({pore_stress_, pore_stress_rate_, pore_stress_slope_, window.end});
+  interface_.begin(window);
+  if (interface_.is_linked()) system_->set_interface_force(interface_.force());
   // An input may jump where windows meet. The step before must end with the old one and this step
   // begin with the new: one force for both feeds energy into the fastest vibrations.
-  const bool jumps = !pore_stress_.empty() || !(window.length() > 0.0);
+  const bool linked = !pore_stress_.empty() || interface_.is_linked();
+  const bool jumps = linked || !(window.length() > 0.0);
   if (jumps || motion_.acceleration.empty()) verlet_->evaluate(window.begin, motion_);
   verlet_->advance(window.begin, window.end, motion_);
   time_ = window.end;
@@ -122,6 +128,7 @@ double DynamicSolid<D>::advance(const TimeWindow& window) {
 template <int D>
 void DynamicSolid<D>::visit_state(StateVisitor& visitor) {
   system_->visit_state(visitor);
+  interface_.visit_state(visitor);
   visitor.visit("velocity", motion_.velocity);
   visitor.visit("acceleration", motion_.acceleration);
   visitor.visit("damped_energy", motion_.damped_energy);
@@ -131,6 +138,7 @@ template <int D>
 void DynamicSolid<D>::on_restored(double t) {
   time_ = t;
   motion_.position = system_->position();
+  system_->set_interface_force(interface_.force());
   system_->derive();
 }
 

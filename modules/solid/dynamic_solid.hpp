@@ -9,6 +9,7 @@
 #include "core/module/physics_module.hpp"
 #include "core/time/velocity_verlet.hpp"
 #include "modules/solid/elastic_dynamics.hpp"
+#include "modules/solid/interface_force.hpp"
 
 namespace perifrac {
 
@@ -16,10 +17,11 @@ namespace perifrac {
 /// needs; no matrix. At rest and undeformed at the start. Small strain. In a window of no length
 /// nothing with a mass moves: loads act from then on.
 ///
-/// Ports: in `pore_stress` [Pa], with rate and slope; out `displacement` [m], `velocity` [m/s],
-/// `dilatation`, `effective_stress` [Pa] (as QuasiStaticSolid), `elastic_energy`, `kinetic_energy`,
-/// `external_work`, `damped_energy` [J] (per metre in 2D), `integrator_steps`, and for each rigid
-/// plate `<face>_plate_displacement` [m], along its axis.
+/// Ports: in `pore_stress` [Pa], with rate and slope, `interface_impulse` [N s] on the points; out
+/// `displacement` [m], `velocity` [m/s], `dilatation`, `effective_stress` [Pa] (as
+/// QuasiStaticSolid), `elastic_energy`, `kinetic_energy`, `external_work`, `damped_energy` [J] (per
+/// metre in 2D), `integrator_steps`, and for each rigid plate `<face>_plate_displacement` [m],
+/// along its axis.
 template <int D>
 class DynamicSolid final : public PhysicsModule {
  public:
@@ -39,6 +41,7 @@ class DynamicSolid final : public PhysicsModule {
  private:
   enum Id : PortId {
     pore_stress,
+    interface_impulse,
     displacement,
     velocity,
     dilatation,
@@ -63,6 +66,7 @@ class DynamicSolid final : public PhysicsModule {
   std::vector<double> pore_stress_;  ///< input and its companions; empty until somebody links it
   std::vector<double> pore_stress_rate_;
   std::vector<double> pore_stress_slope_;
+  InterfaceForce interface_;
   std::vector<double> velocity_;          ///< of the points; empty until somebody asks
   std::vector<double> effective_stress_;  ///< likewise
   std::array<double, first_plate - elastic_energy> scalars_{};

@@ -101,7 +101,7 @@ void ElasticDynamics<D>::note_reference() {
 template <int D>
 void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<double> force) {
   if (!prescribed_.is_constant()) prescribed_.at(t, prescribed_now_);
-  if (!loads_.is_constant()) loads_.at(t, load_now_);
+  if (!loads_.is_constant()) find_loads(t);
   find_pore_stress(t);
   before_.swap(unknowns_);
   unknowns_.resize(owner_.size());
@@ -203,6 +203,18 @@ void ElasticDynamics<D>::find_plate_rows() {
   }
   plate_compliance_ = own.inverse();
   plate_rows_known_ = true;
+}
+
+template <int D>
+void ElasticDynamics<D>::set_interface_force(std::span<const double> force) {
+  interface_force_ = force;
+  if (loads_.is_constant()) find_loads(0.0);
+}
+
+template <int D>
+void ElasticDynamics<D>::find_loads(double t) {
+  loads_.at(t, load_now_);
+  for (std::size_t k = 0; k < interface_force_.size(); ++k) load_now_[k] += interface_force_[k];
 }
 
 template <int D>

@@ -47,6 +47,10 @@ class ElasticDynamics final : public SecondOrderSystem {
   /// is part of the stiffness.
   void set_pore_stress(const PoreStressInput& input);
 
+  /// Takes a steady force on the points, D blocks [N]; it must stay valid until the next. Empty:
+  /// none.
+  void set_interface_force(std::span<const double> force);
+
   /// Undeformed, nothing done on it.
   void start();
   /// Displacements, the external force on each of them and the work it did.
@@ -88,6 +92,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   void find_plate_rows();
   void gather(std::span<const double> all, std::span<double> y) const;
   void find_pore_stress(double t);
+  void find_loads(double t);
   void note_reference();
 
   const Body<D>& body_;
@@ -111,6 +116,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   double external_work_ = 0.0;
   std::vector<double> dilatation_;
 
+  std::span<const double> interface_force_;
   PoreStressInput pore_;
   std::vector<double> pore_stress_;  ///< at the time of the last force, slope apart
   std::vector<double> pore_slope_;   ///< of the present window; empty until one is told

@@ -17,7 +17,7 @@ Index first_row(const Eigen::SparseMatrix<double>& free_unknowns, Index column) 
   return Eigen::SparseMatrix<double>::InnerIterator(free_unknowns, column).row();
 }
 
-Eigen::Map<const Eigen::VectorXd> view(const std::vector<double>& values) {
+Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
@@ -35,6 +35,7 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
       elastic_(std::move(elastic)),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
+          InterfaceForce::port(D),
           {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, D},
           {"dilatation", "1", PortDirection::out},
           {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field,
@@ -85,6 +86,8 @@ PortView QuasiStaticSolid<D>::port(PortId id) {
     case pore_stress:
       pore_stress_.resize(body_->points().size());
       return {points, pore_stress_};
+    case interface_impulse:
+      return {points, interface_.impulse(D * body_->points().size())};
     case displacement:
       return {points, std::span(unknowns_).first(D * body_->points().volume.size())};
     case dilatation:
@@ -121,6 +124,8 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
   const Eigen::VectorXd pore = pore_force();
   Eigen::VectorXd load(free_unknowns_.cols()), solution(free_unknowns_.cols());
   load_.at(window.end, load);
+  interface_.begin(window);
+  if (interface_.is_linked()) load += free_unknowns_.transpose() * interface_force();
   factor_.solve(load + free_unknowns_.transpose() * pore, solution);
 
   const Eigen::VectorXd before = view(unknowns_);
@@ -143,6 +148,13 @@ Eigen::VectorXd QuasiStaticSolid<D>::pore_force() const {
 }
 
 template <int D>
+Eigen::VectorXd QuasiStaticSolid<D>::interface_force() const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(stiffness_.rows());
+  force.head(interface_.force().size()) = view(interface_.force());
+  return force;
+}
+
+template <int D>
 void QuasiStaticSolid<D>::derive_from_unknowns() {
   dilatation_.resize(body_->points().volume.size());
   view(dilatation_) = dilatation_of_ * view(unknowns_);
@@ -154,6 +166,7 @@ void QuasiStaticSolid<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("displacement", unknowns_);
   visitor.visit("external_force", force_);
   visitor.visit("external_work", external_work_);
+  interface_.visit_state(visitor);
 }
 
 template <int D>

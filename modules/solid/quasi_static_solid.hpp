@@ -11,6 +11,7 @@
 #include "core/module/physics_module.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/elastic_operator.hpp"
+#include "modules/solid/interface_force.hpp"
 #include "modules/solid/solid_boundary.hpp"
 
 namespace perifrac {
@@ -19,10 +20,11 @@ namespace perifrac {
 /// and each window costs one back-substitution. Loads and prescribed displacements are those of the
 /// window's end. Small strain.
 ///
-/// Ports: in `pore_stress` [Pa]; out `displacement` [m], `dilatation` with its slope
-/// d(dilatation)/d(pore_stress), `effective_stress` [Pa] (D * D components, row by row, tension
-/// positive; total stress is this less the pore stress), `elastic_energy`, `external_work` [J] (per
-/// metre in 2D), and for each rigid plate `<face>_plate_displacement` [m], along its axis.
+/// Ports: in `pore_stress` [Pa], `interface_impulse` [N s] on the points; out `displacement` [m],
+/// `dilatation` with its slope d(dilatation)/d(pore_stress), `effective_stress` [Pa] (D * D
+/// components, row by row, tension positive; total stress is this less the pore stress),
+/// `elastic_energy`, `external_work` [J] (per metre in 2D), and for each rigid plate
+/// `<face>_plate_displacement` [m], along its axis.
 template <int D>
 class QuasiStaticSolid final : public PhysicsModule {
  public:
@@ -46,6 +48,7 @@ class QuasiStaticSolid final : public PhysicsModule {
  private:
   enum Id : PortId {
     pore_stress,
+    interface_impulse,
     displacement,
     dilatation,
     effective_stress,
@@ -56,6 +59,7 @@ class QuasiStaticSolid final : public PhysicsModule {
 
   Eigen::SparseMatrix<double> free_stiffness() const;
   Eigen::VectorXd pore_force() const;
+  Eigen::VectorXd interface_force() const;
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;
@@ -74,6 +78,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   double external_work_ = 0.0;
 
   std::vector<double> pore_stress_;  ///< input; empty until somebody links it
+  InterfaceForce interface_;
   std::vector<double> dilatation_;
   std::vector<double> slope_;
   std::vector<double> effective_stress_;  ///< made when it is asked for

@@ -361,6 +361,90 @@ class Wall final : public PhysicsModule {
   std::vector<double> warmth_;
 };
 
+/// Stands for a fluid that touches a body at every point: through its wall flows mass, in
+/// proportion to the pores' mobility and the difference of pressures, and it presses on the wall,
+/// anew at random in every window.
+class Tank final : public PhysicsModule {
+ public:
+  Tank(const PointSet* body, double pressure, double force)
+      : body_(body),
+        pressure_(pressure),
+        force_(force),
+        impulse_(body->dimension * body->count, 0.0),
+        given_(body->count, 0.0),
+        displacement_(body->dimension * body->count),
+        pore_pressure_(body->count),
+        mobility_(body->count) {
+    const auto vector = [&](const char* name, const char* unit, PortDirection direction,
+                            PortKind kind) {
+      return Port{name, unit, direction, kind, PortRole::field, body->dimension};
+    };
+    const auto total = [&](const char* unit) { return unit_of_total(unit, body->dimension); };
+    ports_ = {
+        vector("displacement", "m", PortDirection::in, PortKind::intensive),
+        {"pore_pressure", "Pa", PortDirection::in},
+        {"pore_mobility", "m^2/(Pa s)", PortDirection::in, PortKind::intensive, PortRole::property},
+        vector("interface_impulse", total("N s").c_str(), PortDirection::out, PortKind::extensive),
+        {"exchanged_mass", total("kg"), PortDirection::out, PortKind::extensive},
+        {"free_fluid_mass", total("kg"), PortDirection::out, PortKind::extensive,
+         PortRole::mass_stored}};
+  }
+
+  std::span<const Port> ports() const override { return ports_; }
+  PortView port(PortId id) override {
+    switch (id) {
+      case 0:
+        return {.points = body_, .value = displacement_.value, .rate = displacement_.rate};
+      case 1:
+        return {.points = body_, .value = pore_pressure_.value, .rate = pore_pressure_.rate};
+      case 2:
+        return {.points = body_, .value = mobility_.value};
+      case 3:
+        return {.points = body_, .value = impulse_};
+      case 4:
+        return {.points = body_, .value = given_};
+      default:
+        return {.points = &total_, .value = {&mass_, 1}};
+    }
+  }
+  void initialize(double) override {}
+  double stable_time_step() const override { return std::numeric_limits<double>::infinity(); }
+  double advance(const TimeWindow& window) override {
+    const double h = window.length();
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      const double wanted = pressure_ * (1.0 + random()) - pore_pressure_.value[i];
+      given_[i] = h * 1e3 * mobility_.value[i] * wanted;
+      mass_ -= given_[i];
+    }
+    for (double& impulse : impulse_) impulse = h * force_ * random();
+    return window.end;
+  }
+  void visit_state(StateVisitor& visitor) override {
+    visitor.visit("mass", mass_);
+    visitor.visit("seed", seed_);
+  }
+  void on_restored(double) override {}
+
+  std::span<const double> mobility() const { return mobility_.value; }
+
+ private:
+  /// From -1 to 1.
+  double random() {
+    seed_ = (1664525 * seed_ + 1013904223) % (std::int64_t{1} << 32);
+    return static_cast<double>(seed_) / static_cast<double>(std::int64_t{1} << 31) - 1.0;
+  }
+
+  const PointSet* body_;
+  double pressure_;
+  double force_;
+  std::vector<Port> ports_;
+  PointSet total_{.name = "total"};
+  std::vector<double> impulse_, given_;
+  Input displacement_, pore_pressure_, mobility_;
+  double mass_ = 0.0;
+  std::int64_t seed_ = 1;
+};
+
 /// Draining pores and springs under one manager, with hands on both.
 struct Consolidation {
   struct Setup {

@@ -12,14 +12,7 @@ namespace {
 std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::string& physics,
                                            const std::vector<std::string>& overrides) {
   const Section scene = read_scene_text(text, overrides);
-  const AnyBody body = make_body(scene.at("body"), scene.integer("dimension"));
-  const Section section = scene.at(physics);
-  for (const ModuleType& type : module_types()) {
-    if (type.section == physics && type.name == section.word("type")) {
-      return type.make(section, body);
-    }
-  }
-  return nullptr;
+  return make_module(scene, physics, make_body(scene.at("body"), scene.integer("dimension")));
 }
 
 /// The nested operator takes no inflow at a face.
@@ -36,7 +29,10 @@ Variant variant(std::string name, std::string type, std::string text,
   ModuleCase contract{.name = std::move(name),
                       .make = [=] { return make_module(text, physics, overrides); },
                       .window = 0.01,
-                      .input_size = {{"dilatation", 1e-5}, {"pore_stress", 1e5}}};
+                      .input_size = {{"dilatation", 1e-5},
+                                     {"pore_stress", 1e5},
+                                     {"exchanged_mass", 0.1},
+                                     {"interface_impulse", 1e3}}};
   return {std::move(type), std::move(contract)};
 }
 

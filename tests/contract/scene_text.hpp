@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/register_modules.hpp"
 #include "app/scene_keys.hpp"
 #include "core/config/scene.hpp"
 
@@ -18,6 +19,18 @@ inline Section read_scene_text(const std::string& text,
   const std::string path = testing::TempDir() + "scene_" + std::to_string(getpid()) + ".yaml";
   std::ofstream(path) << text;
   return read_scene(path, overrides, scene_catalogue());
+}
+
+/// What the scene's section of that name stands for; null where no type has that name.
+inline std::unique_ptr<PhysicsModule> make_module(const Section& scene, const std::string& physics,
+                                                  const AnyBody& body) {
+  const Section section = scene.at(physics);
+  for (const ModuleType& type : module_types()) {
+    if (type.section == physics && type.name == section.word("type")) {
+      return type.make(section, body);
+    }
+  }
+  return nullptr;
 }
 
 /// Sections of small scenes, to be put together.

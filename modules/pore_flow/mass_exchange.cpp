@@ -1,0 +1,46 @@
+#include "modules/pore_flow/mass_exchange.hpp"
+
+#include <algorithm>
+
+namespace perifrac {
+
+std::vector<double>& MassExchange::mass(std::size_t points) {
+  mass_.resize(points);
+  return mass_;
+}
+
+void MassExchange::begin(const TimeWindow& window, Way way, const std::vector<double>& volume,
+                         double density) {
+  way_ = way;
+  begin_ = window.begin;
+  length_ = window.length();
+  energy_.resize(1);
+  added_.resize(mass_.size());
+  if (way == Way::beside) content_.resize(mass_.size());
+  for (std::size_t i = 0; i < mass_.size(); ++i) added_[i] = mass_[i] / (density * volume[i]);
+}
+
+void MassExchange::end(double energy) {
+  for (std::size_t i = 0; i < content_.size(); ++i) content_[i] += added_[i];
+  std::ranges::fill(added_, 0.0);
+  energy_[0] += energy;
+}
+
+void MassExchange::add_to(double t, std::span<const double> y, std::span<double> content) const {
+  const double part = (t - begin_) / length_;
+  for (std::size_t i = 0; i < content_.size(); ++i) {
+    content[i] = y[i] + (content_[i] + part * added_[i]);
+  }
+}
+
+void MassExchange::merge_into(std::span<double> y) {
+  for (std::size_t i = 0; i < content_.size(); ++i) y[i] += content_[i];
+  std::ranges::fill(content_, 0.0);
+}
+
+void MassExchange::visit_state(StateVisitor& visitor) {
+  visitor.visit("exchanged_content", content_);
+  visitor.visit("exchanged_energy", energy_);
+}
+
+}  // namespace perifrac
