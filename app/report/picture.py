@@ -217,8 +217,7 @@ def panels(run: Run) -> list[Panel]:
 
 
 def facts(run: Run) -> str:
-    counts = run.summary.get("counts", {})
-    parts = [run.outcome] + [f"{described(v)} {words(k)}" for k, v in counts.items()]
+    parts = [run.outcome] + [f"{described(v)} {words(k)}" for k, v in run.counts.items()]
     if "wall_time" in run.summary:
         parts.append(f"{quantity(run.summary['wall_time'], 's', 3)} wall time")
     return "  ·  ".join(parts)

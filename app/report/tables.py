@@ -38,7 +38,7 @@ def section(key: str, title: str, *content: str) -> str:
 
 def facts(run: Run) -> str:
     summary = run.summary
-    known = [(words(name), described(value)) for name, value in summary.get("counts", {}).items()]
+    known = [(words(name), described(value)) for name, value in run.counts.items()]
     if "dimension" in summary:
         known.insert(0, ("dimension", f"{summary['dimension']}D"))
     if "wall_time" in summary:

@@ -8,6 +8,7 @@
 #include <omp.h>
 
 #include "core/geometry/append_near.hpp"
+#include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
 
@@ -77,7 +78,7 @@ void CellGrid<D>::sort_into_cells(const Positions<D>& position) {
   cell_.resize(n);
   order_.resize(n + packet_size);  // a run's last packet reads on
   place_.resize(n);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (n >= points_worth_threads)
   for (Index i = 0; i < n; ++i) {
     const Cell c = cell_of(at<D>(position, i));
     std::int64_t flat = c[D - 1];
@@ -171,7 +172,7 @@ void CellGrid<D>::search(Index targets, double reach, Target&& target, Place&& p
   result.offset.resize(targets + 1);
   result.offset[0] = 0;
   found_.resize(std::max(found_.size(), static_cast<std::size_t>(omp_get_max_threads())));
-#pragma omp parallel
+#pragma omp parallel if (targets >= points_worth_threads)
   {
     std::vector<Index>& found = found_[omp_get_thread_num()];
     const auto [begin, end] = share_of_thread(targets);
