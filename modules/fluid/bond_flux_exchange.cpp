@@ -61,8 +61,6 @@ template <int D>
 void BondFluxExchange<D>::find(const FluidStep<D>& step, const PoreInput& pores, double t,
                                NearWalls<D>& walls, std::vector<double>& rate) {
   find_fluid_moments(step, walls);
-  rate.assign(step.points.count, 0.0);
-  walls.mass_rate.assign(walls.count, 0.0);
   add_pair_flux(step, walls, rate, [&](Index i, Index w, const Vector<D>& y, double omega) {
     const Index wall = walls.wall[w];
     const double traces = step.moments.trace[i] + solid_moment_[wall] + walls.fluid_moment[w];

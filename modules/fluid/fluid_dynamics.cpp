@@ -8,6 +8,7 @@
 #include "modules/fluid/fluid_momentum.hpp"
 #include "modules/fluid/merge_points.hpp"
 #include "modules/fluid/particle_shifting.hpp"
+#include "modules/fluid/soak_points.hpp"
 #include "modules/fluid/split_points.hpp"
 #include "modules/fluid/wall_contact.hpp"
 
@@ -27,6 +28,9 @@ constexpr double surface_shape = 0.8;
 /// up ever closer. Where their shape tensor is above a lattice's, density is raised at this rate
 /// times the excess, in units of sound speed over spacing, so that pressure parts them again.
 constexpr double unpacking_rate = 0.01;
+
+/// Part of its mass below which a point is given up to the pores, so small that they hardly notice.
+constexpr double remnant = 1e-6;
 
 }  // namespace
 
@@ -100,7 +104,7 @@ void FluidDynamics<D>::step(double t, double length) {
   place_walls(middle);
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
-  merge_small_points(middle);
+  if (exchange_) remove_small_points(middle);
   find_moments<D>(points_, walls_, neighbours_, influence_, moments_);
   find_densities(middle, length);
   kick(middle, length);
@@ -112,10 +116,13 @@ void FluidDynamics<D>::step(double t, double length) {
 }
 
 template <int D>
-void FluidDynamics<D>::merge_small_points(double t) {
-  const double least = scheme_.merge_below * fluid_.density * std::pow(scheme_.spacing, D);
-  const Index merged = merge_points(points_, neighbours_, influence_, least);
-  if (merged == 0) return;
+void FluidDynamics<D>::remove_small_points(double t) {
+  const double whole = fluid_.density * std::pow(scheme_.spacing, D);
+  const Index soaked =
+      soak_points<D>(step_view(), walls_, remnant * whole, points_, exchanged_mass_, impulse_);
+  const Index merged = merge_points(points_, neighbours_, influence_, scheme_.merge_below * whole);
+  if (soaked + merged == 0) return;
+  points_.remove_if([&](Index i) { return points_.mass[i] == 0.0; });
   merged_ += merged;
   find_neighbours(t);
   copy_to_images();
@@ -212,6 +219,9 @@ FluidStep<D> FluidDynamics<D>::step_view() const {
 
 template <int D>
 void FluidDynamics<D>::exchange_mass(double t, double length) {
+  mass_rate_.assign(points_.count, 0.0);
+  walls_.mass_rate.assign(walls_.count, 0.0);
+  for (auto& values : walls_.momentum_rate) values.assign(walls_.count, 0.0);
   exchange_->find(step_view(), pores_, t, walls_, mass_rate_);
   for (Index i = 0; i < points_.count; ++i) {
     const double gained = length * mass_rate_[i];
@@ -226,6 +236,9 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
     const Index w = walls_.wall[k];
     if (cloud_.is_rigid(w)) continue;
     exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
+    for (int a = 0; a < D; ++a) {
+      impulse_[a * body_points_ + cloud_.owner[w]] += length * walls_.momentum_rate[a][k];
+    }
   }
   if (exchange_->keeps_mass()) return;
   double made = 0.0;

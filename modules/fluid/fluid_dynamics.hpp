@@ -67,7 +67,7 @@ class FluidDynamics {
 
  private:
   void drift(double length);
-  void merge_small_points(double t);
+  void remove_small_points(double t);
   void find_neighbours(double t);
   void place_walls(double t);
   Vector<D> wall_displacement(Index w, double t) const;

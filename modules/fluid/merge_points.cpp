@@ -7,8 +7,7 @@ namespace perifrac {
 
 namespace {
 
-/// Gives away all of point i; false where nobody is there to take it. Points that were given away
-/// have no mass.
+/// Gives away all of point i; false where nobody is there to take it.
 template <int D>
 bool give_away(FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
                const GaussianInfluence& influence, Index i) {
@@ -48,27 +47,6 @@ bool give_away(FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
   return true;
 }
 
-/// Closes the gaps that points without mass left.
-template <int D>
-void remove_empty(FluidPoints<D>& points) {
-  points.trim();
-  Index kept = 0;
-  for (Index i = 0; i < points.count; ++i) {
-    if (points.mass[i] == 0.0) continue;
-    for (int a = 0; a < D; ++a) {
-      points.position[a][kept] = points.position[a][i];
-      points.velocity[a][kept] = points.velocity[a][i];
-    }
-    points.density[kept] = points.density[i];
-    points.mass[kept] = points.mass[i];
-    points.id[kept++] = points.id[i];
-  }
-  points.count = kept;
-  points.mass.resize(kept);
-  points.id.resize(kept);
-  points.trim();
-}
-
 }  // namespace
 
 template <int D>
@@ -76,10 +54,9 @@ Index merge_points(FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
                    const GaussianInfluence& influence, double least) {
   Index gone = 0;
   for (Index i = 0; i < points.count; ++i) {
-    if (points.mass[i] >= least) continue;
+    if (points.mass[i] >= least || points.mass[i] == 0.0) continue;
     if (give_away(points, neighbours, influence, i)) ++gone;
   }
-  if (gone > 0) remove_empty(points);
   return gone;
 }
 

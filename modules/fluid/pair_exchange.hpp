@@ -6,8 +6,8 @@
 namespace perifrac {
 
 /// Adds what flows between all pairs of fluid points and points of the body: what one loses the
-/// other gets. flux(i, w, y, omega) is what passes from fluid point i into near wall point w
-/// [kg/s], y from i to w [m].
+/// other gets, and the momentum that it has at the fluid point's velocity. flux(i, w, y, omega) is
+/// what passes from fluid point i into near wall point w [kg/s], y from i to w [m].
 template <int D, class Flux>
 void add_pair_flux(const FluidStep<D>& step, NearWalls<D>& walls, std::vector<double>& rate,
                    Flux&& flux) {
@@ -23,12 +23,17 @@ void add_pair_flux(const FluidStep<D>& step, NearWalls<D>& walls, std::vector<do
   });
   for_each_point(walls.count, [&](Index w) {
     if (step.cloud.is_rigid(walls.wall[w])) return;
-    walls.mass_rate[w] +=
-        sum_over_neighbours<1, D>(step.neighbours.fluid_of_walls(), w, walls.at(w), points.position,
-                                  step.influence, [&](Index i, Vector<D> y, double omega) {
-                                    for (double& component : y) component = -component;
-                                    return std::array{flux(i, w, y, omega)};
-                                  })[0];
+    const auto sum = sum_over_neighbours<1 + D, D>(
+        step.neighbours.fluid_of_walls(), w, walls.at(w), points.position, step.influence,
+        [&](Index i, Vector<D> y, double omega) {
+          for (double& component : y) component = -component;
+          std::array<double, 1 + D> term;
+          term[0] = flux(i, w, y, omega);
+          for (int a = 0; a < D; ++a) term[1 + a] = term[0] * points.velocity[a][i];
+          return term;
+        });
+    walls.mass_rate[w] += sum[0];
+    for (int a = 0; a < D; ++a) walls.momentum_rate[a][w] += sum[1 + a];
   });
 }
 

@@ -159,7 +159,6 @@ void PaperExchange<D>::find(const FluidStep<D>& step, const PoreInput& pores, do
   find_fluid_flux(step, pores, t, walls);
   find_body_flux(step, pores, t, walls);
   const FluidPoints<D>& points = step.points;
-  rate.resize(points.count);
   for_each_point(points.count, [&](Index i) {
     const SymmetricTensor<D> inverted = tensor_at<D>(step.moments.inverse_shape, i);
     rate[i] =
@@ -173,7 +172,6 @@ void PaperExchange<D>::find(const FluidStep<D>& step, const PoreInput& pores, do
                                                                         omega * walls.volume[w])};
                               })[0];
   });
-  walls.mass_rate.assign(walls.count, 0.0);
   for_each_point(walls.count, [&](Index w) {
     if (step.cloud.is_rigid(walls.wall[w])) return;
     const SymmetricTensor<D> inverted = tensor_at<D>(body_inverse_, w);

@@ -71,7 +71,9 @@ struct NearWalls {
   std::vector<double> fluid_moment;  ///< sum of omega r^2 V over the fluid points, with images
   // On it, by the fluid; images apart.
   std::array<std::vector<double>, D> force;  ///< [N]
-  std::vector<double> mass_rate;             ///< [kg/s] into it; empty without exchange
+  // Into it, by an exchange of mass.
+  std::vector<double> mass_rate;                     ///< [kg/s]
+  std::array<std::vector<double>, D> momentum_rate;  ///< that goes with it [N]
 
   Vector<D> at(Index k) const {
     Vector<D> x;

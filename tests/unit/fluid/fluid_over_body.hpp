@@ -23,6 +23,7 @@ struct FluidOverBody {
                .horizon = 2.5 * spacing,
                .artificial_viscosity = 0.1,
                .density_diffusion = 0.5,
+               .shifting = 0.0,
                .courant = 0.35},
         influence(scheme.horizon),
         neighbours(scheme.horizon, 0.25 * spacing, make_period(across * spacing)) {
@@ -54,7 +55,7 @@ struct FluidOverBody {
     for (Index i = 0; i < lattice.size(); ++i) {
       Vector<D> x = lattice.at(i);
       for (double& coordinate : x) coordinate += shift(bits) * spacing;
-      points.add(x, {}, fluid.density, fluid.density * lattice.volume[i], i);
+      points.add(x, {}, fluid.density, fluid.density * lattice.volume[i]);
     }
     mobility.assign(body->points().size(), 1e-9);
     pressure.assign(body->points().size(), 0.0);
@@ -85,8 +86,17 @@ struct FluidOverBody {
     neighbours.images().copy(points.volume, points.count);
     neighbours.images().copy(points.pressure, points.count);
     moments.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon);
-    find_moments<D>(points, walls, neighbours, fluid, influence, gravity, moments);
+    find_moments<D>(points, walls, neighbours, influence, moments);
     neighbours.images().copy(moments.trace, points.count);
+  }
+
+  /// What the fluid's points get per time.
+  std::vector<double> find(Exchange<D>& exchange, double t = 0.0) {
+    std::vector<double> rate(points.count);
+    walls.mass_rate.assign(walls.count, 0.0);
+    for (auto& values : walls.momentum_rate) values.assign(walls.count, 0.0);
+    exchange.find(step(), pores(), t, walls, rate);
+    return rate;
   }
 
   FluidStep<D> step() const {

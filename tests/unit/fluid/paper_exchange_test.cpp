@@ -102,8 +102,7 @@ TEST(PaperExchange, IsWhatIsPrinted) {
   for (std::size_t j = 0; j < scene.pressure.size(); ++j) scene.pressure[j] = 50.0 * (j % 11);
   scene.prepare([](const Vector<2>& x) { return 2e4 + 3e3 * std::sin(x[0]) - 1e3 * x[1]; });
   PaperExchange<2> exchange = exchange_of(scene);
-  std::vector<double> rate;
-  exchange.find(scene.step(), scene.pores(), 0.0, scene.walls, rate);
+  const std::vector<double> rate = scene.find(exchange);
   const Printed printed(scene, 3.0);
   double scale = 0.0;
   for (const Printed::Node& node : printed.nodes) scale = std::max(scale, std::abs(node.rate));
@@ -127,8 +126,7 @@ TEST(PaperExchange, PassesNothingInASteadyFlow) {
   }
   scene.prepare([](const Vector<2>& x) { return 1e4 * x[1]; });
   PaperExchange<2> exchange = exchange_of(scene);
-  std::vector<double> rate;
-  exchange.find(scene.step(), scene.pores(), 0.0, scene.walls, rate);
+  const std::vector<double> rate = scene.find(exchange);
   const double darcy = 1000.0 * 1e-9 * 1e4 * 3.0;  // [kg/s] through 3 m
   EXPECT_NEAR(sum(scene.walls.mass_rate), 0.0, 1e-12 * darcy);
 }
@@ -142,8 +140,7 @@ TEST(PaperExchange, TakesFromBothSides) {
   }
   scene.prepare([](const Vector<2>&) { return 1e4; });
   PaperExchange<2> exchange = exchange_of(scene);
-  std::vector<double> rate;
-  exchange.find(scene.step(), scene.pores(), 0.0, scene.walls, rate);
+  const std::vector<double> rate = scene.find(exchange);
   EXPECT_FALSE(exchange.keeps_mass());
   const double lost = -sum(rate);
   EXPECT_GT(lost, 0.0);

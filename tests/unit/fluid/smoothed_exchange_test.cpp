@@ -22,8 +22,7 @@ TEST(SmoothedExchange, LeaksWhateverThePermeability) {
                                                      FluidOverBody<2>::make_period(3.0), horizon);
   SmoothedExchange<2> exchange(std::move(tight), 0.25, 0.5, horizon);
   EXPECT_TRUE(exchange.keeps_mass());
-  std::vector<double> rate;
-  exchange.find(scene.step(), scene.pores(), 0.0, scene.walls, rate);
+  const std::vector<double> rate = scene.find(exchange);
 
   double weights = 0.0;  // about a point of a lattice
   for (int m = -3; m <= 3; ++m) {
