@@ -49,6 +49,13 @@ Vector<D> stress_along(const FluidStep<D>& step, Index i, const Vector<D>& y) {
   return result;
 }
 
+/// Dynamic, between fluid and walls that do not slip [Pa s].
+template <int D>
+double wall_viscosity(const FluidStep<D>& step) {
+  return std::max(step.fluid.viscosity, step.fluid.density * step.scheme.wall_viscosity *
+                                            step.fluid.sound_speed() * step.scheme.spacing);
+}
+
 /// The drag of wall point w on fluid point i over omega V_i V_w; 0 where the wall slips. Velocities
 /// are mirrored at the surface: linear between the two points, the wall's own in between.
 template <int D>
@@ -68,7 +75,7 @@ Vector<D> wall_drag(const FluidStep<D>& step, const NearWalls<D>& walls, Index i
   }
   const double steepness =
       1.0 + step.cloud.depth[wall] / std::max(height, 0.5 * step.scheme.spacing);
-  const double factor = step.fluid.viscosity * 4.0 * D /
+  const double factor = wall_viscosity(step) * 4.0 * D /
                         (step.moments.trace[i] + step.moments.bulk_trace) * steepness;
   for (int a = 0; a < D; ++a) drag[a] = -factor * (relative[a] - along_normal * normal[a]);
   return drag;
