@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -20,6 +21,7 @@ FluidDynamics<D> stirred_water(int count) {
                            .horizon = 2.5,
                            .artificial_viscosity = 0.1,
                            .density_diffusion = 0.5,
+                           .shifting = 0.0,
                            .courant = 0.35};
   std::mt19937 bits(1);
   std::uniform_real_distribution<double> shift(-0.2, 0.2);
@@ -30,12 +32,16 @@ FluidDynamics<D> stirred_water(int count) {
     for (int a = 0, rest = n; a < D; ++a, rest /= count) x[a] = rest % count + 0.5 + shift(bits);
     v[0] = 0.1 * water.sound_speed() * std::sin(wave * x[0]) * std::cos(wave * x[1]);
     v[1] = -0.1 * water.sound_speed() * std::cos(wave * x[0]) * std::sin(wave * x[1]);
-    points.add(x, v, water.density, water.density, n);
+    points.add(x, v, water.density, water.density);
   }
   Period<D> period;
   for (auto& ends : period.ends) ends = {0.0, static_cast<double>(count)};
+  Region<D> everywhere;
+  everywhere.from.fill(-std::numeric_limits<double>::infinity());
+  everywhere.to.fill(std::numeric_limits<double>::infinity());
   return FluidDynamics<D>(water, scheme, Vector<D>{}, period, std::move(points), WallCloud<D>{}, {},
-                          0, std::make_unique<TwoSidedWallForce<D>>(), nullptr);
+                          0, {nullptr, nullptr, FluidDomain<D>(everywhere, 0)},
+                          std::make_unique<TwoSidedWallForce<D>>(), nullptr);
 }
 
 /// Whole steps, the search for neighbours included: points times steps per second.

@@ -10,22 +10,20 @@
 
 namespace perifrac {
 
-/// A term that takes a packet of neighbours at a time.
+/// Whether a term takes a packet of neighbours at a time.
 template <class Term, int D>
-concept PacketTerm = std::is_invocable_v < Term,
-        const Index*, const PacketVector<D>
-&, const Packet& > ;
+inline constexpr bool takes_packets =
+    std::is_invocable_v<Term, const Index*, const PacketVector<D>&, const Packet&>;
 
-/// The one loop over the neighbours of a point at `x`: the sum over them of term(j, y, omega),
-/// where y is the vector to the neighbour [m]. Takes a packet of neighbours at a time: j points to
-/// their indices, for gather(values, j). A packet may hold more than the list: what is surplus, or
-/// beyond the horizon, has omega = 0, and every part of a term must have it as a factor.
-template <int K, int D, PacketTerm<D> Term>
-inline std::array<double, K> sum_over_neighbours(const Neighbours& neighbours, Index i,
-                                                 const Vector<D>& x,
-                                                 const std::array<std::vector<double>, D>& position,
-                                                 const GaussianInfluence& influence, Term&& term) {
-  Packet sum[K] = {};
+template <int K, int D, class Term>
+inline std::array<double, K> sum_over_packets(const Neighbours& neighbours, Index i,
+                                              const Vector<D>& x,
+                                              const std::array<std::vector<double>, D>& position,
+                                              const GaussianInfluence& influence, Term&& term) {
+  // Sums stay in registers only where the loops over them are unrolled.
+  std::array<Packet, K> sum;
+#pragma GCC unroll 64
+  for (int k = 0; k < K; ++k) sum[k] = Packet{};
   const Index begin = neighbours.offset[i], end = neighbours.offset[i + 1];
   for (Index n = begin; n < end; n += packet_size) {
     // The last packet reaches back, over neighbours taken before or those of another point.
@@ -44,23 +42,24 @@ inline std::array<double, K> sum_over_neighbours(const Neighbours& neighbours, I
     }
     const Packet omega = lanes() >= n - first ? influence(r_square) : Packet{};
     const std::array<Packet, K> t = term(j, y, omega);
+#pragma GCC unroll 64
     for (int k = 0; k < K; ++k) sum[k] += t[k];
   }
   std::array<double, K> result;
+#pragma GCC unroll 64
   for (int k = 0; k < K; ++k) result[k] = total(sum[k]);
   return result;
 }
 
-/// The same for a term that must take neighbours one by one: j is the neighbour.
 template <int K, int D, class Term>
-requires(!PacketTerm<Term, D>) inline std::array<double, K> sum_over_neighbours(
-    const Neighbours& neighbours, Index i, const Vector<D>& x,
-    const std::array<std::vector<double>, D>& position, const GaussianInfluence& influence,
-    Term&& term) {
+inline std::array<double, K> sum_one_by_one(const Neighbours& neighbours, Index i,
+                                            const Vector<D>& x,
+                                            const std::array<std::vector<double>, D>& position,
+                                            const GaussianInfluence& influence, Term&& term) {
   std::array<double, K> sum{};
   const Index end = neighbours.offset[i + 1];
-  for (Index k = neighbours.offset[i]; k < end; ++k) {
-    const Index j = neighbours.other[k];
+  for (Index n = neighbours.offset[i]; n < end; ++n) {
+    const Index j = neighbours.other[n];
     Vector<D> y;
     double r_square = 0.0;
     for (int a = 0; a < D; ++a) {
@@ -68,9 +67,28 @@ requires(!PacketTerm<Term, D>) inline std::array<double, K> sum_over_neighbours(
       r_square += y[a] * y[a];
     }
     const std::array<double, K> t = term(j, y, influence(r_square));
-    for (int c = 0; c < K; ++c) sum[c] += t[c];
+    for (int k = 0; k < K; ++k) sum[k] += t[k];
   }
   return sum;
+}
+
+/// The sum over the neighbours of a point at `x` of term(j, y, omega): j the neighbour, y the
+/// vector to it [m].
+///
+/// For the loops that most time goes into, a term may take a packet of neighbours at a time, as
+/// `(const Index* j, const PacketVector<D>& y, const Packet& omega)`: j points to their indices,
+/// for gather(values, j). A packet may hold more than the list does. What is surplus, or beyond the
+/// horizon, has omega = 0, and every part of a term must have it as a factor.
+template <int K, int D, class Term>
+inline std::array<double, K> sum_over_neighbours(const Neighbours& neighbours, Index i,
+                                                 const Vector<D>& x,
+                                                 const std::array<std::vector<double>, D>& position,
+                                                 const GaussianInfluence& influence, Term&& term) {
+  if constexpr (takes_packets<Term, D>) {
+    return sum_over_packets<K, D>(neighbours, i, x, position, influence, term);
+  } else {
+    return sum_one_by_one<K, D>(neighbours, i, x, position, influence, term);
+  }
 }
 
 }  // namespace perifrac

@@ -8,6 +8,13 @@
 
 namespace perifrac {
 
+namespace {
+
+/// Of the domain where a scene names none, in longest edges of what there is at the start.
+constexpr double margin = 5.0;
+
+}  // namespace
+
 template <int D>
 Index FluidDomain<D>::remove(FluidPoints<D>& points, double t) {
   const auto is_outside = [&](Index i) { return !box_.contains(points.at(i)); };
@@ -39,7 +46,7 @@ KeyTable fluid_domain_keys() {
        .type = KeyType::vector,
        .unit = "m",
        .meaning = "Low corner of the box that fluid stays in; where left out that of all there is "
-                  "at the start, farther out by its longest edge."},
+                  "at the start, farther out by five times its longest edge."},
       {.path = "domain.to",
        .type = KeyType::vector,
        .unit = "m",
@@ -59,8 +66,8 @@ FluidDomain<D> read_fluid_domain(const Section& section, const Region<D>& all,
   double edge = 0.0;
   for (int a = 0; a < D; ++a) edge = std::max(edge, all.to[a] - all.from[a]);
   for (int a = 0; a < D; ++a) {
-    box.from[a] -= edge;
-    box.to[a] += edge;
+    box.from[a] -= margin * edge;
+    box.to[a] += margin * edge;
   }
   if (section.has("domain.from"))
     std::ranges::copy(section.numbers("domain.from"), box.from.begin());

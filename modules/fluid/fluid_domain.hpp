@@ -39,8 +39,8 @@ class FluidDomain {
 KeyTable fluid_domain_keys();
 
 /// Reads the domain. Where the scene does not say, it is `all`, the box that holds everything at
-/// the start, grown on all sides by its longest edge: splashes fly up through open faces. It has no
-/// ends along an axis that repeats. Throws InputError.
+/// the start, grown on all sides by five times its longest edge: splashes fly up through open
+/// faces. It has no ends along an axis that repeats. Throws InputError.
 template <int D>
 FluidDomain<D> read_fluid_domain(const Section& section, const Region<D>& all,
                                  const Period<D>& period);

@@ -109,7 +109,7 @@ void FluidDynamics<D>::step(double t, double length) {
   find_densities(middle, length);
   kick(middle, length);
   if (scheme_.shifting > 0.0) {
-    shift_points<D>(scheme_.shifting, length, scheme_.spacing, moments_, points_);
+    shift_points<D>(step_view(), walls_, scheme_.shifting, length, points_);
   }
   drift(0.5 * length);
   if (openings_.inlets) insert_points(t + length);
@@ -313,10 +313,9 @@ void FluidDynamics<D>::insert_points(double t) {
   ++version_;
 }
 
-/// No wall point is nearer than half a spacing.
+/// No wall point's cell holds x, nor comes near it.
 template <int D>
 bool FluidDynamics<D>::is_free_of_walls(const Vector<D>& x, double t) const {
-  const double reach = 0.5 * scheme_.spacing;
   for (Index w = 0; w < cloud_.size(); ++w) {
     const Vector<D> moved = wall_displacement(w, t);
     double square = 0.0;
@@ -324,6 +323,7 @@ bool FluidDynamics<D>::is_free_of_walls(const Vector<D>& x, double t) const {
       const double y = cloud_.position[a][w] + moved[a] - x[a];
       square += y * y;
     }
+    const double reach = 0.45 * (scheme_.spacing + std::pow(cloud_.volume[w], 1.0 / D));
     if (square < reach * reach) return false;
   }
   return true;

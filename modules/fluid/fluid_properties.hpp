@@ -43,6 +43,7 @@ struct FluidScheme {
   double horizon;  ///< [m]
   double
       artificial_viscosity;  ///< least kinematic viscosity between fluid points, over c_0 spacing
+  double wall_viscosity;     ///< the same between fluid and walls that do not slip
   double density_diffusion;  ///< diffusivity of density, over c_0 spacing
   double shifting;           ///< of points away from crowds (particle_shifting.hpp)
   double courant;            ///< step over spacing / (c + |v|)

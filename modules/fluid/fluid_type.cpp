@@ -67,6 +67,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   FluidScheme scheme{.spacing = spacing,
                      .horizon = section.number("horizon_ratio") * spacing,
                      .artificial_viscosity = section.number("artificial_viscosity"),
+                     .wall_viscosity = section.number("wall_viscosity"),
                      .density_diffusion = section.number("density_diffusion"),
                      .shifting = section.number("particle_shifting"),
                      .courant = section.number("courant")};
@@ -129,6 +130,12 @@ KeyTable fluid_keys() {
        .fallback = "0.1",
        .meaning = "Least kinematic viscosity between fluid points, over sound speed times spacing; "
                   "walls see the physical one alone."},
+      {.path = "wall_viscosity",
+       .range = "[0, 1]",
+       .fallback = "0",
+       .meaning =
+           "The same between fluid and walls that do not slip: friction that flow along walls "
+           "does not have, for fluid at rest under pressure, which would creep along them."},
       {.path = "density_diffusion",
        .range = "[0, 1]",
        .fallback = "0.5",
@@ -176,6 +183,11 @@ const KeyTable& interface_keys() {
        .fallback = "no_slip",
        .words = {"no_slip", "free"},
        .meaning = "no_slip: fluid sticks to the body. free: no friction."},
+      {.path = "smoothing",
+       .range = "[0, 1]",
+       .fallback = "0",
+       .meaning = "Coefficient of the published smoothing across the interface, which acts as a "
+                  "further leak; keeps mass. 0: off."},
   };
   return keys;
 }

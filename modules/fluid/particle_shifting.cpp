@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/operators/bond_traversal.hpp"
+#include "modules/fluid/wall_contact.hpp"
 
 namespace perifrac {
 
@@ -17,8 +18,10 @@ constexpr double longest = 0.1;  // of a spacing
 }  // namespace
 
 template <int D>
-void shift_points(double strength, double length, double spacing, const FluidMoments<D>& moments,
-                  FluidPoints<D>& points) {
+void shift_points(const FluidStep<D>& step, const NearWalls<D>& walls, double strength,
+                  double length, FluidPoints<D>& points) {
+  const FluidMoments<D>& moments = step.moments;
+  const double spacing = step.scheme.spacing;
   for_each_point(points.count, [&](Index i) {
     const double part = moments.trace[i] / moments.bulk_trace;
     if (part <= surface) return;
@@ -32,13 +35,21 @@ void shift_points(double strength, double length, double spacing, const FluidMom
     const double inwards = std::min(1.0, (part - surface) / (inside - surface));
     const double way = std::min(strength * length * std::sqrt(speed) * inwards * spacing * crowding,
                                 longest * spacing);
-    for (int a = 0; a < D; ++a) {
-      points.position[a][i] -= way * moments.crowding[a][i] / crowding;
-    }
+    Vector<D> shift;
+    for (int a = 0; a < D; ++a) shift[a] = -way * moments.crowding[a][i] / crowding;
+    for_walls_below(step, walls, i, [&](Index, const Vector<D>& normal, double height) {
+      double down = 0.0;
+      for (int a = 0; a < D; ++a) down -= normal[a] * shift[a];
+      const double too_far = std::max(0.0, down - 0.5 * height);
+      for (int a = 0; a < D; ++a) shift[a] += too_far * normal[a];
+    });
+    for (int a = 0; a < D; ++a) points.position[a][i] += shift[a];
   });
 }
 
-template void shift_points<2>(double, double, double, const FluidMoments<2>&, FluidPoints<2>&);
-template void shift_points<3>(double, double, double, const FluidMoments<3>&, FluidPoints<3>&);
+template void shift_points<2>(const FluidStep<2>&, const NearWalls<2>&, double, double,
+                              FluidPoints<2>&);
+template void shift_points<3>(const FluidStep<3>&, const NearWalls<3>&, double, double,
+                              FluidPoints<3>&);
 
 }  // namespace perifrac

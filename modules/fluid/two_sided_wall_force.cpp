@@ -8,6 +8,13 @@ namespace perifrac {
 
 namespace {
 
+/// Dynamic, between fluid and walls that do not slip [Pa s].
+template <int D>
+double wall_viscosity(const FluidStep<D>& step) {
+  return std::max(step.fluid.viscosity, step.fluid.density * step.scheme.wall_viscosity *
+                                            step.fluid.sound_speed() * step.scheme.spacing);
+}
+
 /// The force of wall point w on fluid point i, y from i to w.
 template <int D>
 Vector<D> pair_force(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index w,
@@ -37,7 +44,7 @@ Vector<D> pair_force(const FluidStep<D>& step, const NearWalls<D>& walls, Index 
   }
   const double steepness =
       1.0 + step.cloud.depth[wall] / std::max(height, 0.5 * step.scheme.spacing);
-  const double drag = volumes * step.fluid.viscosity * 4.0 * D /
+  const double drag = volumes * wall_viscosity(step) * 4.0 * D /
                       (step.moments.trace[i] + step.moments.bulk_trace) * steepness;
   for (int a = 0; a < D; ++a) force[a] -= drag * (relative[a] - along_normal * normal[a]);
   return force;

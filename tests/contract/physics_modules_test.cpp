@@ -12,7 +12,11 @@ namespace {
 std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::string& physics,
                                            const std::vector<std::string>& overrides) {
   const Section scene = read_scene_text(text, overrides);
-  return make_module(scene, physics, make_body(scene.at("body"), scene.integer("dimension")));
+  const int dimension = scene.integer("dimension");
+  AnyBody body = std::shared_ptr<const Body<2>>();
+  if (dimension == 3) body = std::shared_ptr<const Body<3>>();
+  if (scene.has("body")) body = make_body(scene.at("body"), dimension);
+  return make_module(scene, physics, body);
 }
 
 /// The nested operator takes no inflow at a face.
@@ -31,8 +35,11 @@ Variant variant(std::string name, std::string type, std::string text,
                       .window = 0.01,
                       .input_size = {{"dilatation", 1e-5},
                                      {"pore_stress", 1e5},
-                                     {"exchanged_mass", 0.1},
-                                     {"interface_impulse", 1e3}}};
+                                     {"displacement", 1e-3},
+                                     {"pore_pressure", 1e3},
+                                     {"pore_mobility", 1e-9},
+                                     {"interface_impulse", 1e3},
+                                     {"exchanged_mass", 0.1}}};
   return {std::move(type), std::move(contract)};
 }
 
@@ -82,6 +89,52 @@ const std::vector<Variant>& variants() {
       variant("darcy_tait_explicit", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.fluid.equation_of_state=tait", "pore_flow.fluid.bulk_modulus=22 MPa",
                "pore_flow.integrator.type=explicit"}),
+      variant("fluid_2d", "fluid/semi_lagrangian", tank_2d),
+      variant("fluid_3d", "fluid/semi_lagrangian", tank_3d),
+      variant("fluid_tait", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.equation_of_state=tait", "fluid.container.slip=free"}),
+      variant("fluid_plain", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.particle_shifting=0", "fluid.artificial_viscosity=0",
+               "fluid.density_diffusion=0"}),
+      variant("fluid_free_fall", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.container.faces={left: open, right: open, bottom: open, top: open}"}),
+      variant("fluid_periodic", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.container.faces={left: periodic, right: periodic, top: open}"}),
+      variant("fluid_periodic_3d", "fluid/semi_lagrangian", tank_3d,
+              {"fluid.container.faces={left: periodic, right: periodic, back: periodic, front: "
+               "periodic, top: open}"}),
+      variant("fluid_walls", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.walls=[{name: sill, from: [0.9 m, 0 m], to: [1.1 m, 0.3 m]}, {name: step, "
+               "from: [1 m, 0 m], to: [1.2 m, 0.2 m], slip: free}]"}),
+      variant("fluid_moving_wall", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.walls=[{name: gate, from: [0.7 m, 0 m], to: [0.9 m, 0.8 m], motion: moving, "
+               "velocity: [-0.5 m/s, 1 m/s], schedule: {ramp: 5 ms}}]"}),
+      variant("fluid_piston", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.walls=[{name: lid, from: [0 m, 0.6 m], to: [0.7 m, 0.9 m], motion: piston, "
+               "force: [0 N/m, -1 kN/m], mass: 100 kg/m, schedule: {ramp: 5 ms}}]"}),
+      // So much at once that points split, are made and removed in every window.
+      variant("fluid_inlet_and_outlet", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.inlets=[{name: pump, from: [0.2 m, 0.1 m], to: [0.4 m, 0.3 m], rate: 1e4 "
+               "kg/(m s)}, {name: spray, from: [0.9 m, 0.5 m], to: [1 m, 0.6 m], rate: 1e4 kg/(m "
+               "s), schedule: {ramp: 1 ms}}]",
+               "fluid.outlets=[{name: drain, from: [0.6 m, 0 m], to: [1.2 m, 0.2 m]}]"}),
+      variant(
+          "fluid_inlet_and_outlet_3d", "fluid/semi_lagrangian", tank_3d,
+          {"fluid.inlets=[{name: pump, from: [0.2 m, 0.1 m, 0.1 m], to: [0.4 m, 0.3 m, 0.3 m], "
+           "rate: 2e3 kg/s}]",
+           "fluid.outlets=[{name: drain, from: [0.4 m, 0 m, 0 m], to: [0.8 m, 0.4 m, 0.2 m]}]"}),
+      variant("fluid_lost", "fluid/semi_lagrangian", tank_2d,
+              {"fluid.domain={to: [0.65 m, 1 m], most_lost: 1000}"}),
+      variant("fluid_beside_body", "fluid/semi_lagrangian",
+              box_2d + quasi_static_2d + water_over_box_2d),
+      variant("fluid_beside_body_3d", "fluid/semi_lagrangian",
+              box_3d + quasi_static_3d + water_over_box_3d, {"interface.slip=free"}),
+      variant("fluid_beside_pores", "fluid/semi_lagrangian", box_2d + darcy + water_over_box_2d),
+      variant("fluid_beside_pores_3d", "fluid/semi_lagrangian", box_3d + darcy + water_over_box_3d),
+      variant("fluid_smoothed_into_pores", "fluid/semi_lagrangian",
+              box_2d + darcy + water_over_box_2d, {"interface.smoothing=0.1"}),
+      variant("fluid_paper_exchange", "fluid/semi_lagrangian", box_2d + darcy + water_over_box_2d,
+              {"interface.exchange=paper"}),
   };
   return all;
 }

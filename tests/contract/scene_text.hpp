@@ -92,4 +92,51 @@ pore_flow:
     left: {type: flux, flux: 1 mm/s}
 )";
 
+/// Free fluid in an open tank, with no body; what else it has comes by overrides.
+inline const std::string tank_2d = R"(
+dimension: 2
+gravity: [0 m/s^2, -9.81 m/s^2]
+time: {end: 1 s}
+fluid:
+  type: semi_lagrangian
+  spacing: 0.1 m
+  bulk_modulus: 0.1 MPa
+  viscosity: 1 Pa s
+  container: {from: [0 m, 0 m], to: [1.2 m, 0.8 m], faces: {top: open}}
+  blocks:
+    - {name: water, from: [0 m, 0 m], to: [0.7 m, 0.6 m], hydrostatic: true, velocity: [0.3 m/s, 0.1 m/s]}
+)";
+inline const std::string tank_3d = R"(
+dimension: 3
+gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]
+time: {end: 1 s}
+fluid:
+  type: semi_lagrangian
+  spacing: 0.1 m
+  bulk_modulus: 0.1 MPa
+  viscosity: 1 Pa s
+  container: {from: [0 m, 0 m, 0 m], to: [0.8 m, 0.4 m, 0.5 m], faces: {top: open}}
+  blocks:
+    - {name: water, from: [0 m, 0 m, 0 m], to: [0.5 m, 0.4 m, 0.4 m], hydrostatic: true, velocity: [0.3 m/s, 0 m/s, 0.1 m/s]}
+)";
+/// Fluid over the top of box_2d and box_3d.
+inline const std::string water_over_box_2d = R"(
+interface: {}
+fluid:
+  type: semi_lagrangian
+  bulk_modulus: 0.1 MPa
+  viscosity: 1 Pa s
+  blocks:
+    - {name: water, from: [2 m, 11 m], to: [9 m, 14 m], pressure: 2 kPa, velocity: [0.2 m/s, -0.3 m/s]}
+)";
+inline const std::string water_over_box_3d = R"(
+interface: {}
+fluid:
+  type: semi_lagrangian
+  bulk_modulus: 0.1 MPa
+  viscosity: 1 Pa s
+  blocks:
+    - {name: water, from: [1 m, 1 m, 5 m], to: [6 m, 4 m, 8 m], pressure: 2 kPa, velocity: [0.2 m/s, 0 m/s, -0.3 m/s]}
+)";
+
 }  // namespace perifrac
