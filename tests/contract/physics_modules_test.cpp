@@ -129,6 +129,8 @@ const std::vector<Variant>& variants() {
               box_2d + quasi_static_2d + water_over_box_2d),
       variant("fluid_beside_body_3d", "fluid/semi_lagrangian",
               box_3d + quasi_static_3d + water_over_box_3d, {"interface.slip=free"}),
+      variant("fluid_one_sided", "fluid/semi_lagrangian",
+              box_2d + quasi_static_2d + water_over_box_2d, {"interface.force=one_sided"}),
       variant("fluid_beside_pores", "fluid/semi_lagrangian", box_2d + darcy + water_over_box_2d),
       variant("fluid_beside_pores_3d", "fluid/semi_lagrangian", box_3d + darcy + water_over_box_3d),
       variant("fluid_smoothed_into_pores", "fluid/semi_lagrangian",
