@@ -1,5 +1,7 @@
 #include "modules/fluid/bond_flux_exchange.hpp"
 
+#include <algorithm>
+
 #include "modules/fluid/body_neighbours.hpp"
 #include "modules/fluid/pair_exchange.hpp"
 
@@ -45,7 +47,7 @@ template <int D>
 BondFluxExchange<D>::BondFluxExchange(const Body<D>& body, const WallCloud<D>& cloud,
                                       std::span<const RigidWall<D>> rigid, const Period<D>& period,
                                       double horizon)
-    : solid_moment_(cloud.size()) {
+    : solid_moment_(cloud.size()), inverse_depth_(cloud.size()) {
   const BodyNeighbours<D> solid(body, cloud, points_at_rest<D>(cloud, rigid), period, horizon);
   const GaussianInfluence influence(horizon);
   for (Index w = cloud.rigid_count; w < cloud.size(); ++w) {
@@ -54,6 +56,9 @@ BondFluxExchange<D>::BondFluxExchange(const Body<D>& body, const WallCloud<D>& c
                                   influence, [&](Index j, const Vector<D>& y, double omega) {
                                     return moment<D>(y, omega * solid.volume[j]);
                                   })[0];
+    // In a cloud points may lie arbitrarily close to the surface.
+    const double depth = std::max(cloud.depth[w], 0.25 * body.spacing());
+    if (depth < body.spacing()) inverse_depth_[w] = 1.0 / depth;
   }
 }
 
@@ -63,9 +68,14 @@ void BondFluxExchange<D>::find(const FluidStep<D>& step, const PoreInput& pores,
   find_fluid_moments(step, walls);
   add_pair_flux(step, walls, rate, [&](Index i, Index w, const Vector<D>& y, double omega) {
     const Index wall = walls.wall[w];
+    if (inverse_depth_[wall] == 0.0) return 0.0;
+    double height = -step.cloud.depth[wall];
+    for (int a = 0; a < D; ++a) height -= step.cloud.normal[a][wall] * y[a];
+    const double steepness = 1.0 + std::max(0.0, height) * inverse_depth_[wall];
     const double traces = step.moments.trace[i] + solid_moment_[wall] + walls.fluid_moment[w];
-    return step.fluid.density * pores.mobility[step.cloud.owner[wall]] * 4.0 * D / traces * omega *
-           head<D>(step, pores, t, walls, i, w, y) * step.points.volume[i] * walls.volume[w];
+    return step.fluid.density * pores.mobility[step.cloud.owner[wall]] * 4.0 * D / traces *
+           steepness * omega * head<D>(step, pores, t, walls, i, w, y) * step.points.volume[i] *
+           walls.volume[w];
   });
 }
 

@@ -10,10 +10,13 @@
 
 namespace perifrac {
 
-/// One flux for each bond between a fluid point i and a point j of the body,
-///   J_ij = rho_0 kappa_j omega 4d / (tr M_i + tr M_j) (p_i - p_j - rho_0 g.(x_i - x_j)) V_i V_j,
+/// One flux for each bond between a fluid point i and a point j of the body's outermost layer,
+///   J_ij = rho_0 kappa_j omega 4d / (tr M_i + tr M_j) (p_i - p_j - rho_0 g.(x_i - x_j))
+///          (1 + h_i / d_j) V_i V_j,
 /// which i loses and j gets. The shape tensors M count the neighbours of both phases and the walls
-/// that rest: those of its own phase alone would put the interface a quarter of a spacing off.
+/// that rest. Along the part of a bond that lies in the fluid pressure does not fall, hence the
+/// height h of i above the surface over the depth d of j below it. Points farther below get their
+/// fluid from the layer: fed across the interface, they would move it by a tenth of a spacing.
 template <int D>
 class BondFluxExchange final : public Exchange<D> {
  public:
@@ -26,6 +29,8 @@ class BondFluxExchange final : public Exchange<D> {
  private:
   /// The share that body and walls at rest have in tr M, of every point of the cloud.
   std::vector<double> solid_moment_;
+  /// 1 / d of the cloud's points in the outermost layer, 0 of the others [1/m].
+  std::vector<double> inverse_depth_;
 };
 
 }  // namespace perifrac

@@ -174,9 +174,14 @@ const KeyTable& interface_keys() {
        .type = KeyType::word,
        .fallback = "bond_flux",
        .words = {"bond_flux", "paper", "none"},
-       .meaning =
-           "How mass passes between fluid and pores, where the body has pores. bond_flux: as "
-           "one flux for each bond across; keeps mass."},
+       .meaning = "How mass passes between fluid and pores, where the body has pores. bond_flux: "
+                  "one flux for each bond across; keeps mass. paper: as published, for comparison; "
+                  "makes and loses mass."},
+      {.path = "smoothing",
+       .range = "[0, 1]",
+       .fallback = "0",
+       .meaning = "Coefficient C of the published smoothing of density across the interface, here "
+                  "an exchange that keeps mass: a leak that permeability has no say in."},
       {.path = "force",
        .type = KeyType::word,
        .fallback = "two_sided",

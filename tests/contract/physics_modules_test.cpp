@@ -81,6 +81,8 @@ const std::vector<Variant>& variants() {
                "porosity: 0.1, biot_coefficient: 0.5}}"}),
       variant("darcy_gravity", "pore_flow/darcy", box_2d + darcy,
               {"gravity=[0 m/s^2, -9.81 m/s^2]", "pore_flow.boundary.right.hydrostatic=true"}),
+      variant("darcy_warm", "pore_flow/darcy", box_2d + darcy,
+              {"pore_flow.initial_state=linear", "pore_flow.initial_gradient=[10 kPa/m, 1 Pa/m]"}),
       variant("darcy_schedule", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.boundary.right.schedule={ramp: 5 ms}",
                "pore_flow.boundary.left.schedule={times: [2 ms, 13 ms], factors: [1, -1]}"}),
