@@ -31,6 +31,14 @@ KeyTable time_keys() {
            .meaning = "Time to simulate, from 0."}};
 }
 
+KeyTable ledger_keys() {
+  return {{.path = "mass_error",
+           .range = "(0, inf)",
+           .fallback = "1e-6",
+           .meaning = "Largest error of the fluid mass over what is stored or has passed; a run "
+                      "beyond it stops at the next restart point."}};
+}
+
 KeyTable output_keys() {
   return {
       {.path = "times",
@@ -86,9 +94,10 @@ constexpr const char* body_meaning =
 const Catalogue& scene_catalogue() {
   static const Catalogue catalogue = [] {
     Catalogue all = {
-        {"", "", top_level_keys()},        {"body", "", body_keys(), body_meaning, true},
-        {"time", "", time_keys()},         {"output", "", output_keys()},
-        {"coupling", "", coupling_keys()}, {"reference", "", reference_keys()}};
+        {"", "", top_level_keys()},         {"body", "", body_keys(), body_meaning, true},
+        {"time", "", time_keys()},          {"output", "", output_keys()},
+        {"coupling", "", coupling_keys()},  {"ledger", "", ledger_keys()},
+        {"reference", "", reference_keys()}};
     for (const ModuleType& type : module_types()) {
       all.push_back({type.section, type.name, type.keys, type.meaning});
     }
