@@ -60,11 +60,12 @@ void print(const nlohmann::json& result) {
   fmt::print("{}: fine\n", result["scene"].get<std::string>());
   for (const auto& effect : result["effects"]) fmt::print("  {}\n", effect.get<std::string>());
   for (const auto& link : result["links"]) fmt::print("  link {}\n", link.get<std::string>());
-  for (const auto& [name, count] : counts["point_sets"].items()) {
-    fmt::print("  {} points of {}\n", count.get<long>(), name);
+  fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
+             counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
+             result["family_bytes"].get<long>() / 1000);
+  for (const auto& [name, count] : counts.items()) {
+    if (name.ends_with("_points")) fmt::print("  {} {}\n", count.get<long>(), name);
   }
-  fmt::print("  {} ghosts, {} bonds ({} kB)\n", counts["ghosts"].get<long>(),
-             counts["bonds"].get<long>(), result["family_bytes"].get<long>() / 1000);
   for (const auto& array : result["arrays"]) {
     fmt::print("  {:<48} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
                array["count"].get<long>(), array["bytes"].get<long>());

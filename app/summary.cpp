@@ -77,22 +77,23 @@ std::vector<std::string> effects(const Section& scene) {
 }
 
 nlohmann::json counts(const Simulation& simulation) {
-  std::map<std::string, std::size_t> sets;
   std::size_t points = 0, bonds = 0, ghosts = 0;
   const auto count_body = [&](const auto& body) {
     if (!body) return;
-    sets[body->point_set().name] = points = body->points().size();
+    points = body->points().size();
     for (const auto& family : body->families()) {
       bonds += family->other.size();
       ghosts += family->ghost_source.size();
     }
   };
   std::visit(count_body, simulation.body);
+  nlohmann::json result = {{"points", points}, {"ghosts", ghosts}, {"bonds", bonds}};
   for (const Field& field : fields_of(*simulation.manager)) {
     const PointSet& set = field.points();
-    if (set.dimension > 0) sets[set.name] = set.count;
+    const bool of_body = simulation.has_body() && set.name == simulation.points().name;
+    if (set.dimension > 0 && !of_body) result[set.name + "_points"] = set.count;
   }
-  return {{"points", points}, {"ghosts", ghosts}, {"bonds", bonds}, {"point_sets", sets}};
+  return result;
 }
 
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
@@ -132,8 +133,8 @@ void write_summary(const std::filesystem::path& folder, const nlohmann::json& su
 
 std::string summary_text(const nlohmann::json& summary) {
   long points = 0;
-  for (const auto& [name, count] : summary["counts"]["point_sets"].items()) {
-    points += count.get<long>();
+  for (const auto& [name, count] : summary["counts"].items()) {
+    if (name.ends_with("points")) points += count.get<long>();
   }
   std::string text = fmt::format(
       "{}: {} at t = {:g} s; {} points, {} windows, {:.2f} s, {:.0f} MB\n",

@@ -30,7 +30,8 @@ std::string summary_text(const nlohmann::json& summary);
 /// `<physics>: <type>` of everything that the scene calls for, and no more.
 std::vector<std::string> effects(const Section& scene);
 
-/// Points and bonds of the body, mirrored faces included, and points of every set with a field.
+/// Points and bonds of the body, mirrored faces included, and `<set>_points` of every other set
+/// with a field.
 nlohmann::json counts(const Simulation& simulation);
 
 }  // namespace perifrac

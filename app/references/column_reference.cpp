@@ -33,7 +33,7 @@ Column read_column(const Section& scene, const std::string& problem) {
   require_word(scene, problem, "solid.boundary.bottom.type", {"roller", "fixed"});
   require_word(scene, problem, "solid.boundary.top.type", {"traction"});
   require_word(scene, problem, "pore_flow.boundary.top.type", {"pressure"});
-  require_absent(scene, problem, {"solid.body_force", "gravity"});
+  require_absent(scene, problem, {"solid.body_force", "gravity", "pore_flow.initial_gradient"});
   if (scene.number("pore_flow.boundary.top.pressure") != 0.0) {
     scene.fail("pore_flow.boundary.top.pressure", "this scene is not " + problem, "0 Pa");
   }

@@ -25,7 +25,8 @@ CryerProblem read_problem(const Section& scene) {
   require_word(scene, problem, "solid.boundary.surface.type", {"pressure"});
   require_word(scene, problem, "pore_flow.boundary.surface.type", {"pressure"});
   require_absent(scene, problem,
-                 {"solid.regions", "pore_flow.regions", "solid.body_force", "gravity"});
+                 {"solid.regions", "pore_flow.regions", "solid.body_force", "gravity",
+                  "pore_flow.initial_gradient"});
   const ElasticRock elasticity = read_elastic_rock(scene);
   const PorousRock pore = read_porous_rock(scene);
   return {.bulk_modulus = elasticity.bulk_modulus(),

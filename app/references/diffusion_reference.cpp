@@ -34,7 +34,8 @@ struct Slab {
 Slab read_slab(const Section& scene) {
   require_word(scene, problem, "body.shape", {"box"});
   require_word(scene, problem, "pore_flow.type", {"darcy"});
-  require_absent(scene, problem, {"solid.regions", "pore_flow.regions", "gravity"});
+  require_absent(scene, problem,
+                 {"solid.regions", "pore_flow.regions", "gravity", "pore_flow.initial_gradient"});
   if (scene.has("solid") && scene.word("solid.type") != "rigid") {
     scene.fail("reference.type", "this scene is not " + problem, "no solid, or solid.type: rigid");
   }

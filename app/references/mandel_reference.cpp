@@ -27,7 +27,8 @@ MandelProblem read_problem(const Section& scene) {
   require_word(scene, problem, "solid.boundary.bottom.type", {"roller"});
   require_word(scene, problem, "solid.boundary.top.type", {"rigid_plate"});
   require_word(scene, problem, "pore_flow.boundary.right.type", {"pressure"});
-  require_absent(scene, problem, {"solid.regions", "pore_flow.regions", "gravity"});
+  require_absent(scene, problem,
+                 {"solid.regions", "pore_flow.regions", "gravity", "pore_flow.initial_gradient"});
   const ElasticRock elasticity = read_elastic_rock(scene);
   const PorousRock pore = read_porous_rock(scene);
   const std::vector<double> size = scene.numbers("body.size");

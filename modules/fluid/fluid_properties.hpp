@@ -43,11 +43,11 @@ struct FluidScheme {
   double horizon;  ///< [m]
   double
       artificial_viscosity;  ///< least kinematic viscosity between fluid points, over c_0 spacing
-  double wall_viscosity;     ///< the same between fluid and walls that do not slip
-  double density_diffusion;  ///< diffusivity of density, over c_0 spacing
-  double shifting;           ///< of points away from crowds (particle_shifting.hpp)
-  double courant;            ///< step over spacing / (c + |v|)
-  double merge_below = 0.0;  ///< mass under which points are merged, over that of a new one
+  double wall_viscosity = 0.0;  ///< the same between fluid and walls that do not slip
+  double density_diffusion;     ///< diffusivity of density, over c_0 spacing
+  double shifting = 0.0;        ///< of points away from crowds (particle_shifting.hpp)
+  double courant;               ///< step over spacing / (c + |v|)
+  double merge_below = 0.0;     ///< mass under which points are merged, over that of a new one
 };
 
 }  // namespace perifrac

@@ -8,6 +8,7 @@
 #include "modules/fluid/fluid_blocks.hpp"
 #include "modules/fluid/fluid_scene_checks.hpp"
 #include "modules/fluid/fluid_walls.hpp"
+#include "modules/fluid/one_sided_wall_force.hpp"
 #include "modules/fluid/paper_exchange.hpp"
 #include "modules/fluid/semi_lagrangian_fluid.hpp"
 #include "modules/fluid/smoothed_exchange.hpp"
@@ -55,6 +56,14 @@ std::unique_ptr<Exchange<D>> make_exchange(const Section& scene, const Body<D>* 
 }
 
 template <int D>
+std::unique_ptr<WallForce<D>> make_wall_force(const Section& scene) {
+  if (!scene.has("interface") || scene.word("interface.force") == "two_sided") {
+    return std::make_unique<TwoSidedWallForce<D>>();
+  }
+  return std::make_unique<OneSidedWallForce<D>>(scene.number("interface.repulsion"));
+}
+
+template <int D>
 std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
   const Section scene = section.scene();
@@ -85,8 +94,8 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   FluidOpenings<D> openings = read_fluid_openings(section, body.get(), walls, fluid, spacing);
   auto dynamics = std::make_unique<FluidDynamics<D>>(
       fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
-      std::move(walls.rigid), body_points, std::move(openings),
-      std::make_unique<TwoSidedWallForce<D>>(), std::move(exchange));
+      std::move(walls.rigid), body_points, std::move(openings), make_wall_force<D>(scene),
+      std::move(exchange));
   check_fluid_steps(section, *dynamics);
   return std::make_unique<SemiLagrangianFluid<D>>(std::move(body), exchanges, std::move(dynamics));
 }
@@ -173,6 +182,17 @@ const KeyTable& interface_keys() {
        .fallback = "0",
        .meaning = "Coefficient C of the published smoothing of density across the interface, here "
                   "an exchange that keeps mass: a leak that permeability has no say in."},
+      {.path = "force",
+       .type = KeyType::word,
+       .fallback = "two_sided",
+       .words = {"two_sided", "one_sided"},
+       .meaning = "How fluid and all walls press on each other. one_sided: as published, for "
+                  "comparison; misses half of the pressure."},
+      {.path = "repulsion",
+       .range = "[0, inf)",
+       .fallback = "1",
+       .when = "force=one_sided",
+       .meaning = "Coefficient of the repulsion that makes up for it where it is strong enough."},
       {.path = "merge_below",
        .range = "[0, 0.5]",
        .fallback = "0.1",

@@ -46,13 +46,22 @@ const PointSet whole_body{.name = "pore_flow"};
 
 template <int D>
 DarcyFlow<D>::DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> system,
-                        double initial_pressure, const DarcyIntegratorMaker<D>& make_integrator,
-                        InitialState initial_state)
+                        InitialPressure<D> initial_pressure,
+                        const DarcyIntegratorMaker<D>& make_integrator)
     : body_(std::move(body)),
       system_(std::make_unique<DarcySystem<D>>(std::move(system))),
       integrator_(make_integrator(*system_)),
-      initial_pressure_(initial_pressure),
-      initial_state_(initial_state) {}
+      initial_pressure_(initial_pressure) {}
+
+template <int D>
+double DarcyFlow<D>::initial_pressure(Index i) const {
+  const auto& [value, gradient, is_hydrostatic] = initial_pressure_;
+  const PoreFluid& fluid = system_->fluid();
+  if (is_hydrostatic) return fluid.pressure_of(fluid.potential(value) - system_->gravity(i));
+  double sum = value;
+  for (int a = 0; a < D; ++a) sum += gradient[a] * body_->points().position[a][i];
+  return sum;
+}
 
 template <int D>
 std::span<const Port> DarcyFlow<D>::ports() const {
@@ -97,15 +106,11 @@ void DarcyFlow<D>::initialize(double t) {
   start_ = time_ = t;
   unknowns_.assign(system_->size(), 0.0);
   system_->start();
-  pressure_.assign(system_->points(), initial_pressure_);
+  pressure_.resize(system_->points());
   pore_stress_.resize(system_->points());
   pore_stress_slope_.resize(system_->points());
-  const PoreFluid& fluid = system_->fluid();
   for (Index i = 0; i < system_->points(); ++i) {
-    if (initial_state_ == InitialState::hydrostatic) {
-      const double potential = fluid.potential(initial_pressure_) - system_->gravity(i);
-      pressure_[i] = fluid.pressure_of(potential);
-    }
+    pressure_[i] = initial_pressure(i);
     unknowns_[i] = system_->storage().content(i, pressure_[i]);
     pore_stress_slope_[i] = system_->storage().undrained_slope(i, unknowns_[i], pressure_[i]);
   }

@@ -16,8 +16,14 @@ namespace perifrac {
 template <int D>
 using DarcyIntegratorMaker = std::function<std::unique_ptr<Integrator>(DarcySystem<D>&)>;
 
-/// The pressure that a run begins with is one everywhere, or grows downwards so that fluid rests.
-enum class InitialState { uniform, hydrostatic };
+/// The pressure that a run begins with.
+template <int D>
+struct InitialPressure {
+  double value = 0.0;           ///< at the origin [Pa]
+  Vector<D> gradient{};         ///< [Pa/m]
+  bool is_hydrostatic = false;  ///< grows downwards so that fluid rests, from `value` at the
+                                ///< highest corner of the body
+};
 
 /// Pore flow after Darcy, by whichever integrator it is given.
 ///
@@ -30,9 +36,8 @@ enum class InitialState { uniform, hydrostatic };
 template <int D>
 class DarcyFlow final : public PhysicsModule {
  public:
-  DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> system, double initial_pressure,
-            const DarcyIntegratorMaker<D>& make_integrator,
-            InitialState initial_state = InitialState::uniform);
+  DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> system,
+            InitialPressure<D> initial_pressure, const DarcyIntegratorMaker<D>& make_integrator);
 
   std::span<const Port> ports() const override;
   PortView port(PortId id) override;
@@ -65,6 +70,7 @@ class DarcyFlow final : public PhysicsModule {
     port_count
   };
 
+  double initial_pressure(Index i) const;
   void integrate(const TimeWindow& window);
   void flow(const TimeWindow& window);
   void update_content();
@@ -77,8 +83,7 @@ class DarcyFlow final : public PhysicsModule {
   std::shared_ptr<const Body<D>> body_;
   std::unique_ptr<DarcySystem<D>> system_;
   std::unique_ptr<Integrator> integrator_;
-  double initial_pressure_;
-  InitialState initial_state_;
+  InitialPressure<D> initial_pressure_;
 
   std::vector<double> unknowns_;  ///< of the system
   double start_ = 0.0;            ///< [s]

@@ -131,6 +131,16 @@ Discretisation<D> discretise(const Section& section, const Body<D>& body,
 }
 
 template <int D>
+InitialPressure<D> read_initial_pressure(const Section& section) {
+  InitialPressure<D> initial{.value = section.number("initial_pressure"),
+                             .is_hydrostatic = section.word("initial_state") == "hydrostatic"};
+  if (section.has("initial_gradient")) {
+    std::ranges::copy(section.numbers("initial_gradient"), initial.gradient.begin());
+  }
+  return initial;
+}
+
+template <int D>
 std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
   const FlowScheme scheme = read_scheme(section);
@@ -163,11 +173,8 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
   if (auto smoothing = read_smoothing(section, *body, family, mirror, held)) {
     system.set_smoothing(std::move(*smoothing));
   }
-  const auto initial_state = section.word("initial_state") == "hydrostatic"
-                                 ? InitialState::hydrostatic
-                                 : InitialState::uniform;
-  return std::make_unique<DarcyFlow<D>>(body, std::move(system), section.number("initial_pressure"),
-                                        read_integrator<D>(section), initial_state);
+  return std::make_unique<DarcyFlow<D>>(body, std::move(system), read_initial_pressure<D>(section),
+                                        read_integrator<D>(section));
 }
 
 KeyTable darcy_keys() {
@@ -202,12 +209,21 @@ KeyTable darcy_keys() {
       {.path = "initial_pressure",
        .unit = "Pa",
        .fallback = "0 Pa",
-       .meaning = "Pore pressure at the start, if hydrostatic at the highest corner of the body."},
+       .meaning =
+           "Pore pressure at the start, if hydrostatic at the highest corner of the body, if "
+           "linear at the origin."},
       {.path = "initial_state",
        .type = KeyType::word,
        .fallback = "uniform",
-       .words = {"uniform", "hydrostatic"},
-       .meaning = "hydrostatic: the pressure grows downwards by the fluid's weight."},
+       .words = {"uniform", "hydrostatic", "linear"},
+       .meaning = "hydrostatic: the pressure grows downwards by the fluid's weight. linear: by "
+                  "initial_gradient."},
+      {.path = "initial_gradient",
+       .type = KeyType::vector,
+       .unit = "Pa/m",
+       .required = true,
+       .when = "initial_state=linear",
+       .meaning = "Pressure grows by it along each axis."},
   };
   for (const KeyTable& part :
        {permeability_keys(), pore_material_keys(), pore_fluid_keys(), pore_boundary_keys()}) {

@@ -45,9 +45,8 @@ std::unique_ptr<Socket> pressure_on(const Line& line) {
 TEST(MovingPoints, AreCountedWhereThereIsNoBody) {
   const Line line(7, "fluid");
   const Simulation simulation = without_body(pressure_on(line));
-  EXPECT_EQ(
-      counts(simulation),
-      (nlohmann::json{{"points", 0}, {"ghosts", 0}, {"bonds", 0}, {"point_sets", {{"fluid", 7}}}}));
+  EXPECT_EQ(counts(simulation),
+            (nlohmann::json{{"points", 0}, {"ghosts", 0}, {"bonds", 0}, {"fluid_points", 7}}));
   EXPECT_THROW(simulation.points(), std::logic_error);
 }
 

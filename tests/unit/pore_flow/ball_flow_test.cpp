@@ -207,7 +207,7 @@ void expect_mass_kept(bool octant) {
   PoreBoundary<D> boundary(*body);
   boundary.pressure(static_cast<int>(body->faces().size()) - 1, 0.1);
   for (const Method method : {Method::forward_euler, Method::direct, Method::krylov}) {
-    DarcyFlow<D> flow(body, test::darcy_system<D>(*body, boundary), 1.0,
+    DarcyFlow<D> flow(body, test::darcy_system<D>(*body, boundary), {1.0},
                       test::integrator_maker<D>(method, 1e-5));
     flow.initialize(0.0);
     const double before = test::scalar(flow, "pore_fluid_mass");

@@ -38,7 +38,7 @@ template <int D>
 void expect_mass_kept(const std::shared_ptr<const Body<D>>& body, const PoreBoundary<D>& boundary,
                       const std::string& what) {
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    DarcyFlow<D> flow(body, test::darcy_system<D>(*body, boundary), 0.5,
+    DarcyFlow<D> flow(body, test::darcy_system<D>(*body, boundary), {0.5},
                       test::integrator_maker<D>(methods[m], 1e-5));
     flow.initialize(0.0);
     RandomStart start(body->points().volume.size());
@@ -90,7 +90,7 @@ double error_of_drainage(int count, Method method) {
   const auto body = test::box_body<2>({count, 4}, 1.0 / count);
   PoreBoundary<2> boundary(*body);
   boundary.pressure(1, 0.0);
-  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 1.0,
+  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {1.0},
                     test::integrator_maker<2>(method, 1e-7, 0.1));
   flow.initialize(0.0);
   const double diffusivity = test::some_rock.mobility / test::some_rock.storage;
@@ -119,6 +119,32 @@ TEST(DarcyFlow, DrainsALayerAsTheSeriesSays) {
   }
 }
 
+/// Linear between two faces of prescribed pressure is where flow is steady: a warm start stays.
+template <int D>
+void expect_warm_start(const std::array<int, D>& counts) {
+  const auto body = test::box_body<D>(counts, 0.5);
+  const double length = 0.5 * counts[0];
+  PoreBoundary<D> boundary(*body);
+  boundary.pressure(0, 0.4);
+  boundary.pressure(1, 0.4 - 0.2 * length);
+  for (const Method method : methods) {
+    DarcyFlow<D> flow(body, test::darcy_system<D>(*body, boundary), {0.4, {-0.2}},
+                      test::integrator_maker<D>(method, 1e-5));
+    flow.initialize(0.0);
+    flow.advance({0.0, 5.0});
+    const auto p = test::port(flow, "pore_pressure").value;
+    for (Index i = 0; i < body->points().size(); ++i) {
+      EXPECT_NEAR(p[i], 0.4 - 0.2 * body->points().position[0][i], 1e-9);
+    }
+    EXPECT_NEAR(scalar(flow, "pore_fluid_gained"), 0.0, 1e-9);
+  }
+}
+
+TEST(DarcyFlow, StaysWhereItWasStartedWarm) {
+  expect_warm_start<2>({9, 6});
+  expect_warm_start<3>({7, 5, 5});
+}
+
 TEST(DarcyFlow, BalancesEnergy) {
   const auto body = test::box_body<2>({14, 11}, 0.5);
   PoreBoundary<2> boundary(*body);
@@ -126,7 +152,7 @@ TEST(DarcyFlow, BalancesEnergy) {
   boundary.source(40, 0.05);
   // Explicit steps balance to first order; CVODE to its tolerance.
   for (const double tolerance : {1e-5, 1e-8}) {
-    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.2,
+    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {0.2},
                       test::integrator_maker<2>(Method::direct, tolerance));
     flow.initialize(0.0);
     const double before = scalar(flow, "pore_fluid_energy");
@@ -148,7 +174,7 @@ TEST(DarcyFlow, AnswersAJumpOfDilatationUndrained) {
   PoreBoundary<2> boundary(*body);
   boundary.pressure(1, 0.0);
   for (const Method method : methods) {
-    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 1.0,
+    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {1.0},
                       test::integrator_maker<2>(method, 1e-5));
     flow.initialize(0.0);
     std::ranges::fill(test::port(flow, "dilatation").value, -0.05);
@@ -169,7 +195,7 @@ TEST(DarcyFlow, StepsOverNoKinkOfASchedule) {
   PoreBoundary<2> boundary(*body);
   boundary.source(20, 0.05, Schedule::table({5.0, 5.005, 5.01}, {0.0, 1.0, 0.0}));
   for (const Method method : methods) {
-    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.0,
+    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {0.0},
                       test::integrator_maker<2>(method, 1e-5));
     flow.initialize(0.0);
     flow.advance({0.0, 10.0});
@@ -184,7 +210,7 @@ TEST(DarcyFlow, ShowsDarcysVelocity) {
   PoreBoundary<2> boundary(*body);
   boundary.pressure(0, 1.0);
   boundary.pressure(1, 0.0);
-  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.5,
+  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {0.5},
                     test::integrator_maker<2>(Method::direct, 1e-8));
   flow.initialize(0.0);
   flow.advance({0.0, 1000.0});

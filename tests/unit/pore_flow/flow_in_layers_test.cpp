@@ -25,7 +25,7 @@ DrainageErrors errors_of_drainage(int count, FlowScheme scheme, Method method) {
   const auto body = test::body_with_layer_on_top<2>({4, count}, spacing);
   PoreBoundary<2> boundary(*body);
   boundary.pressure(3, 0.0);
-  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary, test::some_rock, scheme), 1.0,
+  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary, test::some_rock, scheme), {1.0},
                     test::integrator_maker<2>(method, 1e-7, 0.2));
   flow.initialize(0.0);
   const double diffusivity = test::some_rock.mobility / test::some_rock.storage;
@@ -88,7 +88,7 @@ TEST(FlowInLayers, KeepMassAndPressureWhileTheyAreSqueezed) {
     boundary.pressure(3, 0.6);
     boundary.pressure(0, -0.2);
     boundary.source(7, 0.05);
-    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.5,
+    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {0.5},
                       test::integrator_maker<2>(method, 1e-5));
     flow.initialize(0.0);
     const double before = scalar(flow, "pore_fluid_mass");
@@ -127,7 +127,7 @@ TEST(FlowInLayers, BalanceEnergyOfASteadySqueeze) {
   const auto body = test::body_with_layer_on_top<2>({8, 9}, 0.5);
   PoreBoundary<2> boundary(*body);
   boundary.pressure(3, 0.6);
-  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.2,
+  DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {0.2},
                     test::integrator_maker<2>(Method::direct, 1e-8));
   flow.initialize(0.0);
   const double before = scalar(flow, "pore_fluid_energy");
@@ -164,7 +164,7 @@ TEST(FlowInLayers, AreDryWhereTheyAreSealed) {
     const auto body = test::body_with_layer_on_top<2>({8, 9}, 0.5);
     PoreBoundary<2> boundary(*body);
     boundary.pressure(2, 0.6);
-    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), 0.2,
+    DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {0.2},
                       test::integrator_maker<2>(method, 1e-6));
     flow.initialize(0.0);
     const double before = scalar(flow, "pore_fluid_mass");

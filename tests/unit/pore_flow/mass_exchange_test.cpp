@@ -21,7 +21,9 @@ constexpr std::array method_names = {"forward_euler", "direct", "krylov"};
 template <int D>
 DarcyFlow<D> flow_of(std::shared_ptr<const Body<D>> body, const PoreBoundary<D>& boundary,
                      Method method, double tolerance, double pressure = 0.0) {
-  return {body, test::darcy_system<D>(*body, boundary), pressure,
+  return {body,
+          test::darcy_system<D>(*body, boundary),
+          {pressure},
           test::integrator_maker<D>(method, tolerance)};
 }
 

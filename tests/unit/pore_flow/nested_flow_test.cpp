@@ -55,7 +55,7 @@ class Column {
  public:
   Column(bool cut, Stepping stepping)
       : body_(test::body_with_layer_on_top<2>({8, 20}, 0.05)),
-        flow_(body_, system(cut, stepping), 1.0, integrator(stepping)) {
+        flow_(body_, system(cut, stepping), {1.0}, integrator(stepping)) {
     flow_.initialize(0.0);
     start_ = scalar(flow_, "pore_fluid_mass");
   }
