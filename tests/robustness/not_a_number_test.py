@@ -5,7 +5,7 @@ import math
 import unittest
 
 import h5py
-from perifrac_runs import MANDEL, RunTest, SMALL, checkpoints, perifrac, settings
+from perifrac_runs import FLUIDS, MANDEL, RunTest, SMALL, checkpoints, perifrac, settings
 
 # One pass a window of `drained` at coupling strength 5.7: the error grows twelvefold a window until
 # the dissipated energy, a square, overflows after some 150 windows. Honest mathematics, no hook.
@@ -17,8 +17,8 @@ SOURCE = SMALL | {"pore_flow.integrator.type": "explicit",
 
 
 class NotANumber(RunTest):
-    def fail_to_run(self, keys, folder, *options):
-        done = perifrac("run", MANDEL, "--no-report", "--output", self.folder / folder, *settings(keys), *options)
+    def fail_to_run(self, keys, folder, *options, scene=MANDEL):
+        done = perifrac("run", scene, "--no-report", "--output", self.folder / folder, *settings(keys), *options)
         self.assertEqual(done.returncode, 1, done.stderr)
         errors = [line for line in done.stderr.splitlines() if "error" in line.split(":")[2]]
         self.assertEqual(len(errors), 1, done.stderr)
@@ -29,6 +29,10 @@ class NotANumber(RunTest):
         error = self.fail_to_run(SOURCE, "run")
         self.assertRegex(error, r"(infinite value|not a number|not finite) in pore_flow/pore_pressure "
                                 r"at point \d+ at \(21, 7\) m, t = 0\.02 s$")
+
+    def test_names_a_fluid_point(self):
+        error = self.fail_to_run({"fluid.inlets[0].rate": "1e306 kg/(m s)"}, "run", scene=FLUIDS["tank"])
+        self.assertRegex(error, r"(not a|is not) (finite )?number in fluid_velocity at point \d+ at \(.*\) m, t = .* s$")
 
     def test_keeps_a_checkpoint_from_which_the_same_follows(self):
         error = self.fail_to_run(DIVERGING, "run")

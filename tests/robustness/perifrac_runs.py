@@ -32,6 +32,9 @@ VARIANTS = {
     "ball": (CONFIGS / "cryer.yaml", {}),
 }
 
+# Points that move, come and go: split, made, removed at an outlet, lost, merged.
+FLUIDS = {"tank": HERE / "tank.yaml", "seeping pool": HERE / "seeping_pool.yaml"}
+
 
 def _read_arguments():
     parser = argparse.ArgumentParser()

@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from perifrac_runs import MANDEL, SMALL, VARIANTS, RunTest, checkpoints, perifrac, settings
+from perifrac_runs import FLUIDS, MANDEL, SMALL, VARIANTS, RunTest, checkpoints, perifrac, settings
 
 SCHEMES = {
     "explicit": {"pore_flow.integrator.type": "explicit"},
@@ -64,6 +64,15 @@ class Restart(RunTest):
                 parts = self.run_scene(keys, f"{name}/parts", "--until", "0.1 s", scene=scene)
                 for end in ("0.2 s", "0.3 s"):
                     self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], "--until", end, scene=scene)
+                self.assert_same_results(whole, parts)
+
+    def test_fluids_in_parts(self):
+        for name, scene in FLUIDS.items():
+            with self.subTest(name):
+                whole = self.run_scene({}, f"{name}/whole", scene=scene)
+                parts = self.run_scene({}, f"{name}/parts", "--until", "0.1 s", scene=scene)
+                for end in ("0.2 s", "0.3 s"):
+                    self.run_scene({}, parts, "--restart", checkpoints(parts)[-1], "--until", end, scene=scene)
                 self.assert_same_results(whole, parts)
 
     def test_beyond_the_scenes_end(self):

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Results are the same bits at any number of threads."""
+import json
 import unittest
 
-from perifrac_runs import RunTest, SMALL, VARIANTS
+from perifrac_runs import FLUIDS, RunTest, SMALL, VARIANTS
 
 # Enough points for every loop to be shared out.
 FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.times": "[0.02 s]",
@@ -11,6 +12,14 @@ SCHEMES = {"explicit": {"pore_flow.integrator.type": "explicit"},
            "cvode, krylov": {"pore_flow.integrator.linear_solver": "krylov"},
            "cvode, direct, iterated": {"coupling.iterations.max": "20", "coupling.iterations.tolerance": "1e-3",
                         "coupling.acceleration": "anderson"}}
+
+# More than 8000 fluid points, of which some are split, made and removed in a few steps.
+FINE_FLUIDS = {
+    "tank": {"fluid.spacing": "5 mm", "fluid.inlets[0].schedule.ramp": "1e-6 s",
+             "fluid.inlets[0].rate": "3e4 kg/(m s)", "fluid.inlets[1].rate": "500 kg/(m s)"},
+    "seeping pool": {"body.spacing": "2.5 mm", "body.size": "[0.8 m, 0.05 m]", "pore_flow.permeability": "1e-10 m^2",
+                     "fluid.blocks[0].from": "[0 m, 0.05 m]", "fluid.blocks[0].to": "[0.8 m, 0.125 m]"},
+}
 
 
 class Threads(RunTest):
@@ -31,6 +40,16 @@ class Threads(RunTest):
             other = self.run_scene(keys, f"{name}/4", "--threads", "4", scene=scene)
             with self.subTest(name):
                 self.assert_same_results(one, other)
+
+    def test_nor_where_points_move_come_and_go(self):
+        for name, keys in FINE_FLUIDS.items():
+            scene = FLUIDS[name]
+            keys = keys | {"time.end": "0.6 ms", "output.times": "[0.3 ms]", "output.history_interval": "0 s"}
+            one = self.run_scene(keys, f"{name}/1", "--threads", "1", scene=scene)
+            other = self.run_scene(keys, f"{name}/4", "--threads", "4", scene=scene)
+            with self.subTest(name):
+                self.assert_same_results(one, other)
+                self.assertGreater(json.loads((one / "summary.json").read_text())["counts"]["point_sets"]["fluid"], 8000)
 
 
 if __name__ == "__main__":
