@@ -22,6 +22,7 @@ Recorder::Recorder(const Section& scene, std::string scene_text, Simulation& sim
       scene_text_(std::move(scene_text)),
       probes_(scene.at("output"), simulation),
       reference_(make_reference(scene, simulation)),
+      mass_bound_(scene.number("ledger.mass_error")),
       history_interval_(scene.number("output.history_interval")),
       checkpoint_interval_(scene.number("output.checkpoint_interval")) {}
 
@@ -98,6 +99,7 @@ void Recorder::write_frames(double time) {
 
 void Recorder::restart_point() {
   CouplingManager& manager = *simulation_.manager;
+  manager.ledger().check_mass(mass_bound_, manager.time());
   if (!last_) last_ = {.scene = scene_text_, .version = version};
   last_->time = manager.time();
   last_->step = manager.step();

@@ -36,7 +36,8 @@ class Recorder {
   void record_window();  ///< a row of history.csv and of the comparison, when one is due
   void record_output();  ///< a frame and a comparison
   /// Remembers this state as one that a restart goes on from bit for bit, and lets go of
-  /// everything in the running simulation that a restart would not have.
+  /// everything in the running simulation that a restart would not have. Throws NumericalError
+  /// where the fluid mass of the ledger is off beyond the bound of the scene.
   void restart_point();
 
   /// Writes the last restart point, if it is not on disk yet; with `if_due`, only where the wall
@@ -56,6 +57,7 @@ class Recorder {
   std::string scene_text_;
   Probes probes_;
   std::unique_ptr<Reference> reference_;
+  double mass_bound_;
   double history_interval_;
   double checkpoint_interval_;
   double next_row_ = 0.0;

@@ -32,6 +32,14 @@ KeyTable time_keys() {
            .meaning = "Time to simulate, from 0."}};
 }
 
+KeyTable ledger_keys() {
+  return {{.path = "mass_error",
+           .range = "(0, inf)",
+           .fallback = "1e-6",
+           .meaning = "Largest error of the fluid mass over what is stored or has passed; a run "
+                      "beyond it stops at the next restart point."}};
+}
+
 KeyTable output_keys() {
   return {
       {.path = "times",
@@ -94,6 +102,7 @@ const Catalogue& scene_catalogue() {
                      {"time", "", time_keys()},
                      {"output", "", output_keys()},
                      {"coupling", "", coupling_keys()},
+                     {"ledger", "", ledger_keys()},
                      {"reference", "", reference_keys()},
                      {"interface", "", interface_keys(), interface_meaning, true}};
     for (const ModuleType& type : module_types()) {

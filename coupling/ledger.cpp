@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+
 namespace perifrac {
 namespace {
 
-/// The ports of one role, added up over all modules.
+/// The ports of one role, over all modules.
 struct Total {
-  int ports = 0;
+  std::vector<LedgerColumn> ports;
   double sum = 0.0;
   double throughput = 0.0;  ///< of absolute values
-  std::string unit;
 };
 
 Total total(std::span<ModuleSlot> modules, PortRole role) {
@@ -21,10 +24,9 @@ Total total(std::span<ModuleSlot> modules, PortRole role) {
     for (std::size_t id = 0; id < ports.size(); ++id) {
       if (ports[id].role != role) continue;
       const double value = slot.module->port(static_cast<PortId>(id)).value[0];
-      ++total.ports;
+      total.ports.push_back({ports[id].name, ports[id].unit, value});
       total.sum += value;
       total.throughput += std::abs(value);
-      total.unit = ports[id].unit;
     }
   }
   return total;
@@ -45,7 +47,7 @@ Balance balance(const Total& stored, double at_start, const Total& gained,
 void Ledger::start() {
   const auto stored = [this](PortRole role) {
     const Total all = total(modules_, role);
-    return all.ports > 0 ? std::optional(all.sum) : std::nullopt;
+    return all.ports.empty() ? std::nullopt : std::optional(all.sum);
   };
   mass_at_start_ = stored(PortRole::mass_stored);
   energy_at_start_ = stored(PortRole::energy_stored);
@@ -66,22 +68,46 @@ std::optional<Balance> Ledger::energy() const {
 
 std::vector<LedgerColumn> Ledger::columns() const {
   std::vector<LedgerColumn> columns;
-  if (const auto mass = this->mass()) {
-    const std::string unit = total(modules_, PortRole::mass_stored).unit;
-    columns.push_back({"fluid_mass_stored", unit, mass->stored});
-    columns.push_back({"fluid_mass_gained", unit, mass->gained});
-    columns.push_back({"fluid_mass_error", "1", mass->relative_error});
+  if (mass_at_start_) {
+    const Total stored = total(modules_, PortRole::mass_stored);
+    const Total gained = total(modules_, PortRole::mass_gained);
     const Total artificial = total(modules_, PortRole::mass_artificial);
-    if (artificial.ports > 0) columns.push_back({"fluid_mass_artificial", unit, artificial.sum});
+    const std::string& unit = stored.ports[0].unit;
+    const Balance mass = balance(stored, *mass_at_start_, gained, {});
+    columns.push_back({"fluid_mass_stored", unit, mass.stored});
+    columns.push_back({"fluid_mass_gained", unit, mass.gained});
+    columns.push_back({"fluid_mass_error", "1", mass.relative_error});
+    if (!artificial.ports.empty()) {
+      columns.push_back({"fluid_mass_artificial", unit, artificial.sum});
+    }
+    for (const Total* part : {&stored, &gained}) {
+      if (part->ports.size() < 2) continue;
+      columns.insert(columns.end(), part->ports.begin(), part->ports.end());
+    }
   }
-  if (const auto energy = this->energy()) {
-    const std::string unit = total(modules_, PortRole::energy_stored).unit;
-    columns.push_back({"energy_stored", unit, energy->stored});
-    columns.push_back({"energy_gained", unit, energy->gained});
-    columns.push_back({"energy_dissipated", unit, energy->dissipated});
-    columns.push_back({"energy_error", "1", energy->relative_error});
+  if (energy_at_start_) {
+    const Total stored = total(modules_, PortRole::energy_stored);
+    const std::string& unit = stored.ports[0].unit;
+    const Balance energy =
+        balance(stored, *energy_at_start_, total(modules_, PortRole::energy_gained),
+                total(modules_, PortRole::energy_dissipated));
+    columns.push_back({"energy_stored", unit, energy.stored});
+    columns.push_back({"energy_gained", unit, energy.gained});
+    columns.push_back({"energy_dissipated", unit, energy.dissipated});
+    columns.push_back({"energy_error", "1", energy.relative_error});
   }
   return columns;
+}
+
+void Ledger::check_mass(double bound, double t) const {
+  const auto mass = this->mass();
+  if (!mass || mass->relative_error <= bound) return;
+  constexpr double rounding = 1e-12;
+  const double fluid = std::abs(mass->stored) + total(modules_, PortRole::mass_reference).sum;
+  if (std::abs(mass->error) <= rounding * fluid) return;
+  throw NumericalError("fluid_mass", "the ledger", t,
+                       fmt::format("a relative error of {:.1e}, above ledger.mass_error {:g},",
+                                   mass->relative_error, bound));
 }
 
 void Ledger::visit_state(StateVisitor& visitor) {

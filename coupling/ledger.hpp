@@ -28,7 +28,8 @@ struct LedgerColumn {
 };
 
 /// Adds up what modules say on their ports of the roles mass_* and energy_*. A quantity that no
-/// module stores has no balance and no columns. What numerical measures made has a column of its
+/// module stores has no balance and no columns. Where masses are stored, or gained, on several
+/// ports, each has a column beside their sum. What numerical measures made has a column of its
 /// own; the error holds it too.
 class Ledger {
  public:
@@ -42,6 +43,10 @@ class Ledger {
 
   /// Always the same names in the same order for the same modules.
   std::vector<LedgerColumn> columns() const;
+
+  /// Throws NumericalError where the relative error of the fluid mass at time t [s] is above
+  /// `bound`, and more than rounding could do to all the fluid there is.
+  void check_mass(double bound, double t) const;
 
   void visit_state(StateVisitor& visitor);
 

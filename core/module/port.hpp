@@ -19,6 +19,7 @@ enum class PortRole {
   field,              ///< a quantity on points
   property,           ///< a quantity on points that never changes, for links only
   mass_stored,        ///< fluid mass held now [kg], one value
+  mass_reference,     ///< what mass_stored is counted from, where that is not 0 [kg]; never shown
   mass_gained,        ///< fluid mass taken in through boundaries and sources since the start [kg]
   mass_artificial,    ///< fluid mass that a numerical measure made [kg]: shown, never excused
   energy_stored,      ///< [J]

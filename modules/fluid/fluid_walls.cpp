@@ -21,11 +21,18 @@ Vector<D> vector_at(const Section& section, const std::string& path) {
 }
 
 template <int D>
-void add_point(WallCloud<D>& cloud, const Vector<D>& x, int axis, int direction, double depth,
+Vector<D> unit(int axis, int direction) {
+  Vector<D> result{};
+  result[axis] = direction;
+  return result;
+}
+
+template <int D>
+void add_point(WallCloud<D>& cloud, const Vector<D>& x, const Vector<D>& normal, double depth,
                double volume, bool slips, Index owner) {
   for (int a = 0; a < D; ++a) {
     cloud.position[a].push_back(x[a]);
-    cloud.normal[a].push_back(a == axis ? direction : 0.0);
+    cloud.normal[a].push_back(normal[a]);
   }
   cloud.depth.push_back(depth);
   cloud.volume.push_back(volume);
@@ -80,7 +87,8 @@ void read_container(const Section& section, double spacing, double horizon, Flui
       if (words[2 * a + 1] == "wall" && above > depth) axis = a, direction = -1, depth = above;
     }
     if (axis >= 0) {
-      add_point<D>(walls.cloud, x, axis, direction, depth, lattice.volume[i], slips, owner);
+      add_point<D>(walls.cloud, x, unit<D>(axis, direction), depth, lattice.volume[i], slips,
+                   owner);
     }
   }
   walls.rigid.push_back({.name = "container"});
@@ -119,7 +127,7 @@ void read_wall(const Section& section, const std::string& path, double spacing, 
       if (high < depth) axis = a, direction = +1, depth = high;
     }
     if (depth > horizon) continue;
-    add_point<D>(walls.cloud, x, axis, direction, depth, lattice.volume[i], slips,
+    add_point<D>(walls.cloud, x, unit<D>(axis, direction), depth, lattice.volume[i], slips,
                  static_cast<Index>(walls.rigid.size()));
   }
   walls.rigid.push_back(std::move(wall));
@@ -172,26 +180,66 @@ void remove_doubles(const Section& section, double spacing, FluidWalls<D>& walls
   cloud.remove_if([&](Index w) { return doubled[w]; });
 }
 
-/// Depth below the nearest flat face, or below a curved one, and that face's normal.
+/// A point of the body and a face that it lies near.
 template <int D>
-void add_body(const Body<D>& body, bool slips, double horizon, WallCloud<D>& cloud) {
+struct NearFace {
+  Index point;
+  double depth;  ///< below the face [m]
+  Vector<D> normal;
+};
+
+/// All pairs not farther apart than `reach` [m], but for faces where space goes on by its period.
+template <int D>
+std::vector<NearFace<D>> faces_near_points(const Body<D>& body, const Period<D>& period,
+                                           double reach) {
+  std::vector<NearFace<D>> result;
   for (Index i = 0; i < body.points().size(); ++i) {
     const Vector<D> x = body.points().at(i);
-    double depth = std::numeric_limits<double>::infinity();
-    const Face* nearest = nullptr;
     double radius = 0.0;
     for (const double component : x) radius += component * component;
     radius = std::sqrt(radius);
     for (const Face& face : body.faces()) {
-      const double below = face.curved() ? face.coordinate - radius
-                                         : face.direction * (face.coordinate - x[face.axis]);
-      if (below < depth) nearest = &face, depth = below;
+      NearFace<D> near{.point = i, .depth = face.coordinate - radius, .normal = x};
+      for (double& component : near.normal) component /= radius;
+      if (!face.curved()) {
+        if (period.ends[face.axis]) continue;
+        near.depth = face.direction * (face.coordinate - x[face.axis]);
+        near.normal = unit<D>(face.axis, face.direction);
+      }
+      if (near.depth <= reach) result.push_back(near);
     }
-    if (nearest == nullptr || depth > horizon) continue;
-    add_point<D>(cloud, x, nearest->axis, nearest->direction, depth, body.points().volume[i], slips,
-                 i);
-    if (!nearest->curved()) continue;
-    for (int a = 0; a < D; ++a) cloud.normal[a].back() = x[a] / radius;
+  }
+  return result;
+}
+
+/// Each point gets the depth below the nearest face, and that face's normal: of faces that fluid
+/// can be at, if it is near one, else of one that a rigid wall lies at.
+template <int D>
+void add_body(const Body<D>& body, bool slips, double spacing, double horizon,
+              const Period<D>& period, WallCloud<D>& cloud) {
+  const std::vector<NearFace<D>> faces = faces_near_points(body, period, horizon);
+  std::array<std::vector<double>, D> beyond;
+  for (const NearFace<D>& face : faces) {
+    const Vector<D> x = body.points().at(face.point);
+    for (int a = 0; a < D; ++a) {
+      beyond[a].push_back(x[a] + (face.depth + 0.5 * spacing) * face.normal[a]);
+    }
+  }
+  CellGrid<D> grid;
+  grid.build(spans<D>(cloud.position), spacing);
+  Neighbours rigid;
+  grid.find(spans<D>(beyond), 0.75 * spacing, rigid);
+  const auto covered = [&](std::size_t k) { return rigid.offset[k] < rigid.offset[k + 1]; };
+  for (std::size_t k = 0; k < faces.size();) {
+    std::size_t best = k;
+    const Index point = faces[k].point;
+    for (; k < faces.size() && faces[k].point == point; ++k) {
+      if (std::pair(covered(k), faces[k].depth) < std::pair(covered(best), faces[best].depth)) {
+        best = k;
+      }
+    }
+    add_point<D>(cloud, body.points().at(point), faces[best].normal, faces[best].depth,
+                 body.points().volume[point], slips, point);
   }
 }
 
@@ -278,7 +326,9 @@ FluidWalls<D> read_fluid_walls(const Section& section, const Body<D>* body, bool
   }
   remove_doubles(section, spacing, walls);
   walls.cloud.rigid_count = walls.cloud.size();
-  if (body != nullptr) add_body(*body, body_slips, horizon, walls.cloud);
+  if (body != nullptr) {
+    add_body(*body, body_slips, spacing, horizon, walls.period, walls.cloud);
+  }
   return walls;
 }
 

@@ -14,6 +14,9 @@ namespace {
 constexpr double surface = 0.8;
 constexpr double inside = 0.95;
 constexpr double longest = 0.1;  // of a spacing
+/// Points of a fluid at rest shift as if it moved at this part of its speed of sound: a lattice
+/// under pressure is not stable by itself.
+constexpr double least_speed = 0.01;
 
 }  // namespace
 
@@ -22,6 +25,7 @@ void shift_points(const FluidStep<D>& step, const NearWalls<D>& walls, double st
                   double length, FluidPoints<D>& points) {
   const FluidMoments<D>& moments = step.moments;
   const double spacing = step.scheme.spacing;
+  const double least = least_speed * step.fluid.sound_speed();
   for_each_point(points.count, [&](Index i) {
     const double part = moments.trace[i] / moments.bulk_trace;
     if (part <= surface) return;
@@ -33,8 +37,9 @@ void shift_points(const FluidStep<D>& step, const NearWalls<D>& walls, double st
     if (crowding == 0.0) return;
     crowding = std::sqrt(crowding);
     const double inwards = std::min(1.0, (part - surface) / (inside - surface));
-    const double way = std::min(strength * length * std::sqrt(speed) * inwards * spacing * crowding,
-                                longest * spacing);
+    const double way = std::min(
+        strength * length * std::max(least, std::sqrt(speed)) * inwards * spacing * crowding,
+        longest * spacing);
     Vector<D> shift;
     for (int a = 0; a < D; ++a) shift[a] = -way * moments.crowding[a][i] / crowding;
     for_walls_below(step, walls, i, [&](Index, const Vector<D>& normal, double height) {

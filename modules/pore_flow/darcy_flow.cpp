@@ -24,6 +24,7 @@ const std::vector<Port>& darcy_ports(int dimension) {
         {"pore_mobility", "m^2/(Pa s)", PortDirection::out, PortKind::intensive,
          PortRole::property},
         total("pore_fluid_mass", "kg", PortRole::mass_stored),
+        total("pore_fluid_at_rest", "kg", PortRole::mass_reference),
         total("pore_fluid_gained", "kg", PortRole::mass_gained),
         total("pore_fluid_energy", "J", PortRole::energy_stored),
         total("pore_fluid_work", "J", PortRole::energy_gained),
@@ -220,6 +221,11 @@ double DarcyFlow<D>::scalar(PortId id) {
   switch (id) {
     case mass_stored:
       for (Index i = 0; i < system_->points(); ++i) sum.add(volume[i] * zeta[i]);
+      return density * sum.value();
+    case mass_reference:
+      for (Index i = 0; i < system_->points(); ++i) {
+        sum.add(volume[i] * system_->storage().materials().at(i).porosity);
+      }
       return density * sum.value();
     case mass_gained:
       return density * system_->gained_volume(start_, time_, unknowns_);

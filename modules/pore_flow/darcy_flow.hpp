@@ -57,6 +57,7 @@ class DarcyFlow final : public PhysicsModule {
     darcy_velocity,
     pore_mobility,
     mass_stored,
+    mass_reference,
     mass_gained,
     energy_stored,
     energy_gained,
