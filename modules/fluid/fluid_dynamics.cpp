@@ -112,7 +112,7 @@ void FluidDynamics<D>::step(double t, double length) {
     shift_points<D>(step_view(), walls_, scheme_.shifting, length, points_);
   }
   drift(0.5 * length);
-  if (openings_.inlets) insert_points(t + length);
+  if (openings_.inlets || exchange_) insert_points(t + length);
 }
 
 template <int D>
@@ -304,10 +304,12 @@ void FluidDynamics<D>::kick(double t, double length) {
 
 template <int D>
 void FluidDynamics<D>::insert_points(double t) {
-  const double heaviest = 1.5 * openings_.inlets->point_mass();
+  const double heaviest = 1.5 * fluid_.density * std::pow(scheme_.spacing, D);
   Index added = split_points<D>(points_, walls_, neighbours_, heaviest);
-  added += openings_.inlets->make_points(
-      points_, [&](const Vector<D>& x) { return is_free_of_walls(x, t); });
+  if (openings_.inlets) {
+    added += openings_.inlets->make_points(
+        points_, [&](const Vector<D>& x) { return is_free_of_walls(x, t); });
+  }
   if (added == 0) return;
   neighbours_.forget();
   ++version_;

@@ -58,6 +58,20 @@ void check_names(const Section& section) {
   }
 }
 
+/// Weakly compressible means slow beside sound.
+void check_speeds(const Section& section, const FluidProperties& fluid) {
+  for (std::size_t k = 0; k < section.count("blocks"); ++k) {
+    const std::string path = fmt::format("blocks[{}].velocity", k);
+    if (!section.has(path)) continue;
+    double square = 0.0;
+    for (const double component : section.numbers(path)) square += component * component;
+    if (square <= fluid.sound_speed() * fluid.sound_speed()) continue;
+    section.fail(path,
+                 fmt::format("faster than sound in this fluid, {:.3g} m/s", fluid.sound_speed()),
+                 "slower fluid, or a larger bulk_modulus");
+  }
+}
+
 template <int D>
 bool overlap(const Region<D>& one, const Region<D>& other, double tolerance) {
   for (int a = 0; a < D; ++a) {
@@ -165,11 +179,13 @@ void check_inlets_outside_body(const Section& section, const Body<D>& body,
 }  // namespace
 
 template <int D>
-void check_fluid_scene(const Section& section, const Body<D>* body, double spacing) {
+void check_fluid_scene(const Section& section, const Body<D>* body, const FluidProperties& fluid,
+                       double spacing) {
   if (section.count("blocks") + section.count("inlets") == 0) {
     section.fail("", "no fluid: neither blocks nor inlets", "some at the start, or a way in");
   }
   check_names(section);
+  check_speeds(section, fluid);
   const auto blocks = boxes_of<D>(section, "blocks", "block");
   const auto walls = boxes_of<D>(section, "walls", "wall");
   const auto inlets = boxes_of<D>(section, "inlets", "inlet");
@@ -206,8 +222,8 @@ void check_fluid_steps(const Section& section, const FluidDynamics<D>& dynamics)
                            fluid.bulk_modulus / (excess * excess), most_steps));
 }
 
-template void check_fluid_scene<2>(const Section&, const Body<2>*, double);
-template void check_fluid_scene<3>(const Section&, const Body<3>*, double);
+template void check_fluid_scene<2>(const Section&, const Body<2>*, const FluidProperties&, double);
+template void check_fluid_scene<3>(const Section&, const Body<3>*, const FluidProperties&, double);
 template void check_fluid_steps<2>(const Section&, const FluidDynamics<2>&);
 template void check_fluid_steps<3>(const Section&, const FluidDynamics<3>&);
 

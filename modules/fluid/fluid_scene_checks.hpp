@@ -6,10 +6,12 @@
 
 namespace perifrac {
 
-/// Refuses a section `fluid` that has no fluid, or whose parts lie in each other or have one name:
-/// blocks, walls, the container, inlets and the body, which may be null. Throws InputError.
+/// Refuses a section `fluid` that has no fluid or too fast a one, or whose parts lie in each other
+/// or have one name: blocks, walls, the container, inlets and the body, which may be null. Throws
+/// InputError.
 template <int D>
-void check_fluid_scene(const Section& section, const Body<D>* body, double spacing);
+void check_fluid_scene(const Section& section, const Body<D>* body, const FluidProperties& fluid,
+                       double spacing);
 
 /// Refuses a fluid whose steps are so short that the end of the scene is out of reach. Throws
 /// InputError.

@@ -82,7 +82,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                      .courant = section.number("courant")};
   Vector<D> gravity{};
   if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
-  check_fluid_scene(section, body.get(), spacing);
+  check_fluid_scene(section, body.get(), fluid, spacing);
   FluidPoints<D> points = read_fluid_blocks<D>(section, fluid, spacing, gravity);
   const bool body_slips = body && scene.word("interface.slip") == "free";
   FluidWalls<D> walls =

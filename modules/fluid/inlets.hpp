@@ -44,7 +44,6 @@ class Inlets {
 
   const std::vector<Inlet<D>>& all() const { return inlets_; }
   double injected() const { return injected_.value(); }  ///< mass that became fluid [kg]
-  double point_mass() const { return point_mass_; }
 
   void visit_state(StateVisitor& visitor);
 

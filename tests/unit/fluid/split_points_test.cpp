@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/lattice.hpp"
+#include "tests/unit/fluid/fluid_run.hpp"
 
 namespace perifrac {
 namespace {
@@ -138,6 +139,39 @@ TEST(SplitPoints, GoesWhereThereIsRoom) {
   ASSERT_EQ(fluid.split(15.0), 1);
   EXPECT_NEAR(fluid.points.position[0][i], 0.25, 1e-15);  // across the row
   EXPECT_NEAR(std::abs(fluid.points.position[1][i] - 0.15), 0.05, 1e-15);
+}
+
+/// Water that comes out of the rock swells the lowest row of a pool.
+TEST(SplitPoints, HappensWhereWaterComesOutOfPores) {
+  test::FluidRun run(R"(
+dimension: 2
+time: {end: 1 s}
+body: {shape: box, size: [0.8 m, 0.4 m], spacing: 0.1 m}
+pore_flow: {type: darcy, permeability: 1 D, porosity: 0.3, fluid: {bulk_modulus: 1 MPa, viscosity: 1 cP}}
+interface: {slip: free}
+fluid:
+  type: semi_lagrangian
+  bulk_modulus: 0.1 MPa
+  viscosity: 100 Pa s
+  container: {from: [0 m, 0 m], to: [0.8 m, 1 m], faces: {left: periodic, right: periodic, bottom: open, top: open}}
+  blocks: [{name: pool, from: [0 m, 0.4 m], to: [0.8 m, 0.8 m]}]
+)");
+  const auto input = [&](const char* name) {
+    const auto ports = run.module().ports();
+    const auto found = std::ranges::find(ports, name, &Port::name);
+    return run.module().port(static_cast<PortId>(found - ports.begin())).value;
+  };
+  std::ranges::fill(input("pore_pressure"), 20e3);
+  std::ranges::fill(input("pore_mobility"), 1e-5);
+  const double before = run.value("free_fluid_mass");
+  double given = 0.0;
+  for (int window = 0; window < 200; ++window) {
+    run.steps(1);
+    for (const double mass : run.values("exchanged_mass")) given += mass;
+  }
+  EXPECT_GT(run.ids().size(), 36u);
+  EXPECT_NEAR(run.value("free_fluid_mass") - before, -given, 1e-12 * before);
+  for (const double mass : run.field("mass")) EXPECT_LE(mass, 15.0);
 }
 
 }  // namespace
