@@ -203,11 +203,6 @@ const KeyTable& interface_keys() {
        .fallback = "no_slip",
        .words = {"no_slip", "free"},
        .meaning = "no_slip: fluid sticks to the body. free: no friction."},
-      {.path = "smoothing",
-       .range = "[0, 1]",
-       .fallback = "0",
-       .meaning = "Coefficient of the published smoothing across the interface, which acts as a "
-                  "further leak; keeps mass. 0: off."},
   };
   return keys;
 }
