@@ -62,7 +62,7 @@ std::unique_ptr<Reference> make_water_on_plate_reference(const Section& scene,
   const std::size_t history = reference->add(Reference::History{
       "deflection at the middle", "m", computed, [=](double) { return deflection; }});
   reference->add(Reference::Figure{
-      .name = "deflection in the middle, last quarter",
+      .name = "late deflection",
       .unit = "m",
       .exact = deflection,
       .scale = std::abs(deflection),
