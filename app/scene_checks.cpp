@@ -32,12 +32,14 @@ void refuse_unreachable_tolerance(const Section& scene) {
 
 /// Where fluid touches a body, the scene says how; elsewhere there is nothing to say.
 void check_interface(const Section& scene) {
-  const bool touches = names(scene, "fluid") && names(scene, "body");
-  if (touches && !names(scene, "interface")) {
-    scene.fail("fluid", "the scene has a body", "a section 'interface'");
+  if (names(scene, "fluid") && names(scene, "body") && !names(scene, "interface")) {
+    scene.fail("fluid", "a fluid beside a body, and nothing says how they meet",
+               "a section interface");
   }
-  if (!touches && names(scene, "interface")) {
-    scene.fail("interface", "nothing meets there", "the sections 'fluid' and 'body', or no such");
+  for (const char* side : {"fluid", "body"}) {
+    if (!names(scene, "interface") || names(scene, side)) continue;
+    scene.fail("interface", fmt::format("the scene has no section '{}'", side),
+               "an interface where free fluid meets a body");
   }
 }
 
