@@ -114,6 +114,7 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const d
   while (output != outputs.end()) {
     if (const int signal = received_signal()) return signal;
     manager.advance(*output);
+    if (const auto warning = manager.new_warning()) log_warning(*warning);
     recorder.check_finite();
     recorder.record_window();
     if (manager.time() == *output) {

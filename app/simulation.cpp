@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "app/register_modules.hpp"
+#include "app/scene_checks.hpp"
 #include "core/errors.hpp"
 #include "coupling/coupling_keys.hpp"
 
@@ -41,23 +42,6 @@ std::unique_ptr<PhysicsModule> make_module(const Section& scene, const std::stri
   }
 }
 
-/// Repeating a window changes the steps that CVODE chooses, and its answer by its own tolerance:
-/// iterations cannot agree any better.
-void refuse_unreachable_tolerance(const Section& scene) {
-  if (scene.integer("coupling.iterations.max") == 1 || !scene.has("solid") ||
-      !scene.has("pore_flow") || scene.word("pore_flow.integrator.type") != "cvode") {
-    return;
-  }
-  const double wanted = scene.number("coupling.iterations.tolerance");
-  const double accuracy = scene.number("pore_flow.integrator.tolerance");
-  if (wanted < accuracy) {
-    scene.fail(
-        "coupling.iterations.tolerance",
-        fmt::format("{:g} is tighter than pore_flow.integrator.tolerance, {:g}", wanted, accuracy),
-        "a coupling that asks for no more accuracy than the integrator gives");
-  }
-}
-
 }  // namespace
 
 bool Simulation::has_body() const {
@@ -70,6 +54,7 @@ const PointSet& Simulation::points() const {
 }
 
 Simulation make_simulation(const Section& scene) {
+  check_sections_together(scene);
   Simulation simulation;
   simulation.body = make_body_if_any(scene);
   simulation.end = scene.number("time.end");
@@ -80,12 +65,6 @@ Simulation make_simulation(const Section& scene) {
   if (modules.empty()) {
     scene.fail("", "no physics is named",
                fmt::format("at least one of the sections {}", fmt::join(physics_order(), ", ")));
-  }
-  refuse_unreachable_tolerance(scene);
-  for (const char* side : {"fluid", "body"}) {
-    if (!scene.has("interface") || scene.has(side)) continue;
-    scene.fail("interface", fmt::format("the scene has no section '{}'", side),
-               "an interface where free fluid meets a body");
   }
   simulation.manager = std::make_unique<CouplingManager>(
       std::move(modules), read_coupling_options(scene.at("coupling"), simulation.end));

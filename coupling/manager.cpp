@@ -97,6 +97,16 @@ double CouplingManager::advance(double stop) {
   return time_;
 }
 
+std::optional<std::string> CouplingManager::new_warning() {
+  const Link* const link = solver_->unstable_link();
+  if (link == nullptr || has_warned_) return std::nullopt;
+  has_warned_ = true;
+  return fmt::format(
+      "one pass a window is not stable: what is predicted of {} is off by more than the values "
+      "that were there, and further in every window; choose coupling.iterations.max: 20",
+      link->path());
+}
+
 void CouplingManager::restart_point() {
   for (ModuleSlot& slot : modules_) slot.module->on_restored(time_);
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,6 +45,9 @@ class CouplingManager {
   /// NumericalError.
   double advance(double stop);
 
+  /// Said once, when windows of one pass are seen not to be stable; nothing otherwise.
+  std::optional<std::string> new_warning();
+
   /// From here a run that was saved now, and restored, goes on bit for bit as this one does: both
   /// call this after saving or restoring. Every module drops what it derived from the past; inputs,
   /// which are no one's state, are written again by the next window.
@@ -72,6 +76,7 @@ class CouplingManager {
   std::unique_ptr<WindowSolver> solver_;  ///< once the links are known
   double time_ = 0.0;
   std::int64_t step_ = 0;
+  bool has_warned_ = false;
 };
 
 }  // namespace perifrac

@@ -37,7 +37,10 @@ constexpr int most_redos = 50;
 
 WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
                            AccelerationType acceleration)
-    : modules_(modules), links_(links), acceleration_(make_acceleration(acceleration)) {}
+    : modules_(modules),
+      links_(links),
+      acceleration_(make_acceleration(acceleration)),
+      watches_(links.size()) {}
 
 double WindowSolver::solve(const TimeWindow& window, const Iterations& iterations) {
   const bool alone = modules_.size() == 1;
@@ -55,6 +58,7 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   }
   if (reached < window.end) ++work_.events;
   for (Link& link : links_) link.accept();
+  if (iterations.max == 1) watch(reached - window.begin);
   work_.most_passes = std::max(work_.most_passes, work_.passes - passes_before);
   ++work_.windows;
   return reached;
@@ -116,6 +120,13 @@ bool WindowSolver::has_converged(double tolerance) const {
     if (link.lagged() && !(link.mismatch().relative() <= tolerance)) return false;
   }
   return true;
+}
+
+void WindowSolver::watch(double length) {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Link& link = links_[i];
+    if (link.lagged() && watches_[i].finds_growth(link.mismatch(), length)) unstable_ = &link;
+  }
 }
 
 void WindowSolver::weigh_links() {

@@ -11,6 +11,7 @@
 #include "coupling/connect.hpp"
 #include "coupling/link.hpp"
 #include "coupling/module_slot.hpp"
+#include "coupling/stability_watch.hpp"
 
 namespace perifrac {
 
@@ -44,6 +45,10 @@ class WindowSolver {
   /// lies in the window.
   double solve(const TimeWindow& window, const Iterations& iterations);
 
+  /// A lagged link whose prediction was seen to grow apart from the answer, over windows of one
+  /// pass; null until then.
+  const Link* unstable_link() const { return unstable_; }
+
   const CouplingWork& work() const { return work_; }
 
  private:
@@ -60,13 +65,16 @@ class WindowSolver {
   double weighted_mismatch() const;
   /// Replaces what the lagged links send next.
   void accelerate(double length);
+  void watch(double length);
   [[noreturn]] void fail(double t, int passes, const char* problem) const;
 
   std::span<ModuleSlot> modules_;
   std::span<Link> links_;
   std::unique_ptr<Acceleration> acceleration_;
   Eigen::Index accelerated_size_ = 0;
-  std::vector<double> weights_;  ///< one a link; of use for the lagged ones
+  std::vector<double> weights_;          ///< one a link; of use for the lagged ones
+  std::vector<StabilityWatch> watches_;  ///< likewise
+  const Link* unstable_ = nullptr;
   Snapshot begin_;
   CouplingWork work_;
 };

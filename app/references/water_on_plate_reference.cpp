@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "app/references/beam_section.hpp"
 #include "app/references/comparison.hpp"
@@ -58,8 +59,19 @@ std::unique_ptr<Reference> make_water_on_plate_reference(const Section& scene,
       std::make_unique<Reference>("water_on_plate", "Timoshenko's beam, clamped at both ends", 0.0);
   reference->add(Reference::Error{"deflection_error",
                                   [=](double) { return std::abs(computed() / deflection - 1.0); }});
-  reference->add(Reference::History{"deflection at the middle", "m", computed,
-                                    [=](double) { return deflection; }});
+  const std::size_t history = reference->add(Reference::History{
+      "deflection at the middle", "m", computed, [=](double) { return deflection; }});
+  reference->add(Reference::Figure{
+      .name = "late deflection",
+      .unit = "m",
+      .exact = deflection,
+      .scale = std::abs(deflection),
+      .history = history,
+      .computed = [](auto times, auto values) -> std::optional<double> {
+        const auto from = std::ranges::lower_bound(times, 0.75 * times.back()) - times.begin();
+        const auto late = values.subspan(from);
+        return std::reduce(late.begin(), late.end()) / static_cast<double>(late.size());
+      }});
   return reference;
 }
 

@@ -175,10 +175,16 @@ def error_charts(reference: dict[str, Any]) -> list[Chart]:
     ]
 
 
+def shared_words(columns: list[Column]) -> str:
+    """Those that all names have, in the order of the first: `fluid mass` of stored and gained ones."""
+    first, *others = [words(place_of(c.name)[0]).split() for c in columns]
+    return " ".join(word for word in first if all(word in other for other in others))
+
+
 def history_title(columns: list[Column]) -> str:
-    """The quantity that all `columns` are of, else all their names."""
+    """The quantity that all `columns` are of, else all their names, or what many have in common."""
     quantities = list(dict.fromkeys(place_of(c.name)[0] for c in columns))
-    return words(", ".join(quantities)) if len(quantities) <= 3 else "several quantities"
+    return words(", ".join(quantities)) if len(quantities) <= 3 else shared_words(columns) or "several quantities"
 
 
 def history_charts(run: Run) -> list[Chart]:
@@ -194,9 +200,7 @@ def history_charts(run: Run) -> list[Chart]:
         same = len({place_of(c.name)[0] for c in columns}) == 1
         names = [place_of(c.name)[1] if same else words(c.name) for c in columns]
         series = [Series(name, time, c.values, i) for i, (name, c) in enumerate(zip(names, columns))]
-        first, *others = [words(c.name).split() for c in columns]
-        shared = " ".join(word for word in first if all(word in other for other in others))
-        label = title if same or not shared else shared
+        label = title if same else shared_words(columns) or title
         x, y = axis("time", "s", [time]), axis(label, unit, [c.values for c in columns])
         charts.append(
             Chart(sentence(title), x, y, series, "history", log_x=spans_decades(time), groups=names)

@@ -30,12 +30,8 @@ class Run:
 
     @property
     def counts(self) -> dict[str, int]:
-        """What the run had any of; points by the set that they belong to."""
-        counts = dict(self.summary.get("counts", {}))
-        sets = counts.pop("point_sets", {})
-        if sets:
-            counts.pop("points", None)
-        return {f"{name} points": count for name, count in sets.items()} | {n: c for n, c in counts.items() if c}
+        """What the run had any of."""
+        return {name: count for name, count in self.summary.get("counts", {}).items() if count}
 
     @property
     def reference(self) -> dict[str, Any]:

@@ -22,7 +22,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from runs import SCHEMES, Frame, Runs
-from solutions import Mandel, Terzaghi
+from solutions import Mandel, Seepage, Terzaghi
 
 HERE = Path(__file__).resolve().parent
 
@@ -31,6 +31,7 @@ COLUMN = Terzaghi(height=50.0, stiffness=5e9 + 4 / 3 * 4e9, storage=0.306 / 2.2e
 SLAB = Mandel(lame_lambda=4e8, shear_modulus=4e8, storage=0.3 / 2e9 + 0.7 / 1e10, biot=1.0,
               mobility=1.019368e-11 / 1e-3, width=40.0, force=1e4)  # fmt: skip
 SLAB_HEIGHT = 20.0
+SPECIMEN = Seepage(length=50.0, storage=0.306 / 22e6, mobility=1.02e-11 / 1e-3, head=98.1e3, ramp=40.0)
 PROFILE_TIMES = [1.0, 5.0, 10.0, 20.0, 40.0]
 MARKS = ["o", "s", "^", "D", "v", "P"]
 
@@ -279,7 +280,60 @@ def fig13(runs: Runs, images: Path, errors: Errors) -> None:
     convergence(runs, images, errors, "13", "m", "Fig 13: spacing reduced within a horizon of 2 m")
 
 
-FIGURES = {f.__name__: f for f in (fig05, fig06, fig07, fig09, fig10, fig11, fig12, fig13)}
+def fig14(runs: Runs, images: Path, errors: Errors) -> None:
+    """Pressure and flux in the constant head test, water above and specimen below."""
+    figure, axes = panels(4, "Fig 14: constant head test, pressure [kPa] and downward flux [1e-5 m/s]", height=5.0)
+    for pair, name in zip((axes[:2], axes[2:]), ["head_exchange", "head"]):
+        body, water = runs.frames(name)[-1], runs.frames(name, "fluid")[-1]
+        for axis, what in zip(pair, ["pressure", "flux"]):
+            axis.set_title(f"{SCHEMES[name].label}, {body.time + SCHEMES[name].loaded_at:.0f} s", fontsize=9)
+            axis.grid(False)
+            if what == "pressure":
+                value, limits = body.fields["pore_pressure"] / 1e3, (0.0, 100.0)
+                axis.scatter(*water.points[:, :2].T, c=water.fields["fluid_pressure"] / 1e3, s=9, vmin=0.0, vmax=100.0)
+            else:
+                value, limits = -1e5 * body.fields["darcy_velocity"][:, 1], (1.0, 3.0)
+                axis.scatter(*water.points[:, :2].T, c="#c8d0d6", s=9)
+            image = axis.scatter(*body.points[:, :2].T, c=value, s=9, marker="s", vmin=limits[0], vmax=limits[1], linewidths=0)
+            axis.set_aspect("equal")
+            figure.colorbar(image, ax=axis, shrink=0.8)
+    axes[0].set_ylabel("height [m]")
+    save(figure, images, "fig14")
+
+
+def fig15(runs: Runs, images: Path, errors: Errors) -> None:
+    """Volume of water that flowed into the specimen, and the pressure of the water above it."""
+    figure, axes = panels(3, "Fig 15: constant head test, time from the middle of the ramp of the load")
+    fine = np.linspace(-20.0, 1980.0, 500)
+    for axis, end in zip(axes, [200.0, 1980.0]):
+        axis.plot(fine, SPECIMEN.volume(fine + 20.0), "k-", lw=1.2, label="exact")
+        axis.plot(fine, SPECIMEN.steady_flux * np.maximum(fine, 0.0), "k:", lw=1.0, label="Eq 42: steady from the start")
+        axis.set_xlim(-20.0, end)
+        axis.set_ylim(0.0, SPECIMEN.volume(np.array([end + 20.0]))[0] * 1.3)
+        axis.set_ylabel("volume an area [m]")
+    for k, name in enumerate(["head_exchange", "head_force", "head"]):
+        label = SCHEMES[name].label
+        when, volume = runs.reference(name, "volume passed")
+        for axis in axes[:2]:
+            axis.plot(when, volume, color=f"C{k}", lw=1.4, label=label)
+        for begin in (100.0, 480.0, 1960.0):
+            near = np.abs(when - begin) <= 2.0
+            exact = SPECIMEN.volume(when[near] + 20.0)
+            errors.add("15", label, f"volume over exact, {begin:g} s", volume[near] / exact, np.ones(near.sum()))
+        when, pressure = runs.reference(name, "water pressure")
+        axes[2].plot(when, pressure / 1e3, color=f"C{k}", lw=1.0, label=label)
+        steady = when > 30.0
+        errors.add("15", label, "water pressure over the head", pressure[steady] / SPECIMEN.head, np.ones(steady.sum()))
+    axes[2].axhline(98.1, color="k", lw=0.8)
+    axes[2].set_ylim(60.0, 130.0)
+    axes[2].set_ylabel("water pressure [kPa]")
+    for axis in axes:
+        axis.set_xlabel("time [s]")
+        axis.legend(fontsize=8, frameon=False)
+    save(figure, images, "fig15")
+
+
+FIGURES = {f.__name__: f for f in (fig05, fig06, fig07, fig09, fig10, fig11, fig12, fig13, fig14, fig15)}
 
 
 def main() -> None:

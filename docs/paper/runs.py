@@ -42,6 +42,11 @@ for _dx in (2.0, 1.0, 0.5):
         SCHEMES[f"{_name}_paper_{_dx}"] = Scheme(
             f"horizon {2 * _dx:g} m" if _name == "delta" else f"m = {2 / _dx:g}",
             "paper/mandel.yaml", [*_common, f"body.horizon_ratio={_ratio}"], PAPER_RAMP / 2, "33.116 s")  # fmt: skip
+# 100 s of steady head after the load, as in the paper, and on until the flow is steady (perifrac).
+_SHOWN = ["output.times=[70 s, 140 s, 500 s, 1000 s, 2000 s]", "output.history_interval=1 s"]
+SCHEMES["head"] = Scheme("perifrac", "constant_head.yaml", _SHOWN, 20.0)
+SCHEMES["head_exchange"] = Scheme("exchange: paper", "constant_head.yaml", [*_SHOWN, "interface.exchange=paper", "ledger.mass_error=10"], 20.0)  # fmt: skip
+SCHEMES["head_force"] = Scheme("force: one_sided", "constant_head.yaml", [*_SHOWN, "interface.force=one_sided"], 20.0, "500 s")  # fmt: skip
 
 
 @dataclass
@@ -86,15 +91,22 @@ class Runs:
         columns["time"] = columns["time"] - SCHEMES[name].loaded_at
         return columns
 
-    def frames(self, name: str) -> list[Frame]:
+    def frames(self, name: str, points: str = "body") -> list[Frame]:
         frames = []
-        series = json.loads((self.of(name) / "frames/body.hdf.series").read_text(encoding="utf-8"))
+        series = json.loads((self.of(name) / f"frames/{points}.hdf.series").read_text(encoding="utf-8"))
         for entry in series["files"]:
             with h5py.File(self.folder / name / "frames" / entry["name"]) as file:
                 group = file["VTKHDF"]
                 fields = {k: v[()] for k, v in group["PointData"].items()}
                 frames.append(Frame(entry["time"] - SCHEMES[name].loaded_at, group["Points"][()], fields))
         return frames
+
+    def reference(self, name: str, quantity: str) -> tuple[np.ndarray, np.ndarray]:
+        """Times and computed values of a history that the run held against its reference."""
+        summary = json.loads((self.of(name) / "summary.json").read_text(encoding="utf-8"))
+        history = next(h for h in summary["reference"]["histories"] if h["name"].startswith(quantity))
+        values = [float("nan") if v is None else v for v in history["computed"]]
+        return np.array(history["time"]) - SCHEMES[name].loaded_at, np.array(values)
 
     def frame_at(self, name: str, when: float) -> Frame | None:
         """The frame within 2 % (or 20 ms) of a time, if the run came that far; at 0 the first with all the load."""

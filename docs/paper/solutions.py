@@ -1,4 +1,4 @@
-"""Analytic solutions of the paper's sections 3.1 and 3.2, written apart from those in app/references."""
+"""Analytic solutions of the paper's sections 3.1 to 3.3, written apart from those in app/references."""
 
 from __future__ import annotations
 
@@ -111,3 +111,35 @@ class Mandel:
             -(1 - self.poisson) / 2 + (1 - self.undrained_poisson) * decay @ size
         )
         return np.outer(per_height, np.asarray(y))
+
+
+@dataclass(frozen=True)
+class Seepage:
+    """Water under a head that rises evenly from 0 and then stays, on a specimen that is drained at its bottom."""
+
+    length: float  # [m]
+    storage: float  # [1/Pa]
+    mobility: float  # [m^2/(Pa s)]
+    head: float  # [Pa]
+    ramp: float  # [s]
+    terms: int = 400
+
+    @property
+    def diffusivity(self) -> float:
+        return self.mobility / self.storage
+
+    @property
+    def steady_flux(self) -> float:
+        return self.mobility * self.head / self.length
+
+    def volume_after_jump(self, time: np.ndarray) -> np.ndarray:
+        """Volume an area passed since the whole head came at once, at time 0; 0 before."""
+        t = np.maximum(np.asarray(time, dtype=float), 0.0)
+        n = np.arange(1, self.terms + 1)
+        rate = self.diffusivity * (n * np.pi / self.length) ** 2
+        return self.steady_flux * (t + 2.0 * ((1.0 - np.exp(-np.outer(t, rate))) / rate).sum(axis=1))
+
+    def volume(self, time: np.ndarray) -> np.ndarray:
+        """Volume an area passed since the ramp began, at `time` after its beginning: many small jumps."""
+        starts = (np.arange(200) + 0.5) / 200 * self.ramp
+        return np.mean([self.volume_after_jump(np.asarray(time) - start) for start in starts], axis=0)

@@ -286,19 +286,19 @@ void FluidDynamics<D>::kick(double t, double length) {
     }
   }
   stop_at_walls<D>(view, length, points_, walls_);
-  std::vector<Vector<D>> on_rigid(rigid_.size(), Vector<D>{});
+  on_rigid_.assign(rigid_.size(), Vector<D>{});
   for (Index k = 0; k < walls_.count; ++k) {
     const Index w = walls_.wall[k];
     for (int a = 0; a < D; ++a) {
       if (cloud_.is_rigid(w)) {
-        on_rigid[cloud_.owner[w]][a] += walls_.force[a][k];
+        on_rigid_[cloud_.owner[w]][a] += walls_.force[a][k];
       } else {
         impulse_[a * body_points_ + cloud_.owner[w]] += length * walls_.force[a][k];
       }
     }
   }
   for (std::size_t r = 0; r < rigid_.size(); ++r) {
-    rigid_[r].kick(t, length, on_rigid[r], gravity_);
+    rigid_[r].kick(t, length, on_rigid_[r], gravity_);
   }
 }
 

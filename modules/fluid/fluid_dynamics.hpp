@@ -99,6 +99,7 @@ class FluidDynamics {
   FluidMoments<D> moments_;
   std::array<std::vector<double>, symmetric_size<D>> stress_;
   std::array<std::vector<double>, D> force_;
+  std::vector<Vector<D>> on_rigid_;  ///< the fluid's force on each rigid wall [N]
   std::vector<double> mass_rate_;
   std::array<std::vector<double>, D> wall_position_;  ///< of the whole cloud, when it is searched
   std::vector<double> impulse_;

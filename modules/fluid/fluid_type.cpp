@@ -67,10 +67,6 @@ template <int D>
 std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
   const Section scene = section.scene();
-  if (body && !scene.has("interface")) {
-    section.fail("", "a fluid beside a body, and nothing says how they meet",
-                 "a section interface");
-  }
   const FluidProperties fluid = read_properties(section);
   const double spacing = read_spacing(section, body.get());
   FluidScheme scheme{.spacing = spacing,
@@ -203,11 +199,6 @@ const KeyTable& interface_keys() {
        .fallback = "no_slip",
        .words = {"no_slip", "free"},
        .meaning = "no_slip: fluid sticks to the body. free: no friction."},
-      {.path = "smoothing",
-       .range = "[0, 1]",
-       .fallback = "0",
-       .meaning = "Coefficient of the published smoothing across the interface, which acts as a "
-                  "further leak; keeps mass. 0: off."},
   };
   return keys;
 }

@@ -15,10 +15,11 @@ namespace perifrac {
 
 /// Reads a scene that stands in a test.
 inline Section read_scene_text(const std::string& text,
-                               const std::vector<std::string>& overrides = {}) {
+                               const std::vector<std::string>& overrides = {},
+                               const Catalogue& catalogue = scene_catalogue()) {
   const std::string path = testing::TempDir() + "scene_" + std::to_string(getpid()) + ".yaml";
   std::ofstream(path) << text;
-  return read_scene(path, overrides, scene_catalogue());
+  return read_scene(path, overrides, catalogue);
 }
 
 /// What the scene's section of that name stands for; null where no type has that name.

@@ -49,7 +49,7 @@ class Threads(RunTest):
             other = self.run_scene(keys, f"{name}/4", "--threads", "4", scene=scene)
             with self.subTest(name):
                 self.assert_same_results(one, other)
-                self.assertGreater(json.loads((one / "summary.json").read_text())["counts"]["point_sets"]["fluid"], 8000)
+                self.assertGreater(json.loads((one / "summary.json").read_text())["counts"]["fluid_points"], 8000)
 
 
 if __name__ == "__main__":

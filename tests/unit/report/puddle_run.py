@@ -85,6 +85,6 @@ def write_run(folder: Path) -> None:
         free = mass(step) * len(water(step))
         rows.append(f"{time},{step},{free},{free + 10.0},{free - mass(0) * 24}")
     (folder / "history.csv").write_text("\n".join(rows) + "\n")
-    counts = {"points": 48, "bonds": 0, "point_sets": {"body": 48, "fluid": 24}}
+    counts = {"points": 48, "bonds": 0, "fluid_points": 24}
     summary = {"scene": {"title": "Puddle"}, "outcome": "done", "counts": counts}
     (folder / "summary.json").write_text(json.dumps(summary))

@@ -231,7 +231,7 @@ class MovingPoints(ReportTest):
         check_picture(self, self.folder / "report.png")
         drawn = page.chart("Free fluid mass, fluid mass stored, fluid mass gained")["series"]
         self.assertEqual(drawn[0]["y"][0], puddle_run.mass(0) * 24)
-        self.assertIn("body points48fluid points24", page.text)
+        self.assertIn("points48fluid points24", page.text)
 
     def test_fluid_that_has_drained_away(self) -> None:
         puddle_run.write_run(self.folder)

@@ -1,0 +1,66 @@
+#include "app/scene_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace perifrac {
+
+namespace {
+
+bool names(const Section& scene, const std::string& section) {
+  return std::ranges::count(scene.names(""), section) > 0;
+}
+
+/// Repeating a window changes the steps that CVODE chooses, and its answer by its own tolerance:
+/// iterations cannot agree any better.
+void refuse_unreachable_tolerance(const Section& scene) {
+  if (scene.integer("coupling.iterations.max") == 1 || !names(scene, "solid") ||
+      !names(scene, "pore_flow") || scene.word("pore_flow.integrator.type") != "cvode") {
+    return;
+  }
+  const double wanted = scene.number("coupling.iterations.tolerance");
+  const double accuracy = scene.number("pore_flow.integrator.tolerance");
+  if (wanted < accuracy) {
+    scene.fail(
+        "coupling.iterations.tolerance",
+        fmt::format("{:g} is tighter than pore_flow.integrator.tolerance, {:g}", wanted, accuracy),
+        "a coupling that asks for no more accuracy than the integrator gives");
+  }
+}
+
+/// Where fluid touches a body, the scene says how; elsewhere there is nothing to say.
+void check_interface(const Section& scene) {
+  if (names(scene, "fluid") && names(scene, "body") && !names(scene, "interface")) {
+    scene.fail("fluid", "a fluid beside a body, and nothing says how they meet",
+               "a section interface");
+  }
+  for (const char* side : {"fluid", "body"}) {
+    if (!names(scene, "interface") || names(scene, side)) continue;
+    scene.fail("interface", fmt::format("the scene has no section '{}'", side),
+               "an interface where free fluid meets a body");
+  }
+}
+
+/// Mass that goes from fluid to pores is measured by one density at no pressure.
+void check_densities(const Section& scene) {
+  if (!names(scene, "fluid") || !names(scene, "pore_flow")) return;
+  if (scene.word("interface.exchange") == "none") return;
+  const double free = scene.number("fluid.density");
+  const double in_pores = scene.number("pore_flow.fluid.density");
+  if (std::abs(free - in_pores) <= 1e-12 * in_pores) return;
+  scene.fail("fluid.density",
+             fmt::format("{:g} kg/m^3 of the fluid that flows into the pores", free),
+             fmt::format("pore_flow.fluid.density, {:g} kg/m^3", in_pores));
+}
+
+}  // namespace
+
+void check_sections_together(const Section& scene) {
+  refuse_unreachable_tolerance(scene);
+  check_interface(scene);
+  check_densities(scene);
+}
+
+}  // namespace perifrac
