@@ -69,6 +69,13 @@ std::string layers(const std::string& type) {
          "regions: {soft: {material: {lame_lambda: 1, bulk_modulus: 1.6666666666666667}}}";
 }
 
+/// The value of the port of that name.
+std::span<double> value_of(PhysicsModule& module, const std::string& name) {
+  const auto ports = module.ports();
+  const auto found = std::ranges::find(ports, name, &Port::name);
+  return module.port(static_cast<PortId>(found - ports.begin())).value;
+}
+
 /// Uniaxial strain under 1 Pa is 1 / modulus in each layer; returns the settlement of the plate
 /// over that of a sharp border.
 double settlement_of_the_layers(double spacing, const std::string& type, double below,
@@ -77,11 +84,7 @@ double settlement_of_the_layers(double spacing, const std::string& type, double 
   QuasiStaticSolid<2> solid(column.body, column.material, column.boundary);
   solid.initialize(0.0);
   solid.advance({0.0, 1.0});
-  const auto value = [&](const std::string& name) {
-    const auto ports = solid.ports();
-    const auto found = std::ranges::find(ports, name, &Port::name);
-    return solid.port(static_cast<PortId>(found - ports.begin())).value;
-  };
+  const auto value = [&](const std::string& name) { return value_of(solid, name); };
   const auto& y = column.body->points().position[1];
   const Index n = column.body->points().size();
   const auto u = value("displacement");
@@ -158,10 +161,10 @@ TEST(Material, AsPrintedIsTooSoftAndShrinksUnderPorePressure) {
     QuasiStaticSolid<2> solid(column.body, column.material, column.boundary);
     solid.initialize(0.0);
     solid.advance({0.0, 1.0});
-    const double dry = solid.port(6).value[0];
-    std::ranges::fill(solid.port(0).value, pressure);
+    const double dry = value_of(solid, "top_plate_displacement")[0];
+    std::ranges::fill(value_of(solid, "pore_stress"), pressure);
     solid.advance({1.0, 2.0});
-    return solid.port(6).value[0] - dry;
+    return value_of(solid, "top_plate_displacement")[0] - dry;
   };
   Column right(0.1, "material: {type: lps, lame_lambda: 3, shear_modulus: 2}");
   Column printed(0.1, "material: {type: lps_printed, lame_lambda: 3, shear_modulus: 2}");
@@ -219,9 +222,10 @@ TEST(Material, LeavesAStressedBodyInItsPlace) {
       module->initialize(0.0);
       module->advance({0.0, 1.0});
     }
-    const auto u = solid.port(1).value, expected = free.port(1).value;
+    const auto u = value_of(solid, "displacement"), expected = value_of(free, "displacement");
     EXPECT_TRUE(std::ranges::equal(u, expected)) << "the plate's force comes in addition";
-    const auto stress = solid.port(3).value, elastic = free.port(3).value;
+    const auto stress = value_of(solid, "effective_stress"),
+               elastic = value_of(free, "effective_stress");
     const Index n = column.body->points().size();
     for (Index i = 0; i < n; ++i) {
       ASSERT_NEAR(stress[i], elastic[i] - 3.0, 1e-12);
