@@ -7,34 +7,46 @@
 
 namespace perifrac {
 
-/// The one loop over pairs of fluid and wall points: adds pair(i, w, y, omega), the force of wall
-/// point w on fluid point i [N], y [m] from i to w, to that on every fluid point, and sets the
-/// opposite one on every near wall point. Each pair is found twice, so that no two threads write
-/// the same; i and w may be images.
-template <int D, class Pair>
-void add_pair_forces(const FluidStep<D>& step, NearWalls<D>& walls,
-                     std::array<std::vector<double>, D>& force, Pair&& pair) {
+/// The one loop over pairs of fluid and wall points: sums pair(i, w, y, omega), K numbers of fluid
+/// point i and near wall point w, y [m] from i to w, and hands over of_fluid(i, sum) for every
+/// fluid point that is near a wall and of_wall(w, sum) for every near wall point. Each pair is
+/// found twice, so that no two threads write the same; i and w may be images.
+template <int K, int D, class Pair, class OfFluid, class OfWall>
+void sum_wall_pairs(const FluidStep<D>& step, const NearWalls<D>& walls, Pair&& pair,
+                    OfFluid&& of_fluid, OfWall&& of_wall) {
   const FluidPoints<D>& points = step.points;
   const Neighbours& near = step.neighbours.walls_of_fluid();
   for_each_point(points.count, [&](Index i) {
     if (near.offset[i] == near.offset[i + 1]) return;
-    const auto sum = sum_over_neighbours<D, D>(
-        near, i, points.at(i), walls.position, step.influence,
-        [&](Index w, const Vector<D>& y, double omega) { return pair(i, w, y, omega); });
-    for (int a = 0; a < D; ++a) force[a][i] += sum[a];
+    of_fluid(i, sum_over_neighbours<K, D>(near, i, points.at(i), walls.position, step.influence,
+                                          [&](Index w, const Vector<D>& y, double omega) {
+                                            return pair(i, w, y, omega);
+                                          }));
   });
-  for (auto& values : walls.force) values.resize(walls.count);
   for_each_point(walls.count, [&](Index w) {
-    Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = walls.position[a][w];
-    const auto sum =
-        sum_over_neighbours<D, D>(step.neighbours.fluid_of_walls(), w, x, points.position,
-                                  step.influence, [&](Index i, Vector<D> y, double omega) {
-                                    for (double& component : y) component = -component;
-                                    return pair(i, w, y, omega);
-                                  });
-    for (int a = 0; a < D; ++a) walls.force[a][w] = -sum[a];
+    of_wall(w, sum_over_neighbours<K, D>(step.neighbours.fluid_of_walls(), w, walls.at(w),
+                                         points.position, step.influence,
+                                         [&](Index i, Vector<D> y, double omega) {
+                                           for (double& component : y) component = -component;
+                                           return pair(i, w, y, omega);
+                                         }));
   });
+}
+
+/// Adds pair(i, w, y, omega), the force of wall point w on fluid point i [N], to that on every
+/// fluid point, and sets the opposite one on every near wall point.
+template <int D, class Pair>
+void add_pair_forces(const FluidStep<D>& step, NearWalls<D>& walls,
+                     std::array<std::vector<double>, D>& force, Pair&& pair) {
+  for (auto& values : walls.force) values.resize(walls.count);
+  sum_wall_pairs<D, D>(
+      step, walls, pair,
+      [&](Index i, const Vector<D>& sum) {
+        for (int a = 0; a < D; ++a) force[a][i] += sum[a];
+      },
+      [&](Index w, const Vector<D>& sum) {
+        for (int a = 0; a < D; ++a) walls.force[a][w] = -sum[a];
+      });
 }
 
 /// The stress -p M^-1 of fluid point i times y.

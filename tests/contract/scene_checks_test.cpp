@@ -40,16 +40,20 @@ std::string complaint(const std::string& text, const std::vector<std::string>& o
 }
 
 TEST(SceneChecks, AFluidOnABodyNeedsAnInterface) {
-  EXPECT_EQ(complaint(with_fluid), "fluid: the scene has a body; expected a section 'interface'");
+  EXPECT_EQ(complaint(with_fluid),
+            "fluid: a fluid beside a body, and nothing says how they meet; expected a section "
+            "interface");
   EXPECT_EQ(complaint(with_fluid + "interface: {exchange: bond_flux}\n"), "");
 }
 
 TEST(SceneChecks, AnInterfaceNeedsFluidAndBody) {
-  const std::string message =
-      "interface: nothing meets there; expected the sections 'fluid' and 'body', or no such";
-  EXPECT_EQ(complaint(box_2d + rigid + "interface: {}\n"), message);
+  const auto message = [](const std::string& side) {
+    return "interface: the scene has no section '" + side +
+           "'; expected an interface where free fluid meets a body";
+  };
+  EXPECT_EQ(complaint(box_2d + rigid + "interface: {}\n"), message("fluid"));
   EXPECT_EQ(complaint("dimension: 2\ntime: {end: 1 s}\nfluid: {type: stand_in}\ninterface: {}\n"),
-            message);
+            message("body"));
   EXPECT_EQ(complaint("dimension: 2\ntime: {end: 1 s}\nfluid: {type: stand_in}\n"), "");
 }
 
