@@ -232,6 +232,7 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
                            "more flows into the pores in a step than there is");
     }
   }
+  if (exchange_->keeps_mass()) even_masses_.step(step_view(), length, points_);
   for (Index k = 0; k < walls_.count; ++k) {
     const Index w = walls_.wall[k];
     if (cloud_.is_rigid(w)) continue;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/state/state_visitor.hpp"
+#include "modules/fluid/even_masses.hpp"
 #include "modules/fluid/exchange.hpp"
 #include "modules/fluid/fluid_neighbours.hpp"
 #include "modules/fluid/fluid_openings.hpp"
@@ -101,6 +102,7 @@ class FluidDynamics {
   std::array<std::vector<double>, D> force_;
   std::vector<Vector<D>> on_rigid_;  ///< the fluid's force on each rigid wall [N]
   std::vector<double> mass_rate_;
+  EvenMasses<D> even_masses_;
   std::array<std::vector<double>, D> wall_position_;  ///< of the whole cloud, when it is searched
   std::vector<double> impulse_;
   std::vector<double> exchanged_mass_;
