@@ -27,6 +27,13 @@ Body<D>::Body(Points<D> points, std::vector<Face> faces, double spacing, double 
 }
 
 template <int D>
+BondState<D>& Body<D>::claim_bond_state() const {
+  if (bond_state_claimed_) throw std::logic_error("two writers of one bond state");
+  bond_state_claimed_ = true;
+  return *bond_state_;
+}
+
+template <int D>
 int Body<D>::opposite(int face) const {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const bool across = faces_[f].axis == faces_[face].axis && static_cast<int>(f) != face;

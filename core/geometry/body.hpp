@@ -8,6 +8,7 @@
 
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
+#include "core/geometry/bond_state.hpp"
 #include "core/geometry/faces.hpp"
 #include "core/geometry/family.hpp"
 #include "core/geometry/points.hpp"
@@ -52,6 +53,11 @@ class Body {
   /// points of the layers behind the faces in `without_layers` have no bonds. Modules that ask for
   /// the same share one. Throws BodyError.
   std::shared_ptr<const Family<D>> family(FaceSet mirrored, FaceSet without_layers = 0) const;
+  /// Broken bonds and cracks; a body that nothing breaks has none.
+  const BondState<D>& bond_state() const { return *bond_state_; }
+  /// The one handle that may change them, for the body's solid; a second claim is a logic_error.
+  BondState<D>& claim_bond_state() const;
+
   /// All families that are in use.
   std::vector<std::shared_ptr<const Family<D>>> families() const;
 
@@ -70,6 +76,8 @@ class Body {
   bool projected_weights_ = false;
   InfluenceFunction influence_;
   PointSet point_set_;
+  std::unique_ptr<BondState<D>> bond_state_ = std::make_unique<BondState<D>>();
+  mutable bool bond_state_claimed_ = false;
 
   /// Throws BodyError where the body is thinner than the horizon between mirrored faces.
   void check_mirrored_faces(FaceSet mirrored, FaceSet without_layers) const;

@@ -53,6 +53,10 @@ inline std::string unit_of_total(const std::string& unit, int dimension) {
 /// that the module itself sends back over the coupled port. An output gives `value` at the time
 /// reached and, where a coupling scheme needs it, `slope` = d(output)/d(its coupled input);
 /// `rate` is unused there. Spans that a port does not carry are empty.
+///
+/// A slope has one value a point where the output depends on the input at the same point, or is
+/// taken to; where every point answers to every other (the opening of a crack to its pressure) it
+/// is a matrix of count * count values, row by row, and both ends lie on the same points.
 struct PortView {
   const PointSet* points = nullptr;
   std::span<double> value{};

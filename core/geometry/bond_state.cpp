@@ -1,0 +1,97 @@
+#include "core/geometry/bond_state.hpp"
+
+#include <algorithm>
+
+namespace perifrac {
+
+template <int D>
+void BondState<D>::add_facet(const CrackFacet<D>& facet,
+                             std::span<const std::pair<Index, Index>> bonds) {
+  const Index number = static_cast<Index>(facets_.size());
+  facets_.push_back(facet);
+  for (const auto& [i, j] : bonds) broken_.push_back({i, j, number});
+  ++version_;
+  place_facets();
+}
+
+template <int D>
+void BondState<D>::break_bonds(std::span<const std::pair<Index, Index>> bonds) {
+  for (const auto& [i, j] : bonds) broken_.push_back({i, j, no_facet});
+  ++version_;
+}
+
+template <int D>
+void BondState<D>::visit_state(StateVisitor& visitor) {
+  std::vector<double> corners;
+  for (const CrackFacet<D>& facet : facets_) {
+    for (const Vector<D>& corner : facet)
+      corners.insert(corners.end(), corner.begin(), corner.end());
+  }
+  std::vector<std::int64_t> bonds;
+  for (const BrokenBond& bond : broken_) bonds.insert(bonds.end(), {bond.i, bond.j, bond.facet});
+  const std::vector<double> corners_before = corners;
+  const std::vector<std::int64_t> bonds_before = bonds;
+  visitor.visit("crack_facets", corners);
+  visitor.visit("broken_bonds", bonds);
+  if (corners == corners_before && bonds == bonds_before) return;
+
+  facets_.resize(corners.size() / (D * D));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    facets_[k / (D * D)][k / D % D][k % D] = corners[k];
+  broken_.clear();
+  for (std::size_t k = 0; k < bonds.size(); k += 3) {
+    broken_.push_back({static_cast<Index>(bonds[k]), static_cast<Index>(bonds[k + 1]),
+                       static_cast<Index>(bonds[k + 2])});
+  }
+  ++version_;
+  place_facets();
+}
+
+template <int D>
+void BondState<D>::place_facets() {
+  for (int a = 0; a < D; ++a) {
+    centre_[a].clear();
+    for (const CrackFacet<D>& facet : facets_) {
+      double sum = 0.0;
+      for (const Vector<D>& corner : facet) sum += corner[a];
+      centre_[a].push_back(sum / D);
+    }
+    facet_points_.position[a] = centre_[a];
+  }
+  facet_points_.count = facets_.size();
+  facet_points_.version = version_;
+}
+
+template <int D>
+Family<D> intact_family(const Family<D>& family, const BondState<D>& bonds) {
+  std::vector<std::pair<Index, Index>> broken;
+  broken.reserve(2 * bonds.broken().size());
+  for (const BrokenBond& bond : bonds.broken()) {
+    broken.emplace_back(bond.i, bond.j);
+    broken.emplace_back(bond.j, bond.i);
+  }
+  std::ranges::sort(broken);
+  Family<D> intact = family;
+  Index kept = 0;
+  for (Index i = 0; i < family.point_count; ++i) {
+    intact.offset[i] = kept;
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const Index j = family.other[bond];
+      const Index source = j < family.point_count ? j : family.ghost_source[j - family.point_count];
+      if (std::ranges::binary_search(broken, std::pair(i, source))) continue;
+      intact.other[kept] = j;
+      intact.weight[kept++] = family.weight[bond];
+    }
+  }
+  intact.offset[family.point_count] = kept;
+  intact.other.resize(kept);
+  intact.weight.resize(kept);
+  return intact;
+}
+
+template class BondState<2>;
+template class BondState<3>;
+template Family<2> intact_family<2>(const Family<2>&, const BondState<2>&);
+template Family<3> intact_family<3>(const Family<3>&, const BondState<3>&);
+
+}  // namespace perifrac

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/family.hpp"
+#include "core/geometry/points.hpp"
+#include "core/module/point_set.hpp"
+#include "core/state/state_visitor.hpp"
+
+namespace perifrac {
+
+/// A flat piece of a crack, about a spacing wide: a segment in 2D, a triangle in 3D.
+template <int D>
+using CrackFacet = std::array<Vector<D>, D>;
+
+/// A bond between the real points i < j that broke for good.
+struct BrokenBond {
+  Index i;
+  Index j;
+  Index facet;  ///< that cuts it; no_facet where it broke on its own
+};
+inline constexpr Index no_facet = -1;
+
+/// The bonds of a body that are broken and the cracks that cut them. Both only grow, at their end,
+/// so that who follows them reads what is new; a restored state has another version altogether.
+/// The body's solid writes it, everybody else reads it (Body::bond_state).
+template <int D>
+class BondState {
+ public:
+  /// The facets with their centres as points; its version changes with their number.
+  const PointSet& facet_points() const { return facet_points_; }
+  std::span<const CrackFacet<D>> facets() const { return facets_; }
+  std::span<const BrokenBond> broken() const { return broken_; }
+  /// Changes with every break and every restored state.
+  std::uint64_t version() const { return version_; }
+
+  /// Adds a facet that cuts these bonds, pairs i < j, all intact until now.
+  void add_facet(const CrackFacet<D>& facet, std::span<const std::pair<Index, Index>> bonds);
+  /// Breaks bonds, pairs i < j, all intact until now, without a facet.
+  void break_bonds(std::span<const std::pair<Index, Index>> bonds);
+
+  void visit_state(StateVisitor& visitor);
+
+ private:
+  void place_facets();
+
+  std::vector<CrackFacet<D>> facets_;
+  std::vector<BrokenBond> broken_;
+  std::uint64_t version_ = 0;
+  std::array<std::vector<double>, D> centre_;
+  PointSet facet_points_{.name = "crack", .dimension = D, .count = 0};
+};
+
+/// The family without the bonds that are broken; a bond to a ghost breaks with that to its source.
+template <int D>
+Family<D> intact_family(const Family<D>& family, const BondState<D>& bonds);
+
+}  // namespace perifrac
