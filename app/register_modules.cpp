@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "modules/crack_fluid/crack_fluid_type.hpp"
 #include "modules/fluid/fluid_type.hpp"
 #include "modules/pore_flow/darcy_type.hpp"
 #include "modules/solid/solid_types.hpp"
@@ -12,13 +13,13 @@ namespace perifrac {
 const std::vector<ModuleType>& module_types() {
   static const std::vector<ModuleType> types = {
       quasi_static_solid_type(), dynamic_solid_type(), rigid_solid_type(), darcy_type(),
-      semi_lagrangian_type(),
+      semi_lagrangian_type(),    crack_network_type(),
   };
   return types;
 }
 
 const std::vector<std::string>& physics_order() {
-  static const std::vector<std::string> order = {"fluid", "pore_flow", "solid"};
+  static const std::vector<std::string> order = {"fluid", "crack_fluid", "pore_flow", "solid"};
   return order;
 }
 

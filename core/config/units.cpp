@@ -48,9 +48,10 @@ constexpr std::array named_quantities{
     NamedQuantity{"W", "a power", "1 kW"},
     NamedQuantity{"K", "a temperature", "300 K"},
     NamedQuantity{"Pa*sqrt(m)", "a fracture toughness", "1 MPa*sqrt(m)"},
+    NamedQuantity{"m/s*sqrt(s)", "a leak-off coefficient", "1e-5 m/s*sqrt(s)"},
 };
 
-constexpr std::string_view root_of_metre = "sqrt(m)";
+constexpr std::array<std::string_view, 2> roots = {"sqrt(m)", "sqrt(s)"};
 
 struct Release {
   void operator()(ut_system* system) const { ut_free_system(system); }
@@ -78,28 +79,31 @@ ut_system* unit_system() {
   return system.get();
 }
 
-/// A unit, and whether `*sqrt(m)` follows it: udunits has no roots.
+/// A unit, and which of `*sqrt(m)` and `*sqrt(s)` follows it, if any: udunits has no roots.
 struct RootedUnit {
   Unit unit;
-  bool rooted = false;
+  std::string_view root{};
 };
 
 /// `unit` is null if udunits cannot read the text.
 RootedUnit parse_unit(std::string_view text) {
-  const bool rooted = text.size() > root_of_metre.size() && text.ends_with(root_of_metre);
-  if (rooted) {
-    text.remove_suffix(root_of_metre.size());
+  std::string_view found;
+  for (const std::string_view root : roots) {
+    if (text.size() <= root.size() || !text.ends_with(root)) continue;
+    found = root;
+    text.remove_suffix(root.size());
     const auto last = text.find_last_not_of(" *.");
     text = text.substr(0, last == std::string_view::npos ? 0 : last + 1);
+    break;
   }
   const std::string plain(text.empty() ? "1" : text);
-  return {Unit(ut_parse(unit_system(), plain.c_str(), UT_UTF8)), rooted};
+  return {Unit(ut_parse(unit_system(), plain.c_str(), UT_UTF8)), found};
 }
 
 /// Factor from one unit to another of the same dimension; nan if the dimensions differ.
 /// ut_are_convertible will not do: it takes reciprocals for the same.
 double conversion_factor(const RootedUnit& from, const RootedUnit& to) {
-  if (from.rooted != to.rooted) return std::nan("");
+  if (from.root != to.root) return std::nan("");
   const Unit one(ut_get_dimensionless_unit_one(unit_system()));
   const Unit ratio(ut_divide(from.unit.get(), to.unit.get()));
   if (!ratio || !ut_is_dimensionless(ratio.get())) return std::nan("");
@@ -127,7 +131,7 @@ std::string describe_found(const RootedUnit& found) {
   if (const auto space = base.find(' '); space != std::string_view::npos && base[0] <= '9') {
     base.remove_prefix(space + 1);
   }
-  return fmt::format("a quantity in [{}{}]", base, found.rooted ? ".sqrt(m)" : "");
+  return fmt::format("a quantity in [{}{}{}]", base, found.root.empty() ? "" : ".", found.root);
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+
+#include "core/state/state_visitor.hpp"
+
 namespace perifrac {
 
 /// Adds `value` to `sum` and keeps in `lost` what rounding cuts off, for the next time (Kahan
@@ -17,6 +21,11 @@ class CompensatedSum {
  public:
   void add(double value) { add_compensated(sum_, lost_, value); }
   double value() const { return sum_ + lost_; }
+
+  void visit_state(StateVisitor& visitor, const std::string& name) {
+    visitor.visit(name, sum_);
+    visitor.visit(name + "_lost", lost_);
+  }
 
  private:
   double sum_ = 0.0;

@@ -150,9 +150,10 @@ TEST_P(ModuleContract, PortsHaveAsManyValuesAsTheirPoints) {
     ASSERT_NE(view.points, nullptr) << port.name;
     const std::size_t values = port.components * view.points->count;
     EXPECT_EQ(view.value.size(), values) << port.name;
-    for (const auto& optional : {view.rate, view.slope}) {
-      EXPECT_TRUE(optional.empty() || optional.size() == values) << port.name;
-    }
+    EXPECT_TRUE(view.rate.empty() || view.rate.size() == values) << port.name;
+    EXPECT_TRUE(view.slope.empty() || view.slope.size() == values ||
+                view.slope.size() == values * values)
+        << port.name;
     for (int axis = 0; axis < view.points->dimension; ++axis) {
       EXPECT_EQ(view.points->position[axis].size(), view.points->count) << port.name;
     }

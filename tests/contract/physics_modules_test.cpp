@@ -9,6 +9,13 @@
 namespace perifrac {
 namespace {
 
+/// A line of six facets with a branch of two.
+void seed_crack(const AnyBody& body) {
+  BondState<2>& bonds = std::get<std::shared_ptr<const Body<2>>>(body)->claim_bond_state();
+  for (int k = 0; k < 6; ++k) bonds.add_facet({{{3.0 + k, 5.0}, {4.0 + k, 5.0}}}, {});
+  for (int k = 0; k < 2; ++k) bonds.add_facet({{{6.0, 5.0 + k}, {6.0, 6.0 + k}}}, {});
+}
+
 std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::string& physics,
                                            const std::vector<std::string>& overrides) {
   const Section scene = read_scene_text(text, overrides);
@@ -16,6 +23,7 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
   AnyBody body = std::shared_ptr<const Body<2>>();
   if (dimension == 3) body = std::shared_ptr<const Body<3>>();
   if (scene.has("body")) body = make_body(scene.at("body"), dimension);
+  if (physics == "crack_fluid") seed_crack(body);
   return make_module(scene, physics, body);
 }
 
@@ -39,7 +47,8 @@ Variant variant(std::string name, std::string type, std::string text,
                                      {"pore_pressure", 1e3},
                                      {"pore_mobility", 1e-9},
                                      {"interface_impulse", 1e3},
-                                     {"exchanged_mass", 0.1}}};
+                                     {"exchanged_mass", 0.1},
+                                     {"crack_opening", 1e-4}}};
   return {std::move(type), std::move(contract)};
 }
 
@@ -91,6 +100,15 @@ const std::vector<Variant>& variants() {
       variant("darcy_tait_explicit", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.fluid.equation_of_state=tait", "pore_flow.fluid.bulk_modulus=22 MPa",
                "pore_flow.integrator.type=explicit"}),
+      variant("crack_network", "crack_fluid/network", box_2d + crack_network),
+      variant(
+          "crack_network_filled", "crack_fluid/network", box_2d + crack_network,
+          {"crack_fluid.filled=[{from: [4 m, 4 m], to: [8 m, 8 m], pressure: 10 kPa}]",
+           "crack_fluid.inlets=[{name: well, at: [8 m, 5 m], rate: -1e-3 m^2/s}, {name: tank, at: "
+           "[3 m, 5 m], holds: pressure, pressure: 20 kPa, schedule: {ramp: 5 ms}}]"}),
+      variant("crack_network_carter", "crack_fluid/network", box_2d + crack_network,
+              {"crack_fluid.leak_off=carter", "crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)",
+               "crack_fluid.vapour_pressure=-50 kPa"}),
       variant("fluid_2d", "fluid/semi_lagrangian", tank_2d),
       variant("fluid_3d", "fluid/semi_lagrangian", tank_3d),
       variant("fluid_tait", "fluid/semi_lagrangian", tank_2d,

@@ -93,6 +93,16 @@ pore_flow:
     left: {type: flux, flux: 1 mm/s}
 )";
 
+/// Fluid for cracks that a test makes in box_2d.
+inline const std::string crack_network = R"(
+crack_fluid:
+  type: network
+  viscosity: 1 cP
+  bulk_modulus: 2.2 GPa
+  inlets:
+    - {name: pump, at: [3 m, 5 m], rate: 5e-5 m^2/s}
+)";
+
 /// Free fluid in an open tank, with no body; what else it has comes by overrides.
 inline const std::string tank_2d = R"(
 dimension: 2

@@ -48,6 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
         Quantity{"4 1/GPa", "1/Pa", 4e-9}, Quantity{"30 %", "", 0.3}, Quantity{"0.3", "", 0.3},
         Quantity{"5 µm", "m", 5e-6}, Quantity{"2 m²", "m^2", 2.0},
         Quantity{"3 MPa*sqrt(m)", "Pa*sqrt(m)", 3e6}, Quantity{"3 MPa sqrt(m)", "Pa*sqrt(m)", 3e6},
+        Quantity{"3 mm/s*sqrt(s)", "m/s*sqrt(s)", 3e-3},
         Quantity{"3 Pa*sqrt(m)", "Pa*sqrt(m)", 3.0}, Quantity{"300 K", "K", 300.0},
         Quantity{"1 day", "s", 86400.0}));
 
@@ -69,6 +70,7 @@ TEST(units, refuse_reciprocals) {
 TEST(units, refuse_roots_that_only_one_side_has) {
   EXPECT_THAT(refusal("3 MPa*sqrt(m)", "Pa"), HasSubstr("is a fracture toughness"));
   EXPECT_THAT(refusal("3 MPa", "Pa*sqrt(m)"), HasSubstr("is a pressure"));
+  EXPECT_THAT(refusal("3 m/s*sqrt(m)", "m/s*sqrt(s)"), HasSubstr("sqrt(m)"));
 }
 
 TEST(units, refuse_decimal_exponents) {

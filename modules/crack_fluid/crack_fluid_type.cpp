@@ -1,0 +1,124 @@
+#include "modules/crack_fluid/crack_fluid_type.hpp"
+
+#include <fmt/format.h>
+
+#include "modules/crack_fluid/carter_leak_off.hpp"
+#include "modules/crack_fluid/crack_network.hpp"
+
+namespace perifrac {
+
+namespace {
+
+CrackLiquid read_liquid(const Section& section) {
+  const CrackLiquid liquid{.density = section.number("density"),
+                           .viscosity = section.number("viscosity"),
+                           .bulk_modulus = section.number("bulk_modulus"),
+                           .vapour_pressure = section.number("vapour_pressure"),
+                           .residual_aperture = section.number("residual_aperture")};
+  if (liquid.vapour_pressure <= -liquid.bulk_modulus) {
+    section.fail("vapour_pressure", "there is no fluid that far under tension",
+                 "above -bulk_modulus");
+  }
+  return liquid;
+}
+
+std::vector<CrackFilling> read_fillings(const Section& section) {
+  std::vector<CrackFilling> fillings;
+  for (std::size_t k = 0; k < section.count("filled"); ++k) {
+    const std::string path = fmt::format("filled[{}]", k);
+    CrackFilling filling{.box = {}, .pressure = section.number(path + ".pressure")};
+    std::ranges::copy(section.numbers(path + ".from"), filling.box.from.begin());
+    std::ranges::copy(section.numbers(path + ".to"), filling.box.to.begin());
+    fillings.push_back(filling);
+  }
+  return fillings;
+}
+
+/// Null where the rock takes nothing.
+std::unique_ptr<LeakOff> read_leak_off(const Section& section) {
+  if (section.word("leak_off") == "none") return nullptr;
+  return std::make_unique<CarterLeakOff>(section.number("leak_off_coefficient"),
+                                         section.number("density"));
+}
+
+std::unique_ptr<PhysicsModule> make_network(const Section& section,
+                                            std::shared_ptr<const Body<2>> body) {
+  const CrackLiquid liquid = read_liquid(section);
+  return std::make_unique<CrackNetwork>(std::move(body), liquid,
+                                        CrackInlets(read_crack_inlets(section), liquid),
+                                        read_fillings(section), read_leak_off(section));
+}
+
+KeyTable network_keys() {
+  KeyTable keys = {
+      {.path = "density",
+       .unit = "kg/m^3",
+       .range = "(0, inf)",
+       .fallback = "1000 kg/m^3",
+       .meaning = "Density at zero pressure."},
+      {.path = "viscosity",
+       .unit = "Pa s",
+       .range = "(0, inf)",
+       .required = true,
+       .meaning = "Dynamic viscosity."},
+      {.path = "bulk_modulus",
+       .unit = "Pa",
+       .range = "(0, inf)",
+       .required = true,
+       .meaning = "Bulk modulus at zero pressure."},
+      {.path = "vapour_pressure",
+       .unit = "Pa",
+       .fallback = "0 Pa",
+       .meaning = "Pressure in a crack that is not full of fluid, the least there is."},
+      {.path = "residual_aperture",
+       .unit = "m",
+       .range = "(0, inf)",
+       .fallback = "2 um",
+       .meaning = "Width of a closed crack, which fluid is stored in and flows through."},
+      {.path = "filled[].from",
+       .type = KeyType::vector,
+       .unit = "m",
+       .required = true,
+       .meaning = "Low corner of a box whose cracks are full at the start; others are dry."},
+      {.path = "filled[].to",
+       .type = KeyType::vector,
+       .unit = "m",
+       .required = true,
+       .meaning = "Its high corner."},
+      {.path = "filled[].pressure",
+       .unit = "Pa",
+       .fallback = "0 Pa",
+       .meaning = "The pressure in them."},
+      {.path = "leak_off",
+       .type = KeyType::word,
+       .fallback = "none",
+       .words = {"none", "carter"},
+       .meaning = "What the rock takes. carter: Carter's law, where no pore flow is simulated."},
+      {.path = "leak_off_coefficient",
+       .unit = "m/s*sqrt(s)",
+       .range = "[0, inf)",
+       .required = true,
+       .when = "leak_off=carter",
+       .meaning = "Carter's coefficient of one side of a crack."},
+  };
+  const KeyTable inlets = crack_inlet_keys();
+  keys.insert(keys.end(), inlets.begin(), inlets.end());
+  return keys;
+}
+
+}  // namespace
+
+ModuleType crack_network_type() {
+  return {.section = "crack_fluid",
+          .name = "network",
+          .meaning = "Fluid in cracks, on the facets that cut broken bonds. Implicit. 2D.",
+          .keys = network_keys(),
+          .make = [](const Section& section, const AnyBody& any) {
+            if (const auto* body = std::get_if<std::shared_ptr<const Body<2>>>(&any)) {
+              return make_network(section, *body);
+            }
+            section.fail("type", "'network' in 3D", "dimension: 2");
+          }};
+}
+
+}  // namespace perifrac

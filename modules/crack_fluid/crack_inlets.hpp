@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/config/key.hpp"
+#include "core/config/section.hpp"
+#include "core/geometry/bond_state.hpp"
+#include "core/time/schedule.hpp"
+#include "modules/crack_fluid/lubrication.hpp"
+
+namespace perifrac {
+
+/// Where fluid is pumped into a crack, at the facets nearest to a place.
+struct CrackInlet {
+  std::string name;
+  Vector<2> at;
+  bool holds_pressure;
+  double amount;  ///< pressure [Pa] or volume per time at zero pressure [m^2/s], times the schedule
+  Schedule schedule;
+};
+
+/// The inlets of a crack. One that takes fluid out by rate takes no more than comes to it once its
+/// facet is no longer under pressure.
+class CrackInlets {
+ public:
+  CrackInlets(std::vector<CrackInlet> inlets, const CrackLiquid& liquid);
+
+  const std::vector<CrackInlet>& all() const { return inlets_; }
+  /// Finds each inlet's facets: the nearest and what is as near.
+  void locate(const PointSet& facets, const CrackGraph& graph);
+  std::span<const Index> facets(std::size_t inlet) const { return facets_[inlet]; }
+
+  /// What they bring over a step; nothing in one of no length. Throws NumericalError where a facet
+  /// serves two inlets.
+  std::span<const FacetInflow> inflows(const TimeWindow& step);
+
+ private:
+  std::vector<CrackInlet> inlets_;
+  CrackLiquid liquid_;
+  std::vector<std::vector<Index>> facets_;  ///< by inlet
+  std::vector<std::vector<double>> share_;  ///< of each of them, by length
+  std::vector<FacetInflow> inflows_;
+};
+
+/// The keys of `inlets` and `counts`.
+KeyTable crack_inlet_keys();
+
+/// Reads them. Throws InputError.
+std::vector<CrackInlet> read_crack_inlets(const Section& section);
+
+}  // namespace perifrac

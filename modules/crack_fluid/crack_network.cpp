@@ -1,0 +1,302 @@
+#include "modules/crack_fluid/crack_network.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "modules/crack_fluid/lubrication_newton.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const PointSet whole_crack{.name = "crack_total"};
+
+/// A window that Newton cannot take at once is cut in halves, down to this part of it.
+constexpr double shortest_part = 1.0 / 1024.0;
+
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace
+
+CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiquid& liquid,
+                           CrackInlets inlets, std::vector<CrackFilling> fillings,
+                           std::unique_ptr<LeakOff> leak_off)
+    : body_(std::move(body)),
+      liquid_(liquid),
+      inlets_(std::move(inlets)),
+      fillings_(std::move(fillings)),
+      leak_off_(std::move(leak_off)) {
+  using enum PortDirection;
+  using enum PortKind;
+  using enum PortRole;
+  add_port(Quantity::opening, {"crack_opening", "m", in});
+  add_port(Quantity::pressure, {"crack_pressure", "Pa", out});
+  add_port(Quantity::mass, {"crack_fluid_mass", "kg/m", out, extensive});
+  add_port(Quantity::wetted_fraction, {"crack_wetted_fraction", "1", out});
+  add_port(Quantity::flow_rate, {"crack_flow_rate", "m^2/s", out});
+  add_port(Quantity::viscosity, {"crack_viscosity", "Pa s", out, intensive, property});
+  add_port(Quantity::wetted_length, {"wetted_length", "m", out});
+  add_port(Quantity::volume, {"crack_volume", "m^2", out});
+  first_inlet_ = static_cast<PortId>(ports_.size());
+  for (const CrackInlet& inlet : inlets_.all()) {
+    add_port(Quantity::inlet_pressure, {"inlet_" + inlet.name + "_pressure", "Pa", out});
+  }
+  add_port(Quantity::stored_mass, {"crack_fluid_stored_mass", "kg/m", out, extensive, mass_stored});
+  add_port(Quantity::injected_mass,
+           {"injected_crack_fluid_mass", "kg/m", out, extensive, mass_gained});
+  if (leak_off_) {
+    add_port(Quantity::leaked_mass,
+             {"leaked_crack_fluid_mass", "kg/m", out, extensive, mass_gained});
+  }
+  add_port(Quantity::energy, {"crack_fluid_energy", "J/m", out, extensive, energy_stored});
+  add_port(Quantity::work, {"crack_fluid_work", "J/m", out, extensive, energy_gained});
+  add_port(Quantity::dissipation,
+           {"crack_flow_dissipation", "J/m", out, extensive, energy_dissipated});
+  add_port(Quantity::steps, {"crack_flow_steps", "1", out, extensive, PortRole::work});
+  add_port(Quantity::iterations, {"crack_newton_iterations", "1", out, extensive, PortRole::work});
+  scalars_.resize(ports_.size());
+}
+
+void CrackNetwork::add_port(Quantity quantity, Port port) {
+  quantities_.push_back(quantity);
+  ports_.push_back(std::move(port));
+}
+
+/// Facets are only added; what is new is dry.
+void CrackNetwork::match_facets() {
+  const BondState<2>& bonds = body_->bond_state();
+  if (version_ != bonds.facet_points().version) {
+    version_ = bonds.facet_points().version;
+    lubrication_ = Lubrication(liquid_, CrackGraph(bonds.facets()));
+    inlets_.locate(bonds.facet_points(), lubrication_.graph());
+  }
+  const std::size_t count = bonds.facets().size();
+  mass_.resize(count, 0.0);
+  unknown_.resize(count, liquid_.empty());
+  settled_.resize(count, liquid_.empty());
+  aperture_.resize(count, liquid_.residual_aperture);
+  if (leak_off_) leak_off_->match(lubrication_.graph());
+  for (std::vector<double>* input : {&opening_, &opening_rate_}) input->resize(count);
+  if (opening_slope_.size() != count * count) opening_slope_.assign(count * count, 0.0);
+}
+
+PortView CrackNetwork::port(PortId id) {
+  match_facets();
+  const PointSet* const facets = &body_->bond_state().facet_points();
+  const Quantity quantity = quantities_[id];
+  switch (quantity) {
+    case Quantity::opening:
+      return {facets, opening_, opening_rate_, opening_slope_};
+    case Quantity::pressure:
+    case Quantity::mass:
+    case Quantity::wetted_fraction:
+    case Quantity::flow_rate:
+    case Quantity::viscosity:
+      return {facets, field(quantity)};
+    default:
+      scalars_[id] = scalar(quantity, id);
+      return {&whole_crack, std::span(scalars_).subspan(id, 1)};
+  }
+}
+
+std::vector<double>& CrackNetwork::field(Quantity quantity) {
+  const std::size_t count = mass_.size();
+  switch (quantity) {
+    case Quantity::pressure:
+      pressure_.resize(count);
+      for (std::size_t f = 0; f < count; ++f) pressure_[f] = liquid_.pressure(unknown_[f]);
+      return pressure_;
+    case Quantity::wetted_fraction:
+      wetted_fraction_.resize(count);
+      for (std::size_t f = 0; f < count; ++f) wetted_fraction_[f] = liquid_.fill(unknown_[f]);
+      return wetted_fraction_;
+    case Quantity::viscosity:
+      viscosity_.resize(count);
+      for (std::size_t f = 0; f < count; ++f) {
+        viscosity_[f] = liquid_.fill(unknown_[f]) < 0.5 ? 0.0 : liquid_.viscosity;
+      }
+      return viscosity_;
+    case Quantity::flow_rate:
+      find_flow_rate();
+      return flow_rate_;
+    default:
+      return mass_;
+  }
+}
+
+void CrackNetwork::find_flow_rate() {
+  flow_rate_.assign(mass_.size(), 0.0);
+  const auto leaves = [&](const CrackGraph::Branch& at, double flux) {
+    flow_rate_[at.facet] += (at.end == 1 ? 0.5 : -0.5) * flux / liquid_.density;
+  };
+  lubrication_.for_each_flux(
+      field(Quantity::pressure), aperture_,
+      [&](const CrackGraph::Branch& a, const CrackGraph::Branch& b, double flux) {
+        leaves(a, flux);
+        leaves(b, -flux);
+      });
+}
+
+double CrackNetwork::inlet_pressure(std::size_t inlet) const {
+  const auto facets = inlets_.facets(inlet);
+  double sum = 0.0;
+  for (const Index f : facets) sum += liquid_.pressure(unknown_[f]);
+  return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
+}
+
+double CrackNetwork::scalar(Quantity quantity, PortId id) const {
+  const CrackGraph& graph = lubrication_.graph();
+  const auto sum = [&](auto&& term) {
+    CompensatedSum sum;
+    for (Index f = 0; f < graph.facet_count(); ++f) sum.add(term(f));
+    return sum.value();
+  };
+  switch (quantity) {
+    case Quantity::wetted_length:
+      return sum([&](Index f) { return graph.length(f) * liquid_.fill(unknown_[f]); });
+    case Quantity::volume:
+      return sum([&](Index f) { return graph.length(f) * aperture_[f]; });
+    case Quantity::inlet_pressure:
+      return inlet_pressure(id - first_inlet_);
+    case Quantity::stored_mass:
+      return sum([&](Index f) { return mass_[f]; });
+    case Quantity::energy:
+      return sum([&](Index f) {
+        return mass_[f] * liquid_.internal_energy(liquid_.pressure(unknown_[f]));
+      });
+    case Quantity::injected_mass:
+      return injected_.value();
+    case Quantity::leaked_mass:
+      return leaked_.value();
+    case Quantity::work:
+      return work_.value();
+    case Quantity::dissipation:
+      return dissipation_.value();
+    case Quantity::steps:
+      return static_cast<double>(steps_);
+    default:
+      return static_cast<double>(iterations_);
+  }
+}
+
+void CrackNetwork::initialize(double) {
+  match_facets();
+  std::ranges::fill(mass_, 0.0);
+  std::ranges::fill(unknown_, liquid_.empty());
+  std::ranges::fill(settled_, liquid_.empty());
+  std::ranges::fill(aperture_, liquid_.residual_aperture);
+  has_begun_ = 0;
+  injected_ = leaked_ = work_ = dissipation_ = {};
+}
+
+double CrackNetwork::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
+
+/// Cracks of the start, now that their opening is known. Their fluid counts as injected.
+void CrackNetwork::fill_at_start(const TimeWindow& window) {
+  has_begun_ = 1;
+  const PointSet& facets = body_->bond_state().facet_points();
+  for (std::size_t f = 0; f < mass_.size(); ++f) {
+    for (const auto& [box, pressure] : fillings_) {
+      if (box.contains({facets.position[0][f], facets.position[1][f]})) unknown_[f] = pressure;
+    }
+  }
+  const LubricationStep at_rest{.time = {window.begin, window.begin},
+                                .opening = {opening_, opening_rate_, opening_slope_, window.end},
+                                .mass = mass_};
+  lubrication_.evaluate(at_rest, vector_of(unknown_));
+  for (std::size_t f = 0; f < mass_.size(); ++f) {
+    if (!liquid_.is_full(unknown_[f])) continue;
+    mass_[f] = lubrication_.residual()[f];
+    injected_.add(mass_[f]);
+    work_.add(mass_[f] * liquid_.internal_energy(unknown_[f]));
+  }
+  settled_ = unknown_;
+}
+
+double CrackNetwork::advance(const TimeWindow& window) {
+  match_facets();
+  if (mass_.empty()) return window.end;
+  if (has_begun_ == 0) fill_at_start(window);
+  std::int64_t parts = 1;
+  for (std::int64_t done = 0; done < parts;) {
+    const auto time_after = [&](std::int64_t n) {
+      if (n == parts) return window.end;
+      return window.begin + window.length() * static_cast<double>(n) / static_cast<double>(parts);
+    };
+    if (step({time_after(done), time_after(done + 1)}, window)) {
+      ++done;
+    } else {
+      parts *= 2;
+      done *= 2;
+    }
+  }
+  return window.end;
+}
+
+/// Tries one step; false where a shorter one is called for. Throws NumericalError where none is.
+bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
+  const LubricationStep step{.time = time,
+                             .opening = {opening_, opening_rate_, opening_slope_, window.end},
+                             .mass = mass_,
+                             .inflows = inlets_.inflows(time),
+                             .leak_off = leak_off_.get()};
+  if (leak_off_) leak_off_->begin(time);
+  Eigen::VectorXd v = vector_of(time.length() > 0.0 ? unknown_ : settled_);
+  const NewtonReport report = solve(lubrication_, liquid_, step, v);
+  ++steps_;
+  iterations_ += report.iterations;
+  if (report.converged) {
+    book(v);
+    if (time.length() > 0.0) settled_ = unknown_;
+    return true;
+  }
+  if (time.length() > shortest_part * window.length()) return false;
+  const PointSet& facets = body_->bond_state().facet_points();
+  const Index f = report.worst;
+  const std::array place = {facets.position[0][f], facets.position[1][f]};
+  throw NumericalError("crack_pressure", fmt::format("facet, {}", describe_point(f, place)),
+                       time.begin, "no balance of mass, in however short a step,");
+}
+
+/// What has moved is what counts: mass is kept to rounding whatever Newton left over. Enthalpy is
+/// the mean of begin and end, so that fluid and a linear solid exchange the same work.
+void CrackNetwork::book(const Eigen::VectorXd& v) {
+  for (std::size_t f = 0; f < mass_.size(); ++f) {
+    const double inflow = lubrication_.inflow()[f];
+    const double outflow = lubrication_.outflow()[f];
+    const double leaked = lubrication_.leaked()[f];
+    const double enthalpy = 0.5 * (liquid_.enthalpy(liquid_.pressure(unknown_[f])) +
+                                   liquid_.enthalpy(liquid_.pressure(v[f])));
+    mass_[f] += inflow - outflow - leaked;
+    injected_.add(inflow);
+    leaked_.add(-leaked);
+    work_.add(enthalpy * (inflow - leaked));
+    dissipation_.add(enthalpy * outflow);
+    unknown_[f] = v[f];
+    aperture_[f] = lubrication_.aperture()[f];
+  }
+  if (leak_off_) leak_off_->accept(mass_);
+}
+
+void CrackNetwork::visit_state(StateVisitor& visitor) {
+  visitor.visit("crack_fluid_mass", mass_);
+  visitor.visit("crack_pressure", unknown_);
+  visitor.visit("crack_pressure_settled", settled_);
+  visitor.visit("crack_aperture", aperture_);
+  visitor.visit("crack_has_begun", has_begun_);
+  injected_.visit_state(visitor, "injected_crack_fluid_mass");
+  leaked_.visit_state(visitor, "leaked_crack_fluid_mass");
+  work_.visit_state(visitor, "crack_fluid_work");
+  dissipation_.visit_state(visitor, "crack_flow_dissipation");
+  if (leak_off_) leak_off_->visit_state(visitor);
+}
+
+void CrackNetwork::on_restored(double) { match_facets(); }
+
+}  // namespace perifrac

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/geometry/body.hpp"
+#include "core/module/physics_module.hpp"
+#include "core/operators/compensated_sum.hpp"
+#include "modules/crack_fluid/crack_inlets.hpp"
+#include "modules/crack_fluid/leak_off.hpp"
+#include "modules/crack_fluid/lubrication.hpp"
+
+namespace perifrac {
+
+/// A part of the crack that holds fluid at the start.
+struct CrackFilling {
+  Region<2> box;
+  double pressure;  ///< [Pa]
+};
+
+/// Fluid in the cracks of a 2D body, one unknown a facet, implicit: one backward Euler step a
+/// window, together with what the facets' opening answers to it. Facets that are added are dry.
+///
+/// Ports, on the facets ("crack"): in `crack_opening` [m], takes rate and a slope of count * count
+/// values against `crack_pressure`; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
+/// `crack_wetted_fraction`, `crack_flow_rate` [m^2/s] from a facet's first end to its second, the
+/// property `crack_viscosity` [Pa s], 0 where less than half a facet is wet. On its own:
+/// `wetted_length` [m], `crack_volume` [m^2], `inlet_<name>_pressure` [Pa]; for the ledger
+/// `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
+/// `leaked_crack_fluid_mass` [kg/m], `crack_fluid_energy`, `crack_fluid_work`,
+/// `crack_flow_dissipation` [J/m]; counts of work.
+class CrackNetwork final : public PhysicsModule {
+ public:
+  /// `leak_off` may be null.
+  CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiquid& liquid, CrackInlets inlets,
+               std::vector<CrackFilling> fillings, std::unique_ptr<LeakOff> leak_off);
+
+  std::span<const Port> ports() const override { return ports_; }
+  PortView port(PortId id) override;
+  void initialize(double t) override;
+  double stable_time_step() const override;
+  double advance(const TimeWindow& window) override;
+  void visit_state(StateVisitor& visitor) override;
+  void on_restored(double t) override;
+
+ private:
+  enum class Quantity {
+    opening,
+    pressure,
+    mass,
+    wetted_fraction,
+    flow_rate,
+    viscosity,
+    wetted_length,
+    volume,
+    inlet_pressure,
+    stored_mass,
+    injected_mass,
+    leaked_mass,
+    energy,
+    work,
+    dissipation,
+    steps,
+    iterations
+  };
+
+  void add_port(Quantity quantity, Port port);
+  void match_facets();
+  void fill_at_start(const TimeWindow& window);
+  bool step(const TimeWindow& time, const TimeWindow& window);
+  void book(const Eigen::VectorXd& v);
+  std::vector<double>& field(Quantity quantity);
+  void find_flow_rate();
+  double scalar(Quantity quantity, PortId id) const;
+  double inlet_pressure(std::size_t inlet) const;
+
+  std::shared_ptr<const Body<2>> body_;
+  CrackLiquid liquid_;
+  CrackInlets inlets_;
+  std::vector<CrackFilling> fillings_;
+  std::unique_ptr<LeakOff> leak_off_;
+  std::vector<Port> ports_;
+  std::vector<Quantity> quantities_;  ///< by port
+  PortId first_inlet_ = 0;
+  std::int64_t steps_ = 0;       ///< in this process
+  std::int64_t iterations_ = 0;  ///< likewise
+
+  std::uint64_t version_ = 0;  ///< of the facets that the graph is made of
+  Lubrication lubrication_;
+
+  // State, by facet.
+  std::vector<double> mass_;      ///< [kg/m]
+  std::vector<double> unknown_;   ///< v of crack_liquid.hpp [Pa]
+  std::vector<double> settled_;   ///< v after the last window of some length: where Newton begins
+  std::vector<double> aperture_;  ///< [m]
+  // State, since the start.
+  std::int64_t has_begun_ = 0;
+  CompensatedSum injected_, leaked_, work_, dissipation_;
+
+  // The input and its companions.
+  std::vector<double> opening_, opening_rate_, opening_slope_;
+  // Outputs, made when they are asked for.
+  std::vector<double> pressure_, wetted_fraction_, flow_rate_, viscosity_;
+  std::vector<double> scalars_;  ///< by port
+};
+
+}  // namespace perifrac

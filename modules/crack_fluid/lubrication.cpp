@@ -1,0 +1,164 @@
+#include "modules/crack_fluid/lubrication.hpp"
+
+#include <limits>
+
+namespace perifrac {
+
+namespace {
+
+/// Below this a pressure that an inlet holds is as good as none [Pa].
+constexpr double smallest_pressure = 1e3;
+
+}  // namespace
+
+Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph)
+    : liquid_(liquid), graph_(std::move(graph)) {
+  const Index count = graph_.facet_count();
+  for (Eigen::VectorXd* field : {&pressure_, &opening_, &aperture_, &capacity_, &residual_,
+                                 &rounding_, &outflow_, &leaked_, &inflow_, &by_fill_}) {
+    field->setZero(count);
+  }
+}
+
+void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v) {
+  by_pressure_.clear();
+  by_aperture_.clear();
+  store(step, v);
+  outflow_.setZero();
+  if (step.time.length() > 0.0) flow(step.time.length());
+  residual_ += outflow_;
+  let_in(step, v);
+}
+
+void Lubrication::store(const LubricationStep& step, const Eigen::VectorXd& v) {
+  const Index count = graph_.facet_count();
+  const CrackOpening& given = step.opening;
+  for (Index f = 0; f < count; ++f) pressure_[f] = liquid_.pressure(v[f]);
+  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(given.slope.data(),
+                                                                               count, count);
+  opening_.noalias() = slope * pressure_;
+  for (Index f = 0; f < count; ++f) {
+    opening_[f] += given.value[f] + given.rate[f] * (step.time.end - given.end);
+    aperture_[f] = std::max(opening_[f], liquid_.residual_aperture);
+    capacity_[f] = liquid_.density * graph_.length(f) * aperture_[f];
+    const double compression = 1.0 + pressure_[f] / liquid_.bulk_modulus;
+    const double fill = liquid_.fill(v[f]);
+    const double mass = capacity_[f] * compression * fill;
+    Leak leak;
+    if (step.leak_off != nullptr) leak = step.leak_off->leak(f, pressure_[f], fill);
+    leaked_[f] = leak.mass;
+    residual_[f] = mass - step.mass[f] + leak.mass;
+    rounding_[f] = mass + std::abs(step.mass[f]) + std::abs(leak.mass);
+    by_fill_[f] = capacity_[f] * compression + leak.by_fill;
+    by_pressure_.emplace_back(f, f, capacity_[f] * fill / liquid_.bulk_modulus + leak.by_pressure);
+    by_aperture_.emplace_back(f, f, mass / aperture_[f]);
+  }
+}
+
+void Lubrication::find_conductances(std::span<const CrackGraph::Branch> joint,
+                                    std::span<const double> aperture) {
+  conductance_.resize(joint.size());
+  growth_.resize(joint.size());
+  partner_.resize(joint.size());
+  sum_ = 0.0;
+  for (std::size_t a = 0; a < joint.size(); ++a) {
+    double widest = 0.0;
+    for (std::size_t b = 0; b < joint.size(); ++b) {
+      const Index other = joint[b].facet;
+      if (b == a || aperture[other] <= widest) continue;
+      widest = aperture[other];
+      partner_[a] = other;
+    }
+    const double w = 0.5 * (aperture[joint[a].facet] + widest);
+    const double half_length = 0.5 * graph_.length(joint[a].facet);
+    conductance_[a] = w * w * w / (12.0 * liquid_.viscosity * half_length);
+    growth_[a] = 1.5 * conductance_[a] / w;
+    sum_ += conductance_[a];
+  }
+}
+
+void Lubrication::flow(double dt) {
+  const std::span pressure(pressure_.data(), pressure_.size());
+  const std::span aperture(aperture_.data(), aperture_.size());
+  for_each_flux(pressure, aperture,
+                [&](const CrackGraph::Branch& a, const CrackGraph::Branch& b, double flux) {
+                  outflow_[a.facet] += dt * flux;
+                  outflow_[b.facet] -= dt * flux;
+                  rounding_[a.facet] += std::abs(dt * flux);
+                  rounding_[b.facet] += std::abs(dt * flux);
+                });
+  for (std::size_t k = 0; k < graph_.joint_count(); ++k) {
+    find_conductances(graph_.joint(k), aperture);
+    differentiate_joint(graph_.joint(k), dt);
+  }
+}
+
+void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt) {
+  for (std::size_t a = 0; a < joint.size(); ++a) {
+    for (std::size_t b = 0; b < joint.size(); ++b) {
+      if (a == b) continue;
+      // What leaves a for b; the other way round is the other term of the two loops.
+      const Index from = joint[a].facet;
+      const Index to = joint[b].facet;
+      const double fall = pressure_[from] - pressure_[to];
+      const Index upstream = fall >= 0.0 ? from : to;
+      const double density = liquid_.density_at(pressure_[upstream]);
+      const double g = conductance_[a] * conductance_[b] / sum_;
+      by_pressure_.emplace_back(from, from, dt * density * g);
+      by_pressure_.emplace_back(from, to, -dt * density * g);
+      by_pressure_.emplace_back(from, upstream,
+                                dt * liquid_.density / liquid_.bulk_modulus * g * fall);
+      for (std::size_t m = 0; m < joint.size(); ++m) {
+        double by_conductance = -g / sum_;
+        if (m == a) by_conductance += conductance_[b] / sum_;
+        if (m == b) by_conductance += conductance_[a] / sum_;
+        const double slope = dt * density * fall * by_conductance * growth_[m];
+        by_aperture_.emplace_back(from, joint[m].facet, slope);
+        by_aperture_.emplace_back(from, partner_[m], slope);
+      }
+    }
+  }
+}
+
+void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) {
+  held_.clear();
+  inflow_.setZero();
+  for (const auto& [f, least, most, target] : step.inflows) {
+    const double without = residual_[f];
+    inflow_[f] = std::clamp(without, least, most);
+    const double weight = liquid_.density * graph_.length(f) * graph_.length(f) /
+                          std::max(std::abs(target), smallest_pressure);
+    const double held = weight * (v[f] - target);
+    residual_[f] = std::clamp(held, without - most, without - least);
+    if (residual_[f] == held) held_.emplace_back(f, weight);
+    rounding_[f] += std::abs(inflow_[f]) + weight * std::abs(v[f]);
+  }
+}
+
+Eigen::MatrixXd Lubrication::jacobian(const LubricationStep& step, const Eigen::VectorXd& v) const {
+  const Index count = graph_.facet_count();
+  Eigen::SparseMatrix<double, Eigen::RowMajor> by_pressure(count, count);
+  Eigen::SparseMatrix<double, Eigen::RowMajor> by_aperture(count, count);
+  by_pressure.setFromTriplets(by_pressure_.begin(), by_pressure_.end());
+  by_aperture.setFromTriplets(by_aperture_.begin(), by_aperture_.end());
+  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(
+      step.opening.slope.data(), count, count);
+  Eigen::VectorXd is_open(count);
+  for (Index f = 0; f < count; ++f) {
+    is_open[f] = opening_[f] > liquid_.residual_aperture ? 1.0 : 0.0;
+  }
+  Eigen::MatrixXd jacobian = (by_aperture * is_open.asDiagonal()) * slope;
+  jacobian += by_pressure;
+  for (Index f = 0; f < count; ++f) {
+    if (liquid_.is_full(v[f])) continue;
+    jacobian.col(f).setZero();
+    jacobian(f, f) = by_fill_[f] / liquid_.bulk_modulus;
+  }
+  for (const auto& [f, weight] : held_) {
+    jacobian.row(f).setZero();
+    jacobian(f, f) = weight;
+  }
+  return jacobian;
+}
+
+}  // namespace perifrac

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include "core/module/time_window.hpp"
+#include "modules/crack_fluid/crack_graph.hpp"
+#include "modules/crack_fluid/crack_liquid.hpp"
+#include "modules/crack_fluid/leak_off.hpp"
+
+namespace perifrac {
+
+/// How wide the facets are: value + rate (t - end) + slope p at time t under the fluid's pressures
+/// p, of all facets.
+struct CrackOpening {
+  std::span<const double> value;  ///< [m]
+  std::span<const double> rate;   ///< [m/s]
+  std::span<const double> slope;  ///< [m/Pa], count * count values, row by row
+  double end = 0.0;               ///< [s]
+};
+
+/// Fluid that comes in at a facet over a step: `least` to `most` [kg/m], within which it holds the
+/// pressure `target` [Pa]; above that it takes the least, below it the most.
+struct FacetInflow {
+  Index facet;
+  double least;
+  double most;
+  double target;
+};
+
+/// One step of the flow in a crack, backward Euler.
+struct LubricationStep {
+  TimeWindow time;
+  CrackOpening opening;
+  std::span<const double> mass;  ///< of the facets when it begins [kg/m]
+  std::span<const FacetInflow> inflows{};
+  const LeakOff* leak_off = nullptr;  ///< may be null
+};
+
+/// The mass balance of every facet at the unknowns v of crack_liquid.hpp:
+///   R_f = m_f(v) - m_f^n + dt sum_g J_fg + leak_f - inflow_f,
+///   m = rho(p) length max(w, residual) fill,   J_fg = rho(upstream) G_fg (p_f - p_g).
+/// Flow follows the cubic law w^3 / (12 mu) from centre to joint to centre, w the aperture at the
+/// joint: the mean of a facet and the widest other one that it meets there. Where k facets meet,
+/// the vertex between them is eliminated, G_fg = c_f c_g / sum c. A facet that is not full is
+/// under the least pressure there is, so that fluid leaves full facets alone, as it must.
+class Lubrication {
+ public:
+  Lubrication() = default;
+  Lubrication(const CrackLiquid& liquid, CrackGraph graph);
+
+  const CrackGraph& graph() const { return graph_; }
+
+  /// Evaluates all of the below.
+  void evaluate(const LubricationStep& step, const Eigen::VectorXd& v);
+
+  const Eigen::VectorXd& residual() const { return residual_; }    ///< [kg/m]
+  const Eigen::VectorXd& rounding() const { return rounding_; }    ///< of the residual, a bound
+  const Eigen::VectorXd& aperture() const { return aperture_; }    ///< [m]
+  const Eigen::VectorXd& raw_opening() const { return opening_; }  ///< may be below the residual
+  const Eigen::VectorXd& capacity() const { return capacity_; }    ///< rho_0 length aperture
+  const Eigen::VectorXd& leaked() const { return leaked_; }        ///< over the step [kg/m]
+  const Eigen::VectorXd& inflow() const { return inflow_; }        ///< by inlets [kg/m]
+  /// What flows and leaks out over the step, inlets apart [kg/m].
+  const Eigen::VectorXd& outflow() const { return outflow_; }
+  Eigen::MatrixXd jacobian(const LubricationStep& step, const Eigen::VectorXd& v) const;
+
+  /// Calls use(a, b, flux) for every pair of branches that meet, flux [kg/(m s)] from a to b.
+  template <class Use>
+  void for_each_flux(std::span<const double> pressure, std::span<const double> aperture,
+                     Use&& use) {
+    for (std::size_t k = 0; k < graph_.joint_count(); ++k) {
+      const auto joint = graph_.joint(k);
+      find_conductances(joint, aperture);
+      for (std::size_t a = 0; a < joint.size(); ++a) {
+        for (std::size_t b = a + 1; b < joint.size(); ++b) {
+          const double fall = pressure[joint[a].facet] - pressure[joint[b].facet];
+          const double upstream = pressure[joint[fall >= 0.0 ? a : b].facet];
+          use(joint[a], joint[b],
+              liquid_.density_at(upstream) * conductance_[a] * conductance_[b] / sum_ * fall);
+        }
+      }
+    }
+  }
+
+ private:
+  void find_conductances(std::span<const CrackGraph::Branch> joint,
+                         std::span<const double> aperture);
+  void store(const LubricationStep& step, const Eigen::VectorXd& v);
+  void flow(double dt);
+  void differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt);
+  void let_in(const LubricationStep& step, const Eigen::VectorXd& v);
+
+  CrackLiquid liquid_{};
+  CrackGraph graph_;
+
+  Eigen::VectorXd pressure_, opening_, aperture_, capacity_;
+  Eigen::VectorXd residual_, rounding_, outflow_, leaked_, inflow_;
+  Eigen::VectorXd by_fill_;                          ///< of the residual, diagonal
+  std::vector<Eigen::Triplet<double>> by_pressure_;  ///< at given apertures
+  std::vector<Eigen::Triplet<double>> by_aperture_;
+  std::vector<std::pair<Index, double>> held_;  ///< facets with row weight (v - target)
+
+  // Of the branches at the joint at hand.
+  std::vector<double> conductance_;  ///< c [m^2/(Pa s)]
+  std::vector<double> growth_;       ///< dc / d(aperture), own and partner's alike
+  std::vector<Index> partner_;       ///< facet whose aperture makes the mean with its own
+  double sum_ = 0.0;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,80 @@
+#include "modules/crack_fluid/lubrication_newton.hpp"
+
+#include <cmath>
+
+namespace perifrac {
+
+namespace {
+
+constexpr int most_iterations = 40;
+constexpr double tolerance = 1e-12;  ///< of what a facet holds when full
+constexpr double widening = 3.0;     ///< most that an aperture grows in an iteration
+constexpr double narrowing = 0.25;   ///< and shrinks
+
+/// The facet whose balance is farthest off, and whether even that is good enough.
+bool is_balanced(const Lubrication& lubrication, Index& worst) {
+  double largest = -1.0;
+  for (Index f = 0; f < lubrication.graph().facet_count(); ++f) {
+    const double allowed =
+        tolerance * lubrication.capacity()[f] + 1e-14 * lubrication.rounding()[f];
+    const double error = std::abs(lubrication.residual()[f]) / allowed;
+    if (error <= largest) continue;
+    largest = error;
+    worst = f;
+  }
+  return largest <= 1.0;
+}
+
+/// The part of the change `opening` of the openings that no aperture forbids.
+double part_allowed(const Lubrication& lubrication, const CrackLiquid& liquid,
+                    const Eigen::VectorXd& change) {
+  double part = 1.0;
+  for (Index f = 0; f < lubrication.graph().facet_count(); ++f) {
+    const double opening = lubrication.raw_opening()[f];
+    const double aperture = lubrication.aperture()[f];
+    const double highest = widening * aperture;
+    const double lowest = std::max(narrowing * aperture, liquid.residual_aperture);
+    const double goal = opening + change[f];
+    if (goal > highest) part = std::min(part, (highest - opening) / change[f]);
+    if (goal < lowest && opening > lowest) {
+      part = std::min(part, (lowest - opening) / change[f]);
+    }
+  }
+  return part;
+}
+
+/// v after its change, stopped at the edge between full and not, and where a facet is empty.
+double moved(const CrackLiquid& liquid, double v, double change) {
+  const double goal = v + change;
+  const double edge = liquid.vapour_pressure;
+  if (liquid.is_full(v) && !liquid.is_full(goal)) return edge - 1e-13 * liquid.bulk_modulus;
+  if (!liquid.is_full(v) && liquid.is_full(goal)) return edge;
+  return std::max(goal, liquid.empty());
+}
+
+}  // namespace
+
+NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const LubricationStep& step,
+                   Eigen::VectorXd& v) {
+  NewtonReport report;
+  const Index count = lubrication.graph().facet_count();
+  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(
+      step.opening.slope.data(), count, count);
+  Eigen::VectorXd pressure_change(count);
+  for (; report.iterations < most_iterations; ++report.iterations) {
+    lubrication.evaluate(step, v);
+    report.converged = is_balanced(lubrication, report.worst);
+    if (report.converged) break;
+    const Eigen::VectorXd change =
+        lubrication.jacobian(step, v).partialPivLu().solve(-lubrication.residual());
+    if (!change.allFinite()) break;
+    for (Index f = 0; f < count; ++f) {
+      pressure_change[f] = liquid.is_full(v[f]) ? change[f] : 0.0;
+    }
+    const double part = part_allowed(lubrication, liquid, slope * pressure_change);
+    for (Index f = 0; f < count; ++f) v[f] = moved(liquid, v[f], part * change[f]);
+  }
+  return report;
+}
+
+}  // namespace perifrac

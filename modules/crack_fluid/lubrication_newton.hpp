@@ -1,0 +1,21 @@
+#pragma once
+
+#include "modules/crack_fluid/lubrication.hpp"
+
+namespace perifrac {
+
+/// What a solve came to.
+struct NewtonReport {
+  bool converged = false;
+  int iterations = 0;
+  Index worst = 0;  ///< the facet whose balance is farthest off
+};
+
+/// Semi-smooth Newton for one step of lubrication, exact in the openings' answer to pressure. A
+/// facet that would fill or drain in an iteration is put to the edge between the two, and an
+/// iteration changes no aperture more than a few times, for the cubic law forgives nothing.
+/// Begins and ends with `v`.
+NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const LubricationStep& step,
+                   Eigen::VectorXd& v);
+
+}  // namespace perifrac

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "modules/crack_fluid/crack_network.hpp"
+#include "tests/unit/operators/test_bodies.hpp"
+
+namespace perifrac::test {
+
+/// Corners of a straight line of equal facets.
+inline std::vector<Vector<2>> straight_line(const Vector<2>& from, double angle, double facet,
+                                            int facets) {
+  std::vector<Vector<2>> corners;
+  for (int k = 0; k <= facets; ++k) {
+    corners.push_back(
+        {from[0] + k * facet * std::cos(angle), from[1] + k * facet * std::sin(angle)});
+  }
+  return corners;
+}
+
+inline CrackInlet rate_inlet(const Vector<2>& at, double rate, Schedule schedule = {}) {
+  return {"pump", at, false, rate, std::move(schedule)};
+}
+inline CrackInlet pressure_inlet(const std::string& name, const Vector<2>& at, double pressure) {
+  return {name, at, true, pressure, {}};
+}
+
+/// Fluid in a crack whose facets are given and whose opening is value + slope p.
+class CrackRun {
+ public:
+  CrackRun(const CrackLiquid& liquid, std::vector<CrackInlet> inlets,
+           std::vector<CrackFilling> fillings = {}, std::unique_ptr<LeakOff> leak_off = nullptr)
+      : body_(box_body<2>({3, 3}, 1.0)),
+        bonds_(body_->claim_bond_state()),
+        module_(std::make_unique<CrackNetwork>(body_, liquid,
+                                               CrackInlets(std::move(inlets), liquid),
+                                               std::move(fillings), std::move(leak_off))) {
+    module_->initialize(0.0);
+  }
+
+  void add_line(const std::vector<Vector<2>>& corners) {
+    for (std::size_t k = 1; k < corners.size(); ++k) {
+      bonds_.add_facet({corners[k - 1], corners[k]}, {});
+    }
+  }
+
+  CrackNetwork& module() { return *module_; }
+  PortView port(const std::string& name) {
+    const auto ports = module_->ports();
+    const auto found = std::ranges::find(ports, name, &Port::name);
+    return module_->port(static_cast<PortId>(found - ports.begin()));
+  }
+  std::vector<double> values(const std::string& name) {
+    const auto value = port(name).value;
+    return {value.begin(), value.end()};
+  }
+  double scalar(const std::string& name) { return port(name).value[0]; }
+
+  /// The same at all facets; every facet answers to its own pressure.
+  void open(double value, double compliance = 0.0) {
+    const PortView view = port("crack_opening");
+    const std::size_t count = view.value.size();
+    std::ranges::fill(view.value, value);
+    for (std::size_t f = 0; f < count; ++f) view.slope[f * count + f] = compliance;
+  }
+
+  void advance(double length) {
+    module_->advance({time_, time_ + length});
+    time_ += length;
+  }
+  void advance(double length, int windows) {
+    const double begin = time_;
+    for (int k = 1; k <= windows; ++k) {
+      const double end = begin + length * k / windows;
+      module_->advance({time_, end});
+      time_ = end;
+    }
+  }
+  double time() const { return time_; }
+
+  /// Fluid that is there beyond what came in, over what is there.
+  double mass_error() {
+    double gained = scalar("injected_crack_fluid_mass");
+    for (const Port& port : module_->ports()) {
+      if (port.name == "leaked_crack_fluid_mass") gained += scalar(port.name);
+    }
+    const double stored = scalar("crack_fluid_stored_mass");
+    return std::abs(stored - gained) / std::max(std::abs(stored), std::abs(gained));
+  }
+
+ private:
+  std::shared_ptr<const Body<2>> body_;
+  BondState<2>& bonds_;
+  std::unique_ptr<CrackNetwork> module_;
+  double time_ = 0.0;
+};
+
+constexpr CrackLiquid water{.density = 1000.0,
+                            .viscosity = 1e-3,
+                            .bulk_modulus = 2.2e9,
+                            .vapour_pressure = 0.0,
+                            .residual_aperture = 1e-9};
+
+}  // namespace perifrac::test

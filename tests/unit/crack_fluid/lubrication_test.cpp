@@ -1,0 +1,135 @@
+#include "modules/crack_fluid/lubrication.hpp"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "modules/crack_fluid/carter_leak_off.hpp"
+#include "tests/unit/crack_fluid/crack_run.hpp"
+
+namespace perifrac {
+namespace {
+
+using namespace test;
+
+std::vector<CrackFacet<2>> facets_of(const std::vector<Vector<2>>& corners) {
+  std::vector<CrackFacet<2>> facets;
+  for (std::size_t k = 1; k < corners.size(); ++k) facets.push_back({corners[k - 1], corners[k]});
+  return facets;
+}
+
+/// A line of ten facets with a branch of five from its middle.
+CrackGraph fork() {
+  const auto line = straight_line({0.0, 0.0}, 0.3, 1e-3, 10);
+  auto facets = facets_of(line);
+  for (const auto& facet : facets_of(straight_line(line[5], 1.4, 0.7e-3, 5))) {
+    facets.push_back(facet);
+  }
+  return CrackGraph(facets);
+}
+
+TEST(CrackGraph, JoinsFacetsWhereTheyShareAPoint) {
+  const CrackGraph graph = fork();
+  ASSERT_EQ(graph.facet_count(), 15);
+  EXPECT_NEAR(graph.length(3), 1e-3, 1e-15);
+  EXPECT_NEAR(graph.length(12), 0.7e-3, 1e-15);
+  ASSERT_EQ(graph.joint_count(), 13u);  // 9 on the line, of which one with the branch, and 4
+  int junctions = 0;
+  for (std::size_t k = 0; k < graph.joint_count(); ++k) {
+    const auto joint = graph.joint(k);
+    if (joint.size() == 2) continue;
+    ++junctions;
+    ASSERT_EQ(joint.size(), 3u);
+    EXPECT_EQ(joint[0].facet, 4);
+    EXPECT_EQ(joint[0].end, 1);
+    EXPECT_EQ(joint[1].facet, 5);
+    EXPECT_EQ(joint[1].end, 0);
+    EXPECT_EQ(joint[2].facet, 10);
+    EXPECT_EQ(joint[2].end, 0);
+  }
+  EXPECT_EQ(junctions, 1);
+}
+
+/// A step with all there is: facets full, partly full and closed, a dense slope, inlets of all
+/// kinds, leak-off.
+struct AnyStep {
+  CrackLiquid liquid{.density = 1000.0,
+                     .viscosity = 1e-3,
+                     .bulk_modulus = 22e6,
+                     .vapour_pressure = -2e4,
+                     .residual_aperture = 1e-5};
+  Lubrication lubrication{liquid, fork()};
+  std::vector<double> value, rate, slope, mass;
+  std::vector<FacetInflow> inflows{
+      {0, -INFINITY, INFINITY, 3e5}, {8, 2e-4, 2e-4, 0.0}, {12, -3e-4, 0.0, -2e4}};
+  CarterLeakOff leak_off{1e-4, 1000.0};
+  Eigen::VectorXd v{15};
+
+  AnyStep() {
+    std::mt19937 bits(3);
+    std::uniform_real_distribution<double> random(0.0, 1.0);
+    for (int f = 0; f < 15; ++f) {
+      value.push_back(f % 5 == 4 ? -1e-3 : 2e-5 + 3e-5 * random(bits));
+      rate.push_back(1e-4 * random(bits));
+      mass.push_back(3e-5 * random(bits));
+      v[f] = f % 4 == 3 ? -2e4 - 10e6 * random(bits) : 4e5 * random(bits);
+      for (int g = 0; g < 15; ++g) slope.push_back(1e-11 * random(bits));
+    }
+    leak_off.match(lubrication.graph());
+    leak_off.begin({0.1, 0.12});
+  }
+  LubricationStep step(double end = 0.12) const {
+    return {.time = {0.1, end},
+            .opening = {value, rate, slope, 0.13},
+            .mass = mass,
+            .inflows = inflows,
+            .leak_off = &leak_off};
+  }
+};
+
+TEST(Lubrication, JacobianIsTheDerivativeOfTheResidual) {
+  AnyStep any;
+  any.lubrication.evaluate(any.step(), any.v);
+  const Eigen::MatrixXd jacobian = any.lubrication.jacobian(any.step(), any.v);
+  for (int g = 0; g < 15; ++g) {
+    const double h = 1000.0;
+    Eigen::VectorXd near = any.v;
+    near[g] += h;
+    any.lubrication.evaluate(any.step(), near);
+    Eigen::VectorXd difference = any.lubrication.residual();
+    near[g] -= 2.0 * h;
+    any.lubrication.evaluate(any.step(), near);
+    difference -= any.lubrication.residual();
+    difference /= 2.0 * h;
+    EXPECT_LT((difference - jacobian.col(g)).norm(), 1e-6 * jacobian.col(g).norm()) << g;
+  }
+}
+
+TEST(Lubrication, WhatLeavesOneFacetEntersOthers) {
+  AnyStep any;
+  any.lubrication.evaluate(any.step(), any.v);
+  EXPECT_GT(any.lubrication.outflow().cwiseAbs().sum(), 0.0);
+  EXPECT_LT(std::abs(any.lubrication.outflow().sum()),
+            1e-15 * any.lubrication.outflow().cwiseAbs().sum());
+}
+
+TEST(Lubrication, OnlyFullFacetsGive) {
+  AnyStep any;
+  any.lubrication.evaluate(any.step(), any.v);
+  for (int f = 0; f < 15; ++f) {
+    if (any.liquid.is_full(any.v[f])) continue;
+    EXPECT_LE(any.lubrication.outflow()[f], 0.0) << f;
+  }
+}
+
+TEST(Lubrication, NothingFlowsInAStepOfNoLength) {
+  AnyStep any;
+  any.leak_off.begin({0.1, 0.1});
+  any.inflows.clear();
+  any.lubrication.evaluate(any.step(0.1), any.v);
+  EXPECT_EQ(any.lubrication.outflow().cwiseAbs().sum(), 0.0);
+  EXPECT_EQ(any.lubrication.leaked().cwiseAbs().sum(), 0.0);
+}
+
+}  // namespace
+}  // namespace perifrac
