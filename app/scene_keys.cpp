@@ -2,15 +2,17 @@
 
 #include "app/references/reference_types.hpp"
 #include "app/register_modules.hpp"
+#include "core/geometry/crack_seeds.hpp"
 #include "coupling/coupling_keys.hpp"
 #include "modules/fluid/fluid_type.hpp"
+#include "modules/solid/damage_keys.hpp"
 
 namespace perifrac {
 
 namespace {
 
 KeyTable top_level_keys() {
-  return {
+  KeyTable keys = {
       {.path = "title", .type = KeyType::text, .meaning = "Name for reports."},
       {.path = "dimension",
        .type = KeyType::integer,
@@ -22,6 +24,9 @@ KeyTable top_level_keys() {
        .unit = "m/s^2",
        .meaning = "Acceleration of gravity, for all physics; none where left out."},
   };
+  const KeyTable seeds = crack_seed_keys();
+  keys.insert(keys.end(), seeds.begin(), seeds.end());
+  return keys;
 }
 
 KeyTable time_keys() {
@@ -90,6 +95,9 @@ KeyTable reference_keys() {
 constexpr const char* body_meaning =
     "The porous rock that solid and pore flow share. A scene without them needs none.";
 
+constexpr const char* damage_meaning =
+    "How bonds break and cracks grow. A scene without it may have cracks, but none grows.";
+
 constexpr const char* interface_meaning =
     "What free fluid and a body do to each other. Needed where a scene has both.";
 
@@ -104,6 +112,7 @@ const Catalogue& scene_catalogue() {
                      {"coupling", "", coupling_keys()},
                      {"ledger", "", ledger_keys()},
                      {"reference", "", reference_keys()},
+                     {"damage", "", damage_keys(), damage_meaning, true},
                      {"interface", "", interface_keys(), interface_meaning, true}};
     for (const ModuleType& type : module_types()) {
       all.push_back({type.section, type.name, type.keys, type.meaning});

@@ -17,7 +17,12 @@ bool takes_slope(const Link& link) {
   return !link.target().module->port(link.target().port).slope.empty();
 }
 
+bool is_property(const Link& link) {
+  return link.source().module->ports()[link.source().port].role == PortRole::property;
+}
+
 bool are_opposite(const Link& a, const Link& b) {
+  if (is_property(a) || is_property(b)) return false;
   return a.source().module == b.target().module && a.target().module == b.source().module;
 }
 

@@ -17,6 +17,14 @@ double norm(std::span<const double> values) {
   return std::sqrt(sum);
 }
 
+/// slope x, where slope has one value a point or is a matrix (PortView).
+double slope_times(const std::vector<double>& slope, const std::vector<double>& x, std::size_t i) {
+  if (slope.size() == x.size()) return slope[i] * x[i];
+  double sum = 0.0;
+  for (std::size_t j = 0; j < x.size(); ++j) sum += slope[i * x.size() + j] * x[j];
+  return sum;
+}
+
 }  // namespace
 
 double Link::Mismatch::relative() const {
@@ -44,7 +52,14 @@ void Link::start() {
 
 void Link::predict(double length) {
   // The source stands where the last window left it, though its points may have a new version.
-  accepted_.points = freeze(*source_.module->port(source_.port).points, accepted_.points);
+  const PortView out = source_.module->port(source_.port);
+  if (out.value.size() == accepted_.output.size()) {
+    accepted_.points = freeze(*out.points, accepted_.points);
+  } else {  // points came or went at the window's end
+    read_source(accepted_);
+    accepted_.output_rate.assign(accepted_.output.size(), 0.0);
+    accepted_.counter_rate.assign(accepted_.counter.size(), 0.0);
+  }
   read_slope();
   form_value(accepted_);
   if (kind_ == PortKind::extensive) {
@@ -68,7 +83,10 @@ void Link::deliver() {
   mapping_.update(sent_points_->set(), *input.points);
   mapping_.apply(value_, input.value);
   if (!input.rate.empty()) mapping_.apply(rate_, input.rate);
-  if (uses_slope()) {
+  if (uses_slope() && slope_.size() != value_.size()) {
+    if (!mapping_.is_identity()) throw std::logic_error(path() + ": a slope between other points");
+    std::ranges::copy(slope_, input.slope.begin());
+  } else if (uses_slope()) {
     mapping_.apply(slope_, input.slope);
   } else {
     std::fill(input.slope.begin(), input.slope.end(), 0.0);
@@ -157,8 +175,8 @@ void Link::form_value(const Sample& sample) {
   value_ = sample.output;
   rate_ = sample.output_rate;
   for (std::size_t i = 0; i < sample.counter.size(); ++i) {
-    value_[i] -= slope_[i] * sample.counter[i];
-    rate_[i] -= slope_[i] * sample.counter_rate[i];
+    value_[i] -= slope_times(slope_, sample.counter, i);
+    rate_[i] -= slope_times(slope_, sample.counter_rate, i);
   }
 }
 
@@ -168,7 +186,9 @@ void Link::compare() {
   mismatch_.absolute = norm(difference);
   mismatch_.scale = norm(reached_.output);
   if (!uses_slope()) return;
-  for (std::size_t i = 0; i < value_.size(); ++i) difference[i] = slope_[i] * reached_.counter[i];
+  for (std::size_t i = 0; i < value_.size(); ++i) {
+    difference[i] = slope_times(slope_, reached_.counter, i);
+  }
   mismatch_.scale = std::max(mismatch_.scale, norm(difference));
 }
 

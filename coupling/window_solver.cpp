@@ -48,19 +48,27 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
 
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
-  double reached = iterate(tried, iterations);
+  double reached = conclude(tried, iterate(tried, iterations));
   for (int redone = 0; reached < tried.end && !alone; ++redone) {
     if (redone == most_redos)
       fail(reached, redone, "finds an earlier event each time the window is redone");
     go_back(tried.begin);
     tried.end = reached;
-    reached = iterate(tried, iterations);
+    reached = conclude(tried, iterate(tried, iterations));
   }
   if (reached < window.end) ++work_.events;
   for (Link& link : links_) link.accept();
   if (iterations.max == 1) watch(reached - window.begin);
   work_.most_passes = std::max(work_.most_passes, work_.passes - passes_before);
   ++work_.windows;
+  return reached;
+}
+
+double WindowSolver::conclude(const TimeWindow& window, double reached) {
+  for (ModuleSlot& slot : modules_) {
+    if (reached < window.end) return reached;
+    reached = slot.module->conclude(window);
+  }
   return reached;
 }
 

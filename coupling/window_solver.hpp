@@ -54,6 +54,8 @@ class WindowSolver {
  private:
   /// Repeats passes until all lagged links agree; less than window.end after an event.
   double iterate(const TimeWindow& window, const Iterations& iterations);
+  /// Asks all modules whether the window stands; less than window.end where one cuts it.
+  double conclude(const TimeWindow& window, double reached);
   /// Every module once; stops at the first that ends early.
   double pass(const TimeWindow& window);
   double advance(ModuleSlot& slot, const TimeWindow& window);

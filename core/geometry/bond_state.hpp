@@ -32,6 +32,10 @@ inline constexpr Index no_facet = -1;
 template <int D>
 class BondState {
  public:
+  BondState() = default;
+  /// Nothing broken, at a version of its own.
+  explicit BondState(std::uint64_t version) : version_(version) {}
+
   /// The facets with their centres as points; its version changes with their number.
   const PointSet& facet_points() const { return facet_points_; }
   std::span<const CrackFacet<D>> facets() const { return facets_; }

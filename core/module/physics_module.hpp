@@ -34,6 +34,12 @@ class PhysicsModule {
   /// Throws NumericalError.
   virtual double advance(const TimeWindow& window) = 0;
 
+  /// All modules agree at the window's end. Where something happened within it that changes what
+  /// follows, and the module wants the window to end there: returns that time [s], and the manager
+  /// takes every module back and redoes the window up to it. Otherwise the window stands: does what
+  /// its end brings about (bonds break) and returns window.end. A module alone may not cut.
+  virtual double conclude(const TimeWindow& window) { return window.end; }
+
   /// Shows every evolving field once; a visitor that restores may resize.
   virtual void visit_state(StateVisitor& visitor) = 0;
 

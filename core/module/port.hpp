@@ -17,7 +17,7 @@ enum class PortKind { intensive, extensive };
 /// fields, the ledger adds up masses and energies, the summary lists work; nobody shows properties.
 enum class PortRole {
   field,              ///< a quantity on points
-  property,           ///< a quantity on points that never changes, for links only
+  property,           ///< a quantity on points for links only, to which no slope refers
   mass_stored,        ///< fluid mass held now [kg], one value
   mass_reference,     ///< what mass_stored is counted from, where that is not 0 [kg]; never shown
   mass_gained,        ///< fluid mass taken in through boundaries and sources since the start [kg]

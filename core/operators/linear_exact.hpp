@@ -13,6 +13,7 @@
 #include "core/operators/law_by_region.hpp"
 #include "core/operators/mirror_condition.hpp"
 #include "core/operators/nonlocal_gradient.hpp"
+#include "core/operators/point_stiffness.hpp"
 #include "core/operators/shape_tensor.hpp"
 #include "core/operators/small_tensor.hpp"
 
@@ -68,6 +69,61 @@ class LinearExactOperator {
     find_bond_stiffness();
     if (matrix_) matrix_.emplace(assemble());
   }
+  /// Bonds of these points broke: their weights are 0 in the family now. A thin family (is_thin())
+  /// has neither gradient nor stiffness here.
+  void update(std::span<const Index> points) {
+    if (matrix_) throw std::logic_error("bonds break beside curved ghosts");
+    for (const Index i : points) {
+      set_moments(*family_, i, moments_);
+      bond_stiffness_[i] = law_at(law_, i).stabilisation() / moments_.weighted_volume[i];
+    }
+    for (Index g = 0; g < family_->ghost_count(); ++g) {
+      bond_stiffness_[family_->point_count + g] = bond_stiffness_[family_->ghost_source[g]];
+    }
+  }
+
+  /// The second derivative of the energy of point i alone.
+  PointStiffness point_stiffness(Index i) const {
+    const Index first = family_->offset[i];
+    const Index bonds = family_->offset[i + 1] - first;
+    Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(D, bonds + 1);  // the point itself is last
+    Eigen::MatrixXd bond = Eigen::MatrixXd::Zero(bonds + 1, bonds + 1);
+    for (Index b = 0; b < bonds; ++b) {
+      const double w = family_->weight[first + b];
+      for (int a = 0; a < D; ++a) {
+        for (int c = 0; c < D; ++c) {
+          gradient(a, b) +=
+              w * moments_.inverse_shape[a * D + c][i] *
+              (family_->position[c][family_->other[first + b]] - family_->position[c][i]);
+        }
+      }
+      gradient.col(bonds) -= gradient.col(b);
+      bond(b, b) += w;
+      bond(bonds, bonds) += w;
+      bond(b, bonds) -= w;
+      bond(bonds, b) -= w;
+    }
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(R * (bonds + 1), R * (bonds + 1));
+    const auto shape = shape_tensor_at(*family_, i);
+    for (int column = 0; column < R * D; ++column) {
+      Tensor<R, D> unit{};
+      unit[column] = 1.0;
+      Tensor<R, D> stress = law_at(law_, i).stress(unit);
+      for (int b = 0; b < D; ++b) {
+        stress[column / D * D + b] -= bond_stiffness_[i] * shape[(column % D) * D + b];
+      }
+      for (int row = 0; row < R * D; ++row) {
+        matrix.block(row / D * (bonds + 1), column / D * (bonds + 1), bonds + 1, bonds + 1) +=
+            stress[row] * gradient.row(row % D).transpose() * gradient.row(column % D);
+      }
+    }
+    for (int r = 0; r < R; ++r) {
+      matrix.block(r * (bonds + 1), r * (bonds + 1), bonds + 1, bonds + 1) +=
+          bond_stiffness_[i] * bond;
+    }
+    return on_unknowns(*family_, mirror_, i, family_->volume[i] * matrix);
+  }
+
   double weighted_volume(Index i) const { return moments_.weighted_volume[i]; }
   Index point_unknowns() const { return R * family_->point_count; }
   Index size() const { return point_unknowns() + mirror_.face_value_count(); }

@@ -17,6 +17,8 @@ namespace {
 // carries no accuracy: the bonds lie in a line or a plane.
 constexpr double flat_family = 1e-6;
 
+constexpr double thin_family = 0.05;
+
 template <int D>
 [[noreturn]] void refuse_flat_family(const Family<D>& family, Index i) {
   Vector<D> x;
@@ -60,11 +62,35 @@ FamilyMoments<D> family_moments(const Family<D>& family) {
   return moments;
 }
 
+template <int D>
+bool is_thin(const Family<D>& family, Index i) {
+  using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
+  const auto sum = shape_tensor_at(family, i);
+  const Matrix shape = Eigen::Map<const Matrix>(sum.data());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spectrum(shape);
+  return !(spectrum.eigenvalues()[0] > thin_family * spectrum.eigenvalues()[D - 1]);
+}
+
+template <int D>
+void set_moments(const Family<D>& family, Index i, FamilyMoments<D>& moments) {
+  using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
+  const bool thin = is_thin(family, i);
+  const auto sum = shape_tensor_at(family, i);
+  const Matrix shape = Eigen::Map<const Matrix>(sum.data());
+  const Matrix inverse = thin ? Matrix::Zero() : Matrix(shape.inverse());
+  for (int k = 0; k < D * D; ++k) moments.inverse_shape[k][i] = inverse(k / D, k % D);
+  moments.weighted_volume[i] = thin ? std::numeric_limits<double>::infinity() : shape.trace();
+}
+
 template struct FamilyMoments<2>;
 template struct FamilyMoments<3>;
 template std::array<double, 4> shape_tensor_at<2>(const Family<2>&, Index);
 template std::array<double, 9> shape_tensor_at<3>(const Family<3>&, Index);
 template FamilyMoments<2> family_moments<2>(const Family<2>&);
 template FamilyMoments<3> family_moments<3>(const Family<3>&);
+template void set_moments<2>(const Family<2>&, Index, FamilyMoments<2>&);
+template void set_moments<3>(const Family<3>&, Index, FamilyMoments<3>&);
+template bool is_thin<2>(const Family<2>&, Index);
+template bool is_thin<3>(const Family<3>&, Index);
 
 }  // namespace perifrac

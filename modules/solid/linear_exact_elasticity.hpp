@@ -2,15 +2,17 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/operators/linear_exact.hpp"
-#include "modules/solid/elastic_operator.hpp"
+#include "modules/solid/bond_energy.hpp"
+#include "modules/solid/breakable_elasticity.hpp"
 
 namespace perifrac {
 
 /// `material.type: linear_exact`: the linear-exact operator with a law of elasticity.
 template <int D, class Law>
-class LinearExactElasticity final : public ElasticOperator<D> {
+class LinearExactElasticity final : public BreakableElasticity<D> {
  public:
   /// `initial_stress`: normal stresses of the body at rest, tension positive [Pa].
   explicit LinearExactElasticity(LinearExactOperator<D, Law> op,
@@ -43,7 +45,22 @@ class LinearExactElasticity final : public ElasticOperator<D> {
     });
   }
 
-  Eigen::SparseMatrix<double> assemble() const override { return operator_.assemble(); }
+  Eigen::SparseMatrix<double> assemble() const override {
+    Eigen::SparseMatrix<double> matrix = operator_.assemble();
+    for (const ThinPoint& thin : thin_points_) {
+      std::vector<Eigen::Triplet<double>> triplets;
+      for (std::size_t row = 0; row < thin.stiffness.unknowns.size(); ++row) {
+        for (std::size_t column = 0; column < thin.stiffness.unknowns.size(); ++column) {
+          triplets.emplace_back(thin.stiffness.unknowns[row], thin.stiffness.unknowns[column],
+                                thin.stiffness.matrix(row, column));
+        }
+      }
+      Eigen::SparseMatrix<double> own(matrix.rows(), matrix.cols());
+      own.setFromTriplets(triplets.begin(), triplets.end());
+      matrix += own;
+    }
+    return matrix;
+  }
 
   Eigen::SparseMatrix<double> dilatation_matrix() const override {
     const Index points = operator_.family().point_count;
@@ -59,11 +76,39 @@ class LinearExactElasticity final : public ElasticOperator<D> {
     return operator_.gradient_matrix();
   }
 
-  double drained_bulk_modulus(Index i) const override {
-    return law_at(operator_.law(), i).drained_bulk_modulus();
+  double drained_bulk_modulus(Index i) const override { return law(i).drained_bulk_modulus(); }
+
+  const IsotropicElasticity<D>& law(Index i) const override { return law_at(operator_.law(), i); }
+
+  void gradient(std::span<const double> u, std::span<double> gradient) override {
+    operator_.gradient(u, gradient);
+  }
+
+  PointStiffness point_stiffness(Index i) const override {
+    for (const ThinPoint& thin : thin_points_) {
+      if (thin.point == i) return thin.stiffness;
+    }
+    return operator_.point_stiffness(i);
+  }
+
+  void update(std::span<const Index> points) override {
+    operator_.update(points);
+    for (const Index i : points) {
+      std::erase_if(thin_points_, [&](const ThinPoint& thin) { return thin.point == i; });
+      if (!is_thin(operator_.family(), i)) continue;
+      thin_points_.push_back(
+          {i, bond_energy_stiffness(operator_.family(), operator_.mirror(), law(i), i)});
+    }
   }
 
  private:
+  /// A point whose family does not span space any more: its bonds have the energy of the linear
+  /// peridynamic solid instead, which needs no gradient.
+  struct ThinPoint {
+    Index point;
+    PointStiffness stiffness;
+  };
+
   void add_initial(Tensor<D, D>& stress) const {
     for (int a = 0; a < D; ++a) stress[a * D + a] += (*initial_stress_)[a];
   }
@@ -79,10 +124,22 @@ class LinearExactElasticity final : public ElasticOperator<D> {
       for (int a = 0; a < D; ++a) stress[a * D + a] -= pressure;
       add_initial(stress);
     });
+    for (const ThinPoint& thin : thin_points_) add_force(thin.stiffness, u, force);
+  }
+
+  static void add_force(const PointStiffness& stiffness, std::span<const double> u,
+                        std::span<double> force) {
+    for (std::size_t row = 0; row < stiffness.unknowns.size(); ++row) {
+      for (std::size_t column = 0; column < stiffness.unknowns.size(); ++column) {
+        force[stiffness.unknowns[row]] +=
+            stiffness.matrix(row, column) * u[stiffness.unknowns[column]];
+      }
+    }
   }
 
   LinearExactOperator<D, Law> operator_;
   std::optional<Vector<D>> initial_stress_;
+  std::vector<ThinPoint> thin_points_;
 };
 
 }  // namespace perifrac

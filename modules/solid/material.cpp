@@ -67,7 +67,21 @@ void misprint(const Section& section, LawByRegion<IsotropicElasticity<D>>& laws)
   }
 }
 
-/// Tension positive.
+template <int D>
+std::unique_ptr<BreakableElasticity<D>> make_linear_exact(std::shared_ptr<const Family<D>> family,
+                                                          const MirrorCondition<D, D>& mirror,
+                                                          LawByRegion<IsotropicElasticity<D>> law,
+                                                          std::optional<Vector<D>> initial_stress) {
+  const auto make = [&](auto law) -> std::unique_ptr<BreakableElasticity<D>> {
+    using Law = decltype(law);
+    return std::make_unique<LinearExactElasticity<D, Law>>(
+        LinearExactOperator<D, Law>(family, mirror, std::move(law)), initial_stress);
+  };
+  return law.laws.size() == 1 ? make(law.laws.front()) : make(std::move(law));
+}
+
+}  // namespace
+
 template <int D>
 std::optional<Vector<D>> read_initial_stress(const Section& section) {
   if (!section.has("confining_stress")) return {};
@@ -75,8 +89,6 @@ std::optional<Vector<D>> read_initial_stress(const Section& section) {
   std::ranges::transform(section.numbers("confining_stress"), stress.begin(), std::negate());
   return stress;
 }
-
-}  // namespace
 
 template <int D>
 std::unique_ptr<ElasticOperator<D>> read_material(const Section& section, const Body<D>& body,
@@ -92,14 +104,25 @@ std::unique_ptr<ElasticOperator<D>> read_material(const Section& section, const 
     return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law), initial_stress,
                                               printed ? -1.0 : 1.0);
   }
-  const auto linear_exact = [&](auto law) -> std::unique_ptr<ElasticOperator<D>> {
-    using Law = decltype(law);
-    return std::make_unique<LinearExactElasticity<D, Law>>(
-        LinearExactOperator<D, Law>(family, mirror, std::move(law)), initial_stress);
-  };
-  return law.laws.size() == 1 ? linear_exact(law.laws.front()) : linear_exact(std::move(law));
+  return make_linear_exact<D>(family, mirror, std::move(law), initial_stress);
 }
 
+template <int D>
+std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
+    const Section& section, const Body<D>& body, std::shared_ptr<const Family<D>> family,
+    const MirrorCondition<D, D>& mirror) {
+  if (section.word("material.type") != "linear_exact") {
+    section.fail("material.type", "damage of another material", "linear_exact beside 'damage'");
+  }
+  return make_linear_exact<D>(std::move(family), mirror, read_laws<D>(section, body), {});
+}
+
+template std::optional<Vector<2>> read_initial_stress<2>(const Section&);
+template std::optional<Vector<3>> read_initial_stress<3>(const Section&);
+template std::unique_ptr<BreakableElasticity<2>> read_breakable_material<2>(
+    const Section&, const Body<2>&, std::shared_ptr<const Family<2>>, const MirrorCondition<2, 2>&);
+template std::unique_ptr<BreakableElasticity<3>> read_breakable_material<3>(
+    const Section&, const Body<3>&, std::shared_ptr<const Family<3>>, const MirrorCondition<3, 3>&);
 template std::unique_ptr<ElasticOperator<2>> read_material<2>(const Section&, const Body<2>&,
                                                               const SolidBoundary<2>&);
 template std::unique_ptr<ElasticOperator<3>> read_material<3>(const Section&, const Body<3>&,

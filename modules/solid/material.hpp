@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/geometry/body.hpp"
+#include "modules/solid/breakable_elasticity.hpp"
 #include "modules/solid/elastic_operator.hpp"
 #include "modules/solid/solid_boundary.hpp"
 
@@ -18,5 +20,16 @@ KeyTable material_keys();
 template <int D>
 std::unique_ptr<ElasticOperator<D>> read_material(const Section& section, const Body<D>& body,
                                                   const SolidBoundary<D>& boundary);
+
+/// The same on a family of its own, whose bonds may break, and without the initial stress; throws
+/// InputError for a material that cannot break.
+template <int D>
+std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
+    const Section& section, const Body<D>& body, std::shared_ptr<const Family<D>> family,
+    const MirrorCondition<D, D>& mirror);
+
+/// Normal stresses of the body at rest, tension positive [Pa]; nothing where the scene has none.
+template <int D>
+std::optional<Vector<D>> read_initial_stress(const Section& section);
 
 }  // namespace perifrac

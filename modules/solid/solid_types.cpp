@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "core/geometry/crack_seeds.hpp"
+#include "modules/solid/damage_keys.hpp"
 #include "modules/solid/dynamic_solid.hpp"
+#include "modules/solid/fracturing_solid.hpp"
 #include "modules/solid/material.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
 #include "modules/solid/rigid_solid.hpp"
@@ -12,9 +15,41 @@ namespace perifrac {
 
 namespace {
 
+bool has_cracks(const Section& section) {
+  return section.scene().has("damage") || section.scene().count("cracks") > 0;
+}
+
+std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
+                                               std::shared_ptr<const Body<2>> body) {
+  const Section scene = section.scene();
+  const std::vector<CrackFacet<2>> seeds = read_crack_seeds(scene, body->spacing());
+  if (seeds.empty()) {
+    scene.fail("damage", "no crack to grow", "a list 'cracks' with one crack or more");
+  }
+  const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
+  auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
+  auto elastic =
+      read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
+  auto solid = std::make_unique<FracturingSolid>(
+      body, family, std::move(elastic), boundary, read_initial_stress<2>(section), seeds,
+      FracturingSolid::Material{read_fracture_energy(scene)});
+  if (const std::string motion = solid->free_motion(); !motion.empty()) {
+    section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
+                 "faces of type roller, fixed or rigid_plate that hold every motion");
+  }
+  return solid;
+}
+
+std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
+                                               std::shared_ptr<const Body<3>>) {
+  section.scene().fail(section.scene().has("damage") ? "damage" : "cracks", "cracks in 3D",
+                       "dimension: 2");
+}
+
 template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
+  if (has_cracks(section)) return make_fracturing(section, body);
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
   auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary);
@@ -28,6 +63,9 @@ std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
 template <int D>
 std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
+  if (has_cracks(section)) {
+    section.fail("type", "cracks in a dynamic solid", "quasi_static beside cracks and damage");
+  }
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
   return std::make_unique<DynamicSolid<D>>(body, std::move(elastic), boundary,

@@ -1,0 +1,85 @@
+#include "core/solvers/condensed_inverse.hpp"
+
+#include <Eigen/Dense>
+
+namespace perifrac {
+
+CondensedInverse::CondensedInverse(const SparseCholesky& factor, Eigen::Index size)
+    : factor_(factor), place_(size, -1) {}
+
+void CondensedInverse::add(std::span<const int> unknowns) {
+  const Eigen::Index before = block_.rows();
+  for (const int unknown : unknowns) {
+    if (place_[unknown] >= 0) continue;
+    place_[unknown] = static_cast<int>(unknowns_.size());
+    unknowns_.push_back(unknown);
+  }
+  const Eigen::Index all = static_cast<Eigen::Index>(unknowns_.size());
+  const Eigen::Index added = all - before;
+  if (added == 0) return;
+
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(place_.size()), added);
+  for (Eigen::Index k = 0; k < added; ++k) unit(unknowns_[before + k], k) = 1.0;
+  Eigen::MatrixXd response(unit.rows(), added);
+  factor_.solve(unit, response);
+  Eigen::MatrixXd columns(all, added);  // of A0^-1
+  for (Eigen::Index k = 0; k < all; ++k) columns.row(k) = response.row(unknowns_[k]);
+
+  const Eigen::MatrixXd old = columns.topRows(before);
+  const Eigen::MatrixXd corrected = old - block_ * times_changes(old);
+  const Eigen::MatrixXd own =
+      columns.bottomRows(added) - old.transpose() * times_changes(corrected);
+  block_.conservativeResize(all, all);
+  block_.topRightCorner(before, added) = corrected;
+  block_.bottomLeftCorner(added, before) = corrected.transpose();
+  block_.bottomRightCorner(added, added) = 0.5 * (own + own.transpose());
+}
+
+void CondensedInverse::change(std::span<const int> places, const Eigen::MatrixXd& delta) {
+  const Eigen::Index count = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXd columns(block_.rows(), count);
+  for (Eigen::Index k = 0; k < count; ++k) columns.col(k) = block_.col(places[k]);
+  Eigen::MatrixXd own(count, count);
+  for (Eigen::Index k = 0; k < count; ++k) own.row(k) = columns.row(places[k]);
+  Eigen::MatrixXd system = delta * own;
+  system.diagonal().array() += 1.0;
+  const Eigen::MatrixXd core = system.partialPivLu().solve(delta);
+  const Eigen::MatrixXd symmetric = 0.5 * (core + core.transpose());
+  block_.noalias() -= columns * (symmetric * columns.transpose());
+  changes_.push_back({{places.begin(), places.end()}, delta});
+}
+
+Eigen::MatrixXd CondensedInverse::times_changes(const Eigen::MatrixXd& x) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+  for (const auto& [places, delta] : changes_) {
+    Eigen::MatrixXd part(delta.rows(), x.cols());
+    for (Eigen::Index k = 0; k < part.rows(); ++k) part.row(k) = x.row(places[k]);
+    const Eigen::MatrixXd product = delta * part;
+    for (Eigen::Index k = 0; k < part.rows(); ++k) result.row(places[k]) += product.row(k);
+  }
+  return result;
+}
+
+Eigen::VectorXd CondensedInverse::correct_block(const Eigen::VectorXd& x0) const {
+  return x0 - block_ * times_changes(x0);
+}
+
+Eigen::VectorXd CondensedInverse::correct(Eigen::VectorXd x0) const {
+  if (changes_.empty()) return x0;
+  Eigen::VectorXd named(block_.rows());
+  for (Eigen::Index k = 0; k < named.size(); ++k) named[k] = x0[unknowns_[k]];
+  const Eigen::VectorXd force = times_changes(correct_block(named));
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(x0.size());
+  for (Eigen::Index k = 0; k < named.size(); ++k) load[unknowns_[k]] = force[k];
+  Eigen::VectorXd answer(x0.size());
+  factor_.solve(load, answer);
+  return x0 - answer;
+}
+
+Eigen::VectorXd CondensedInverse::solve(const Eigen::VectorXd& b) const {
+  Eigen::VectorXd x0(b.size());
+  factor_.solve(b, x0);
+  return correct(std::move(x0));
+}
+
+}  // namespace perifrac

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/solvers/sparse_cholesky.hpp"
+
+namespace perifrac {
+
+/// The inverse of A = A0 + changes, where A0 is factored and the changes lie on few unknowns, which
+/// come one after the other: a body while a crack grows through it. Kept as the dense block S of
+/// A^-1 on all unknowns that were ever named, each change being a low-rank correction of it
+/// (Sherman, Morrison and Woodbury), so that a change costs one back-substitution a new unknown and
+/// no factorisation.
+class CondensedInverse {
+ public:
+  /// Refers to the factor of A0 of `size` unknowns, which must stay as it is.
+  CondensedInverse(const SparseCholesky& factor, Eigen::Index size);
+
+  /// Place of an unknown in S, -1 where it has not been named.
+  int place(int unknown) const { return place_[unknown]; }
+  /// Adds those that have no place yet.
+  void add(std::span<const int> unknowns);
+
+  /// A += delta on the unknowns at these places, symmetric. A must stay positive definite.
+  void change(std::span<const int> places, const Eigen::MatrixXd& delta);
+
+  /// S, one row and column an unknown named, in the order of their places.
+  const Eigen::MatrixXd& block() const { return block_; }
+  std::span<const int> unknowns() const { return unknowns_; }
+
+  /// x = A^-1 b over all unknowns, at two back-substitutions.
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  /// The same where A0^-1 b is known: one.
+  Eigen::VectorXd correct(Eigen::VectorXd x0) const;
+  /// The block's part of A^-1 b from that of A0^-1 b: none.
+  Eigen::VectorXd correct_block(const Eigen::VectorXd& x0) const;
+
+ private:
+  struct Change {
+    std::vector<int> places;
+    Eigen::MatrixXd delta;
+  };
+  /// The sum of all changes times x, both on the block.
+  Eigen::MatrixXd times_changes(const Eigen::MatrixXd& x) const;
+
+  const SparseCholesky& factor_;
+  std::vector<int> place_;
+  std::vector<int> unknowns_;
+  std::vector<Change> changes_;
+  Eigen::MatrixXd block_;
+};
+
+}  // namespace perifrac

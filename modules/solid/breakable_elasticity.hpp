@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+
+#include "core/operators/point_stiffness.hpp"
+#include "modules/solid/elastic_operator.hpp"
+#include "modules/solid/isotropic_elasticity.hpp"
+
+namespace perifrac {
+
+/// An elastic material whose bonds may break: what a solid that cracks needs beyond
+/// ElasticOperator.
+template <int D>
+class BreakableElasticity : public ElasticOperator<D> {
+ public:
+  /// Gradient of the displacement at every point: D * D blocks, row by row.
+  virtual void gradient(std::span<const double> u, std::span<double> gradient) = 0;
+
+  /// What the energy of point i alone adds to the stiffness.
+  virtual PointStiffness point_stiffness(Index i) const = 0;
+
+  /// Bonds of these points broke: their weights are 0 in the family now.
+  virtual void update(std::span<const Index> points) = 0;
+
+  /// The elastic constants at a point.
+  virtual const IsotropicElasticity<D>& law(Index i) const = 0;
+};
+
+}  // namespace perifrac

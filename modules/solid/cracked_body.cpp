@@ -1,0 +1,349 @@
+#include "modules/solid/cracked_body.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <Eigen/Dense>
+
+#include "core/geometry/crack_cut.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// Sets the weights of a bond, seen from both ends, and of the bonds to its ends' ghosts to 0.
+void silence(Family<2>& family, Index i, Index j) {
+  for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+    const Index end = family.other[bond];
+    const Index source =
+        end < family.point_count ? end : family.ghost_source[end - family.point_count];
+    if (source == j) family.weight[bond] = 0.0;
+  }
+}
+
+double dot(const std::vector<std::pair<int, double>>& mode, const Eigen::VectorXd& x) {
+  double sum = 0.0;
+  for (const auto& [place, coefficient] : mode) sum += coefficient * x[place];
+  return sum;
+}
+
+}  // namespace
+
+CrackedBody::CrackedBody(std::shared_ptr<Family<2>> family, double spacing,
+                         std::shared_ptr<BreakableElasticity<2>> elastic,
+                         Eigen::SparseMatrix<double> free_unknowns, BondState<2>& bonds,
+                         std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds)
+    : family_(std::move(family)),
+      intact_(*family_),
+      spacing_(spacing),
+      elastic_(std::move(elastic)),
+      free_unknowns_(std::move(free_unknowns)),
+      free_of_(free_unknowns_.rows(), {-1, 0.0}),
+      bonds_(bonds),
+      seeds_(std::move(seeds)),
+      initial_stress_(initial_stress),
+      load_(Eigen::VectorXd::Zero(free_unknowns_.cols())) {
+  for (int column = 0; column < free_unknowns_.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(free_unknowns_, column); entry; ++entry) {
+      free_of_[entry.row()] = {column, entry.value()};
+    }
+  }
+  cut_seeds();
+}
+
+void CrackedBody::cut_seeds() {
+  for (const CrackFacet<2>& seed : seeds_) {
+    const auto cut = bonds_cut_by<2>(seed, *family_);
+    break_bonds(cut);
+    bonds_.add_facet(seed, cut);
+  }
+  followed_ = bonds_.version();
+}
+
+Eigen::SparseMatrix<double> CrackedBody::free_stiffness() const {
+  return free_unknowns_.transpose() * elastic_->assemble() * free_unknowns_;
+}
+
+void CrackedBody::start() {
+  factor_.factor(free_stiffness());
+  inverse_ = std::make_unique<CondensedInverse>(factor_, free_unknowns_.cols());
+  jumps_.clear();
+  modes_.clear();
+  for (const CrackFacet<2>& seed : seeds_) add_mode(face_jump(seed, intact_, spacing_));
+  intact_move_.resize(0);
+  set_load(load_);
+  find_compliance();
+}
+
+void CrackedBody::break_bonds(std::span<const std::pair<Index, Index>> bonds) {
+  std::vector<Index> points;
+  for (const auto& [i, j] : bonds) {
+    silence(*family_, i, j);
+    silence(*family_, j, i);
+    points.insert(points.end(), {i, j});
+  }
+  std::ranges::sort(points);
+  const auto twice = std::ranges::unique(points);
+  points.erase(twice.begin(), twice.end());
+  elastic_->update(points);
+}
+
+bool CrackedBody::is_intact_along(const CrackFacet<2>& facet) const {
+  return !bonds_cut_by<2>(facet, *family_).empty();
+}
+
+bool CrackedBody::cut(const CrackFacet<2>& facet) {
+  const auto bonds = bonds_cut_by<2>(facet, *family_);
+  if (bonds.empty()) return false;
+  std::set<Index> points;
+  for (const auto& [i, j] : bonds) points.insert({i, j});
+  std::vector<PointStiffness> before, after;
+  for (const Index i : points) before.push_back(on_free(elastic_->point_stiffness(i)));
+  break_bonds(bonds);
+  for (const Index i : points) after.push_back(on_free(elastic_->point_stiffness(i)));
+
+  std::set<int> unknowns;
+  for (const PointStiffness& part : before)
+    unknowns.insert(part.unknowns.begin(), part.unknowns.end());
+  inverse_->add(std::vector<int>(unknowns.begin(), unknowns.end()));
+  std::vector<int> places;
+  for (const int unknown : unknowns) places.push_back(inverse_->place(unknown));
+  const auto row = [&](Index unknown) {
+    return std::distance(unknowns.begin(), unknowns.find(unknown));
+  };
+  Eigen::MatrixXd delta = Eigen::MatrixXd::Zero(places.size(), places.size());
+  const auto add = [&](const PointStiffness& part, double sign) {
+    std::vector<Eigen::Index> rows;
+    for (const Index unknown : part.unknowns) rows.push_back(row(unknown));
+    for (std::size_t a = 0; a < rows.size(); ++a) {
+      for (std::size_t b = 0; b < rows.size(); ++b) {
+        delta(rows[a], rows[b]) += sign * part.matrix(a, b);
+      }
+    }
+  };
+  for (const PointStiffness& part : before) add(part, -1.0);
+  for (const PointStiffness& part : after) add(part, 1.0);
+  inverse_->change(places, delta);
+
+  bonds_.add_facet(facet, bonds);
+  followed_ = bonds_.version();
+  add_mode(face_jump(facet, intact_, spacing_));
+  find_compliance();
+  find_opening();
+  return true;
+}
+
+void CrackedBody::follow_bonds() {
+  if (bonds_.version() == followed_) return;
+  const std::vector<CrackFacet<2>> facets(bonds_.facets().begin(), bonds_.facets().end());
+  bonds_ = BondState<2>(bonds_.version());
+  *family_ = intact_;
+  std::vector<Index> all(family_->point_count);
+  for (Index i = 0; i < family_->point_count; ++i) all[i] = i;
+  elastic_->update(all);
+  cut_seeds();
+  start();
+  for (const CrackFacet<2>& facet : std::span(facets).subspan(seeds_.size())) cut(facet);
+}
+
+PointStiffness CrackedBody::on_free(const PointStiffness& all) const {
+  std::set<Index> free;
+  for (const Index unknown : all.unknowns) {
+    if (free_of_[unknown].first >= 0) free.insert(free_of_[unknown].first);
+  }
+  PointStiffness result{{free.begin(), free.end()},
+                        Eigen::MatrixXd::Zero(free.size(), free.size())};
+  const auto place = [&](Index unknown) {
+    return std::ranges::lower_bound(result.unknowns, free_of_[unknown].first) -
+           result.unknowns.begin();
+  };
+  for (std::size_t a = 0; a < all.unknowns.size(); ++a) {
+    const auto& [free_a, by_a] = free_of_[all.unknowns[a]];
+    if (free_a < 0) continue;
+    for (std::size_t b = 0; b < all.unknowns.size(); ++b) {
+      const auto& [free_b, by_b] = free_of_[all.unknowns[b]];
+      if (free_b < 0) continue;
+      result.matrix(place(all.unknowns[a]), place(all.unknowns[b])) +=
+          by_a * by_b * all.matrix(a, b);
+    }
+  }
+  return result;
+}
+
+void CrackedBody::add_mode(const FaceJump& jump) {
+  std::vector<int> unknowns;
+  for (const auto& [point, coefficient] : jump.terms) {
+    for (int a = 0; a < 2; ++a) {
+      const int free = free_of_[a * family_->point_count + point].first;
+      if (free >= 0) unknowns.push_back(free);
+    }
+  }
+  inverse_->add(unknowns);
+  Mode mode;
+  for (const auto& [point, coefficient] : jump.terms) {
+    for (int a = 0; a < 2; ++a) {
+      const auto& [free, by] = free_of_[a * family_->point_count + point];
+      if (free < 0) continue;
+      mode.normal.emplace_back(inverse_->place(free), by * coefficient * jump.normal[a]);
+      mode.tangent.emplace_back(inverse_->place(free), by * coefficient * jump.tangent[a]);
+    }
+  }
+  jumps_.push_back(jump);
+  modes_.push_back(std::move(mode));
+}
+
+void CrackedBody::find_compliance() {
+  const Eigen::Index count = static_cast<Eigen::Index>(modes_.size());
+  Eigen::MatrixXd response(inverse_->block().rows(), count);
+  for (Eigen::Index g = 0; g < count; ++g) {
+    response.col(g).setZero();
+    for (const auto& [place, coefficient] : modes_[g].normal) {
+      response.col(g) += jumps_[g].length * coefficient * inverse_->block().col(place);
+    }
+  }
+  compliance_.resize(count, count);
+  for (Eigen::Index f = 0; f < count; ++f) {
+    for (Eigen::Index g = 0; g < count; ++g) {
+      double sum = 0.0;
+      for (const auto& [place, coefficient] : modes_[f].normal)
+        sum += coefficient * response(place, g);
+      compliance_(f, g) = sum;
+    }
+  }
+}
+
+void CrackedBody::set_load(const Eigen::VectorXd& load) {
+  if (intact_move_.size() != load.size() || load != load_) {
+    load_ = load;
+    intact_move_.resize(load.size());
+    factor_.solve(load_, intact_move_);
+  }
+  find_opening();
+}
+
+void CrackedBody::find_opening() {
+  const Eigen::MatrixXd& block = inverse_->block();
+  Eigen::VectorXd x(block.rows());
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = intact_move_[inverse_->unknowns()[k]];
+  x = inverse_->correct_block(x);
+  Eigen::VectorXd relieved = Eigen::VectorXd::Zero(x.size());
+  for (std::size_t f = 0; f < modes_.size() && initial_stress_; ++f) {
+    const auto [normal, tangential] = relief(static_cast<Index>(f));
+    for (const auto& [place, c] : modes_[f].normal)
+      relieved[place] += jumps_[f].length * normal * c;
+    for (const auto& [place, c] : modes_[f].tangent)
+      relieved[place] += jumps_[f].length * tangential * c;
+  }
+  if (initial_stress_) x += block * relieved;
+  opening_.resize(static_cast<Eigen::Index>(modes_.size()));
+  for (std::size_t f = 0; f < modes_.size(); ++f) opening_[f] = dot(modes_[f].normal, x);
+}
+
+CrackedBody::Faces CrackedBody::faces(const Eigen::VectorXd& pressure) const {
+  Faces faces{opening_ + compliance_ * pressure, pressure, std::vector<bool>(modes_.size(), false)};
+  const Eigen::VectorXd free_opening = faces.opening;
+  // Which faces close is found by trial: those that overlap close, those that pull open.
+  for (int trial = 0; trial < 100; ++trial) {
+    bool changed = false;
+    for (std::size_t f = 0; f < faces.closed.size(); ++f) {
+      const bool overlaps = !faces.closed[f] && faces.opening[f] < -1e-14 * spacing_;
+      const bool pulls = faces.closed[f] && faces.pressure[f] < pressure[f];
+      if (overlaps || pulls) {
+        faces.closed[f] = overlaps;
+        changed = true;
+      }
+    }
+    if (!changed) break;
+    std::vector<int> closed;
+    for (std::size_t f = 0; f < faces.closed.size(); ++f) {
+      if (faces.closed[f]) closed.push_back(static_cast<int>(f));
+    }
+    faces.pressure = pressure;
+    faces.opening = free_opening;
+    if (closed.empty()) continue;
+    const Eigen::MatrixXd own = compliance_(closed, closed);
+    const Eigen::VectorXd contact = own.partialPivLu().solve(-free_opening(closed));
+    faces.pressure(closed) += contact;
+    faces.opening += compliance_(Eigen::all, closed) * contact;
+  }
+  for (std::size_t f = 0; f < faces.closed.size(); ++f) {
+    if (faces.closed[f]) faces.opening[f] = 0.0;
+  }
+  return faces;
+}
+
+Eigen::MatrixXd CrackedBody::compliance(const std::vector<bool>& closed) const {
+  std::vector<int> shut;
+  for (std::size_t f = 0; f < closed.size(); ++f) {
+    if (closed[f]) shut.push_back(static_cast<int>(f));
+  }
+  if (shut.empty()) return compliance_;
+  const Eigen::MatrixXd own = compliance_(shut, shut);
+  Eigen::MatrixXd result =
+      compliance_ - compliance_(Eigen::all, shut) *
+                        own.partialPivLu().solve(Eigen::MatrixXd(compliance_(shut, Eigen::all)));
+  result(shut, Eigen::all).setZero();
+  return result;
+}
+
+Vector<2> CrackedBody::relief(Index f) const {
+  if (!initial_stress_) return {};
+  const Vector<2>& n = jumps_[f].normal;
+  const Vector<2>& t = jumps_[f].tangent;
+  Vector<2> stress{};
+  for (int a = 0; a < 2; ++a) {
+    stress[0] += n[a] * (*initial_stress_)[a] * n[a];
+    stress[1] += t[a] * (*initial_stress_)[a] * n[a];
+  }
+  return stress;
+}
+
+Vector<2> CrackedBody::jump(Index f, std::span<const double> unknowns) const {
+  Vector<2> sum{};
+  for (const auto& [point, coefficient] : jumps_[f].terms) {
+    for (int a = 0; a < 2; ++a) {
+      const double u = unknowns[a * family_->point_count + point];
+      sum[0] += coefficient * jumps_[f].normal[a] * u;
+      sum[1] += coefficient * jumps_[f].tangent[a] * u;
+    }
+  }
+  return sum;
+}
+
+std::span<const double> CrackedBody::gradient(std::span<const double> unknowns) {
+  gradient_.resize(4 * static_cast<std::size_t>(family_->point_count));
+  elastic_->gradient(unknowns, gradient_);
+  return gradient_;
+}
+
+bool CrackedBody::reaches(const Vector<2>& x, double distance) const {
+  for (int a = 0; a < 2; ++a) {
+    const auto points = std::span(family_->position[a]).first(family_->point_count);
+    const auto [least, largest] = std::ranges::minmax(points);
+    if (x[a] - distance < least || x[a] + distance > largest) return false;
+  }
+  return true;
+}
+
+Eigen::VectorXd CrackedBody::face_force(const Eigen::VectorXd& pressure, bool relief) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(free_unknowns_.rows());
+  for (std::size_t f = 0; f < jumps_.size(); ++f) {
+    const Vector<2> relieved = relief ? this->relief(static_cast<Index>(f)) : Vector<2>{};
+    for (const auto& [point, coefficient] : jumps_[f].terms) {
+      for (int a = 0; a < 2; ++a) {
+        force[a * family_->point_count + point] +=
+            jumps_[f].length * coefficient *
+            ((pressure[f] + relieved[0]) * jumps_[f].normal[a] +
+             relieved[1] * jumps_[f].tangent[a]);
+      }
+    }
+  }
+  return force;
+}
+
+Eigen::VectorXd CrackedBody::unknowns(const Eigen::VectorXd& pressure) const {
+  const Eigen::VectorXd load = load_ + free_unknowns_.transpose() * face_force(pressure);
+  return free_unknowns_ * inverse_->solve(load);
+}
+
+}  // namespace perifrac

@@ -1,0 +1,121 @@
+#include "modules/solid/energy_release.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace perifrac {
+
+namespace {
+
+/// The weight q of the domain integral, 1 at the tip, and its gradient.
+struct Cutoff {
+  Vector<2> centre;
+  double inner;
+  double outer;
+
+  Vector<2> gradient(const Vector<2>& x) const {
+    const Vector<2> r = {x[0] - centre[0], x[1] - centre[1]};
+    const double distance = std::hypot(r[0], r[1]);
+    if (distance <= inner || distance >= outer) return {};
+    const double slope =
+        -0.5 * M_PI / (outer - inner) * std::sin(M_PI * (distance - inner) / (outer - inner));
+    return {slope * r[0] / distance, slope * r[1] / distance};
+  }
+};
+
+/// The jump that turns a straight crack least reliably is the last one.
+constexpr double first_jump = 1.0, last_jump = 3.0;  // spacings behind the tip
+
+/// K_II / K_I over the ratio of the jumps at 1-3 spacings behind a tip on a lattice.
+constexpr double mode_ratio = 0.87;
+
+constexpr double largest_kink = 70.0 * M_PI / 180.0;
+
+}  // namespace
+
+TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
+                          const Eigen::VectorXd& pressure) const {
+  TipLoad load{domain_integral(tip, unknowns, pressure), 0.0, 0.0};
+  // Facets behind the tip, back along the crack: those whose centres lie near its line.
+  int count = 0;
+  for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
+    const CrackFacet<2>& facet = body_.facets()[f];
+    const Vector<2> back = {tip.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
+                            tip.place[1] - 0.5 * (facet[0][1] + facet[1][1])};
+    const double behind = back[0] * tip.direction[0] + back[1] * tip.direction[1];
+    const double aside = back[0] * tip.direction[1] - back[1] * tip.direction[0];
+    if (behind < first_jump * spacing_ || behind > last_jump * spacing_) continue;
+    if (std::abs(aside) > spacing_) continue;
+    const Vector<2> jump = body_.jump(static_cast<Index>(f), unknowns);
+    const FaceJump& face = body_.jumps()[f];
+    // In the frame of the tip: x ahead, y to the left. The jump is from the lower face to the
+    // upper.
+    const Vector<2> d = {jump[0] * face.normal[0] + jump[1] * face.tangent[0],
+                         jump[0] * face.normal[1] + jump[1] * face.tangent[1]};
+    const double up = -tip.direction[1] * face.normal[0] + tip.direction[0] * face.normal[1];
+    const double sign = up > 0.0 ? 1.0 : -1.0;
+    load.opening += sign * (-tip.direction[1] * d[0] + tip.direction[0] * d[1]);
+    load.sliding += sign * (tip.direction[0] * d[0] + tip.direction[1] * d[1]);
+    ++count;
+  }
+  if (count > 0) {
+    load.opening /= count;
+    load.sliding /= count;
+  }
+  return load;
+}
+
+double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
+                                      const Eigen::VectorXd& pressure) const {
+  const Family<2>& family = body_.family();
+  const Index points = family.point_count;
+  // Near a boundary the ring is drawn in, so as to lie within the body.
+  const double radius = (body_.reaches(tip.place, 4.5 * spacing_) ? 4.5 : 3.0) * spacing_;
+  const Cutoff cutoff{tip.place, spacing_, radius};
+  const std::span<const double> gradient = body_.gradient(unknowns);
+  double sum = 0.0;
+  for (Index i = 0; i < points; ++i) {
+    const Vector<2> slope = cutoff.gradient({family.position[0][i], family.position[1][i]});
+    if (slope == Vector<2>{}) continue;
+    Tensor<2, 2> g;
+    for (int k = 0; k < 4; ++k) g[k] = gradient[static_cast<std::size_t>(k) * points + i];
+    const Tensor<2, 2> stress = body_.elastic().law(i).stress(g);
+    const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
+    double work = 0.0;  // d . (grad u^T sigma) . grad q
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b < 2; ++b) {
+        for (int c = 0; c < 2; ++c) {
+          work += tip.direction[a] * g[c * 2 + a] * stress[c * 2 + b] * slope[b];
+        }
+      }
+    }
+    const PointStiffness own = body_.elastic().point_stiffness(i);
+    Eigen::VectorXd u(own.matrix.rows());
+    for (Eigen::Index k = 0; k < u.size(); ++k) u[k] = unknowns[own.unknowns[k]];
+    sum += family.volume[i] * work - 0.5 * u.dot(own.matrix * u) * along;
+  }
+  for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
+    const CrackFacet<2>& facet = body_.facets()[f];
+    const Vector<2> slope =
+        cutoff.gradient({0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
+    const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
+    if (along == 0.0) continue;
+    const Vector<2> jump = body_.jump(static_cast<Index>(f), unknowns);
+    const Vector<2> relief = body_.relief(static_cast<Index>(f));
+    sum += ((pressure[f] + relief[0]) * jump[0] + relief[1] * jump[1]) * along *
+           body_.jumps()[f].length;
+  }
+  return sum;
+}
+
+double kink_angle(const TipLoad& load) {
+  if (load.sliding == 0.0) return 0.0;
+  if (!(load.opening > 0.0)) return load.sliding > 0.0 ? -largest_kink : largest_kink;
+  const double ratio = mode_ratio * load.sliding / load.opening;
+  const double angle =
+      2.0 * std::atan((1.0 - std::sqrt(1.0 + 8.0 * ratio * ratio)) / (4.0 * ratio));
+  return std::clamp(angle, -largest_kink, largest_kink);
+}
+
+}  // namespace perifrac

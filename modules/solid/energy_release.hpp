@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+
+#include "modules/solid/cracked_body.hpp"
+
+namespace perifrac {
+
+/// A tip of a crack in 2D.
+struct CrackTip {
+  Vector<2> place;      ///< [m]
+  Vector<2> direction;  ///< of unit length, ahead
+  Index facet;          ///< the one that ends here
+  Index before;         ///< the one behind that; no_facet: none
+};
+
+/// What a crack has at a tip, per length of its front.
+struct TipLoad {
+  double energy_release;  ///< J, what growth straight ahead would set free [J/m^2]
+  double opening;         ///< mean normal jump one to three spacings behind [m]
+  double sliding;         ///< mean tangential jump there; positive turns the crack to its right [m]
+};
+
+/// J as an integral over the points around the tip (Li, Shih & Needleman 1985), from the remaining
+/// bonds' gradients and the whole energy of every point:
+///   J = sum V [(grad u^T sigma) grad q . d - W d . grad q] + int (p w + tau s) d . grad q ds,
+/// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry. Of
+/// displacements from the state at rest, so that an initial stress counts as what faces are
+/// relieved of. `unknowns` and `pressure` as CrackedBody has them.
+class EnergyRelease {
+ public:
+  EnergyRelease(CrackedBody& body, double spacing) : body_(body), spacing_(spacing) {}
+
+  TipLoad at(const CrackTip& tip, std::span<const double> unknowns,
+             const Eigen::VectorXd& pressure) const;
+
+ private:
+  double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
+                         const Eigen::VectorXd& pressure) const;
+
+  CrackedBody& body_;
+  double spacing_;
+};
+
+/// The angle by which a crack turns, to the left positive, in the direction of largest hoop stress
+/// (Erdogan & Sih 1963) for K_II / K_I from the jumps near the tip; at most 70 degrees.
+double kink_angle(const TipLoad& load);
+
+}  // namespace perifrac

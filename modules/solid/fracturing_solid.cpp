@@ -1,0 +1,417 @@
+#include "modules/solid/fracturing_solid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "modules/solid/rigid_motion.hpp"
+
+namespace perifrac {
+
+namespace {
+
+const PointSet whole_body{.name = "solid"};
+
+/// A tip goes on within this of its criterion; beyond it the window is cut.
+constexpr double early = 0.005, late = 0.02;
+
+/// The facet whose opening is held against the tip's asymptote is the last but one. On the lattice
+/// a tip acts as if it lay this much, of a spacing, behind the end of its last facet.
+constexpr double tip_offset = -0.12;
+
+/// A turn below this is rounding [rad].
+constexpr double straight = 1e-6;
+
+Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+}  // namespace
+
+FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
+                                 std::shared_ptr<Family<2>> family,
+                                 std::shared_ptr<BreakableElasticity<2>> elastic,
+                                 const SolidBoundary<2>& boundary,
+                                 std::optional<Vector<2>> initial_stress,
+                                 std::vector<CrackFacet<2>> seeds, const Material& material)
+    : body_(std::move(body)),
+      seeds_(std::move(seeds)),
+      material_(material),
+      ports_{
+          {"pore_stress", "Pa", PortDirection::in},
+          InterfaceForce::port(2),
+          {"crack_pressure", "Pa", PortDirection::in},
+          {"crack_viscosity", "Pa s", PortDirection::in, PortKind::intensive, PortRole::property},
+          {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, 2},
+          {"dilatation", "1", PortDirection::out},
+          {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, 4},
+          {"damage", "1", PortDirection::out},
+          {"crack_opening", "m", PortDirection::out},
+          {"crack_length", "m", PortDirection::out},
+          {"elastic_energy", "J/m", PortDirection::out, PortKind::extensive,
+           PortRole::energy_stored},
+          {"external_work", "J/m", PortDirection::out, PortKind::extensive,
+           PortRole::energy_gained},
+          {"fracture_energy", "J/m", PortDirection::out, PortKind::extensive,
+           PortRole::energy_dissipated},
+      },
+      initial_stress_(initial_stress),
+      bonds_(body_->claim_bond_state()),
+      cracked_(family, body_->spacing(), elastic,
+               boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
+               seeds_),
+      energy_release_(cracked_, body_->spacing()) {
+  const auto mirror = boundary.mirror_condition(*family);
+  free_unknowns_ = boundary.free_unknowns(mirror);
+  for (const auto& [face, column] : boundary.plates(mirror)) {
+    ports_.push_back({face + "_plate_displacement", "m", PortDirection::out});
+    plate_unknowns_.push_back(
+        Eigen::SparseMatrix<double>::InnerIterator(free_unknowns_, column).row());
+  }
+  prescribed_ = boundary.prescribed(mirror);
+  load_ = boundary.loads(mirror, elastic->gradient_matrix());
+  for (Index i = 0; i < family->point_count; ++i) {
+    slope_.push_back(1.0 / elastic->drained_bulk_modulus(i));
+    double sum = 0.0;
+    for (Index bond = family->offset[i]; bond < family->offset[i + 1]; ++bond) {
+      sum += family->weight[bond];
+    }
+    intact_weight_.push_back(sum);
+  }
+}
+
+std::string FracturingSolid::free_motion() const {
+  return rigid_motion_without_energy<2>(body_->points(), cracked_.free_stiffness(), free_unknowns_,
+                                        plate_unknowns_.size());
+}
+
+PortView FracturingSolid::port(PortId id) {
+  const PointSet* const points = &body_->point_set();
+  const PointSet* const facets = &bonds_.facet_points();
+  switch (id) {
+    case pore_stress:
+      pore_stress_.resize(body_->points().size());
+      return {points, pore_stress_};
+    case interface_impulse:
+      return {points, interface_.impulse(2 * body_->points().size())};
+    case crack_pressure:
+      crack_pressure_.resize(facets->count);
+      return {facets, crack_pressure_};
+    case crack_viscosity:
+      crack_viscosity_.resize(facets->count);
+      return {facets, crack_viscosity_};
+    case displacement:
+      find_unknowns();
+      return {points, std::span(unknowns_).first(2 * body_->points().volume.size())};
+    case dilatation:
+      derive();
+      return {points, dilatation_, {}, slope_};
+    case effective_stress:
+      find_unknowns();
+      effective_stress_.resize(4 * body_->points().volume.size());
+      cracked_.elastic().stress(unknowns_, effective_stress_);
+      for (Index i = 0; i < body_->points().size() && initial_stress_; ++i) {
+        effective_stress_[i] += (*initial_stress_)[0];
+        effective_stress_[3 * static_cast<std::size_t>(body_->points().size()) + i] +=
+            (*initial_stress_)[1];
+      }
+      return {points, effective_stress_};
+    case damage:
+      damage_.resize(body_->points().size());
+      for (Index i = 0; i < body_->points().size(); ++i) {
+        const Family<2>& family = cracked_.family();
+        double left = 0.0;
+        for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+          left += family.weight[bond];
+        }
+        damage_[i] = intact_weight_[i] > 0.0 ? 1.0 - left / intact_weight_[i] : 0.0;
+      }
+      return {points, damage_};
+    case crack_opening: {
+      const Eigen::MatrixXd slope = cracked_.compliance(faces_.closed);
+      opening_slope_.resize(slope.size());
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          opening_slope_.data(), slope.rows(), slope.cols()) = slope;
+      return {facets,
+              {faces_.opening.data(), static_cast<std::size_t>(faces_.opening.size())},
+              {},
+              opening_slope_};
+    }
+    case crack_length:
+      return {&whole_body, {&crack_length_, 1}};
+    case elastic_energy:
+      derive();
+      return {&whole_body, {&elastic_energy_, 1}};
+    case external_work:
+      return {&whole_body, {&external_work_, 1}};
+    case fracture_energy:
+      return {&whole_body, {&fracture_energy_, 1}};
+    default:
+      find_unknowns();
+      return {&whole_body, {&unknowns_[plate_unknowns_[id - first_plate]], 1}};
+  }
+}
+
+void FracturingSolid::initialize(double t) {
+  window_end_ = last_growth_ = t;
+  cracked_.start();
+  find_seed_tips();
+  unknowns_.assign(free_unknowns_.rows(), 0.0);
+  unknowns_before_ = force_ = unknowns_;
+  external_work_ = fracture_energy_ = readiness_before_ = 0.0;
+  const auto facets = static_cast<Eigen::Index>(seeds_.size());
+  faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
+            std::vector<bool>(seeds_.size(), false)};
+  unknowns_are_current_ = true;
+  derived_ = false;
+}
+
+/// The ends of the seeds that no other seed touches and that lie in the rock.
+void FracturingSolid::find_seed_tips() {
+  tips_.clear();
+  crack_length_ = 0.0;
+  for (std::size_t f = 0; f < seeds_.size(); ++f) {
+    crack_length_ += cracked_.jumps()[f].length;
+    for (const int end : {0, 1}) {
+      const Vector<2>& place = seeds_[f][end];
+      Index before = no_facet;
+      bool joined = false;
+      for (std::size_t g = 0; g < seeds_.size(); ++g) {
+        if (g == f) continue;
+        joined = joined || seeds_[g][0] == place || seeds_[g][1] == place;
+        if (seeds_[g][0] == seeds_[f][1 - end] || seeds_[g][1] == seeds_[f][1 - end]) {
+          before = static_cast<Index>(g);
+        }
+      }
+      if (joined) continue;
+      const double sign = end == 1 ? 1.0 : -1.0;
+      const Vector<2>& along = cracked_.jumps()[f].tangent;
+      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before},
+              window_end_,
+              true};
+      tip.grows = cracked_.is_intact_along(next_facet(tip.at, 0.0));
+      if (tip.grows) tips_.push_back(tip);
+    }
+  }
+}
+
+CrackFacet<2> FracturingSolid::next_facet(const CrackTip& tip, double turn) const {
+  const double c = std::cos(turn), s = std::sin(turn);
+  const Vector<2> ahead = {c * tip.direction[0] - s * tip.direction[1],
+                           s * tip.direction[0] + c * tip.direction[1]};
+  return {tip.place,
+          {tip.place[0] + body_->spacing() * ahead[0], tip.place[1] + body_->spacing() * ahead[1]}};
+}
+
+double FracturingSolid::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
+
+double FracturingSolid::advance(const TimeWindow& window) {
+  window_end_ = window.end;
+  interface_.begin(window);
+  solve_faces();
+  return window.end;
+}
+
+/// Loads at the window's end, and what they and the pressure in them do to the cracks' faces.
+void FracturingSolid::solve_faces() {
+  Eigen::VectorXd all = load_.at(window_end_);
+  if (!prescribed_.is_constant() || prescribed_.at(0.0).any()) {
+    const Eigen::VectorXd prescribed = prescribed_.at(window_end_);
+    Eigen::VectorXd force(all.size());
+    std::vector<double> scratch(body_->points().size());
+    cracked_.elastic().apply({prescribed.data(), static_cast<std::size_t>(prescribed.size())}, {},
+                             {force.data(), static_cast<std::size_t>(force.size())}, scratch);
+    all -= force;
+  }
+  if (interface_.is_linked() && !interface_.force().empty()) {
+    all.head(interface_.force().size()) += view(interface_.force());
+  }
+  if (!pore_stress_.empty()) {
+    const std::vector<double> rest(all.size(), 0.0);
+    std::vector<double> force(all.size()), scratch(body_->points().size());
+    cracked_.elastic().apply(rest, {pore_stress_}, force, scratch);
+    all -= view(force);
+  }
+  cracked_.set_load(free_unknowns_.transpose() * all);
+  Eigen::VectorXd pressure = Eigen::VectorXd::Zero(bonds_.facet_points().count);
+  if (!crack_pressure_.empty()) {
+    crack_pressure_.resize(pressure.size(), 0.0);  // a new facet is dry
+    pressure = view(crack_pressure_);
+  }
+  faces_ = cracked_.faces(pressure);
+  unknowns_are_current_ = false;
+}
+
+void FracturingSolid::find_unknowns() {
+  if (unknowns_are_current_) return;
+  view(unknowns_) = prescribed_.at(window_end_) + cracked_.unknowns(faces_.pressure);
+  unknowns_are_current_ = true;
+  derived_ = false;
+}
+
+void FracturingSolid::derive() {
+  find_unknowns();
+  if (derived_) return;
+  std::vector<double> force(unknowns_.size());
+  dilatation_.resize(body_->points().size());
+  cracked_.elastic().apply(unknowns_, {}, force, dilatation_);
+  elastic_energy_ = 0.5 * view(unknowns_).dot(view(force));
+  derived_ = true;
+}
+
+/// Work since the last time; that of the fluid in the cracks is the fluid's.
+void FracturingSolid::book_work() {
+  find_unknowns();
+  std::vector<double> force(unknowns_.size()), scratch(body_->points().size());
+  cracked_.elastic().apply(unknowns_, {pore_stress_}, force, scratch);
+  if (!crack_pressure_.empty()) {
+    view(force) -= cracked_.face_force(view(crack_pressure_), false);
+  }
+  external_work_ +=
+      0.5 * (view(force_) + view(force)).dot(view(unknowns_) - view(unknowns_before_));
+  force_ = force;
+  unknowns_before_ = unknowns_;
+}
+
+double FracturingSolid::readiness(const Tip& tip, double t) {
+  const CrackTip& at = tip.at;
+  const IsotropicElasticity<2>& law = cracked_.elastic().law(body_->nearest_point(at.place));
+  const double shear = law.shear_modulus, lame = law.lame_lambda;
+  const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
+                       material_.fracture_energy};
+  if (!crack_viscosity_.empty() && at.before >= 0 && crack_viscosity_[at.before] > 0.0) {
+    const CrackFacet<2>& facet = bonds_.facets()[at.before];
+    const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
+                                at.place[1] - 0.5 * (facet[0][1] + facet[1][1])) +
+                     tip_offset * body_->spacing();
+    const double speed = body_->spacing() / std::max(t - tip.since, 1e-300);
+    return faces_.opening[at.before] / tip_law.opening(s, crack_viscosity_[at.before], speed);
+  }
+  find_unknowns();
+  const TipLoad load = energy_release_.at(at, unknowns_, faces_.pressure);
+  if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
+  return std::sqrt(load.energy_release / material_.fracture_energy);
+}
+
+double FracturingSolid::find_readiness(double t) {
+  double most = 0.0;
+  for (Tip& tip : tips_) {
+    tip.readiness = tip.grows ? readiness(tip, t) : 0.0;
+    most = std::max(most, tip.readiness);
+  }
+  return most;
+}
+
+double FracturingSolid::conclude(const TimeWindow& window) {
+  const bool wet = !crack_pressure_.empty();
+  double most = find_readiness(window.end);
+  // Shorter windows than this, of the time since the last growth, would not tell.
+  const bool can_cut = window.length() > 1e-4 * (window.end - last_growth_);
+  if (wet && most > 1.0 + late && can_cut) {
+    const double share = (1.0 - readiness_before_) / (most - readiness_before_);
+    return window.begin + std::clamp(share, 0.05, 0.95) * window.length();
+  }
+  book_work();
+  readiness_before_ = most;
+  while (most >= 1.0 - early) {
+    for (std::size_t k = 0; k < tips_.size(); ++k) {
+      if (tips_[k].grows && tips_[k].readiness >= 1.0 - early) grow(tips_[k], window.end);
+    }
+    last_growth_ = window.end;
+    readiness_before_ = 0.0;
+    solve_faces();
+    book_work();
+    if (wet) break;
+    most = find_readiness(window.end);
+  }
+  return window.end;
+}
+
+void FracturingSolid::grow(Tip& tip, double t) {
+  find_unknowns();
+  double turn = kink_angle(energy_release_.at(tip.at, unknowns_, faces_.pressure));
+  if (std::abs(turn) < straight) turn = 0.0;
+  CrackFacet<2> facet = next_facet(tip.at, turn);
+  const bool joined = joins(facet, tip.at, facet[1]);
+  if (!cracked_.cut(facet)) {
+    tip.grows = false;
+    return;
+  }
+  const FaceJump& jump = cracked_.jumps().back();
+  fracture_energy_ += material_.fracture_energy * jump.length;
+  crack_length_ += jump.length;
+  tip.at = {facet[1], jump.tangent, static_cast<Index>(bonds_.facets().size()) - 1, tip.at.facet};
+  tip.since = t;
+  tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
+}
+
+bool FracturingSolid::joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const {
+  double nearest = 0.75 * body_->spacing();
+  bool found = false;
+  for (std::size_t f = 0; f < bonds_.facets().size(); ++f) {
+    if (static_cast<Index>(f) == tip.facet || static_cast<Index>(f) == tip.before) continue;
+    for (const Vector<2>& corner : bonds_.facets()[f]) {
+      const double away = std::hypot(corner[0] - facet[1][0], corner[1] - facet[1][1]);
+      if (corner == tip.place || away > nearest) continue;
+      nearest = away;
+      end = corner;
+      found = true;
+    }
+  }
+  return found;
+}
+
+void FracturingSolid::visit_tips(StateVisitor& visitor) {
+  std::vector<double> numbers;
+  std::vector<std::int64_t> indices;
+  for (const Tip& tip : tips_) {
+    numbers.insert(numbers.end(), {tip.at.place[0], tip.at.place[1], tip.at.direction[0],
+                                   tip.at.direction[1], tip.since});
+    indices.insert(indices.end(), {tip.at.facet, tip.at.before, tip.grows});
+  }
+  visitor.visit("tips", numbers);
+  visitor.visit("tip_facets", indices);
+  tips_.resize(indices.size() / 3);
+  for (std::size_t k = 0; k < tips_.size(); ++k) {
+    const double* const n = &numbers[5 * k];
+    const std::int64_t* const i = &indices[3 * k];
+    tips_[k] = {{{n[0], n[1]}, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
+                n[4],
+                i[2] != 0};
+  }
+}
+
+void FracturingSolid::visit_state(StateVisitor& visitor) {
+  visitor.visit("displacement", unknowns_before_);
+  visitor.visit("external_force", force_);
+  visitor.visit("external_work", external_work_);
+  visitor.visit("fracture_energy", fracture_energy_);
+  visitor.visit("crack_length", crack_length_);
+  visitor.visit("readiness", readiness_before_);
+  visitor.visit("last_growth", last_growth_);
+  std::vector<double> opening(faces_.opening.begin(), faces_.opening.end());
+  std::vector<double> pressure(faces_.pressure.begin(), faces_.pressure.end());
+  std::vector<std::int64_t> closed(faces_.closed.begin(), faces_.closed.end());
+  visitor.visit("crack_opening", opening);
+  visitor.visit("face_pressure", pressure);
+  visitor.visit("closed_faces", closed);
+  faces_ = {view(opening), view(pressure), std::vector<bool>(closed.begin(), closed.end())};
+  visit_tips(visitor);
+  bonds_.visit_state(visitor);
+  interface_.visit_state(visitor);
+}
+
+void FracturingSolid::on_restored(double t) {
+  window_end_ = t;
+  cracked_.follow_bonds();
+  unknowns_ = unknowns_before_;
+  unknowns_are_current_ = true;
+  derived_ = false;
+}
+
+}  // namespace perifrac

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/geometry/body.hpp"
+#include "core/module/physics_module.hpp"
+#include "core/time/scheduled_vector.hpp"
+#include "modules/solid/cracked_body.hpp"
+#include "modules/solid/energy_release.hpp"
+#include "modules/solid/interface_force.hpp"
+#include "modules/solid/solid_boundary.hpp"
+#include "modules/solid/tip_law.hpp"
+
+namespace perifrac {
+
+/// The quasi-static solid with cracks that grow (plane strain): in equilibrium at the end of every
+/// window. A tip goes on by one facet of a spacing where J >= Gc or, where a viscous fluid reaches
+/// it, where the opening behind it has grown to the tip's asymptote (tip_law.hpp); straight ahead
+/// or turned by the kink angle. The window is cut to the time when the first tip goes on; with
+/// fluid in the crack one tip goes on a window, so that the pressure answers before the next.
+///
+/// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
+/// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
+/// `crack_opening` [m] with its slope d(opening)/d(crack_pressure), a matrix. `damage` of the
+/// points (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what new faces took.
+class FracturingSolid final : public PhysicsModule {
+ public:
+  struct Material {
+    double fracture_energy;  ///< Gc [J/m^2]
+  };
+
+  FracturingSolid(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
+                  std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
+                  std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
+                  const Material& material);
+
+  /// As QuasiStaticSolid's.
+  std::string free_motion() const;
+
+  std::span<const Port> ports() const override { return ports_; }
+  PortView port(PortId id) override;
+  void initialize(double t) override;
+  double stable_time_step() const override;
+  double advance(const TimeWindow& window) override;
+  double conclude(const TimeWindow& window) override;
+  void visit_state(StateVisitor& visitor) override;
+  void on_restored(double t) override;
+
+ private:
+  enum Id : PortId {
+    pore_stress,
+    interface_impulse,
+    crack_pressure,
+    crack_viscosity,
+    displacement,
+    dilatation,
+    effective_stress,
+    damage,
+    crack_opening,
+    crack_length,
+    elastic_energy,
+    external_work,
+    fracture_energy,
+    first_plate
+  };
+
+  struct Tip {
+    CrackTip at;
+    double since;            ///< when it came there [s]
+    bool grows;              ///< some bond lies ahead
+    double readiness = 0.0;  ///< how close it is to growth: 1 at it
+  };
+
+  void find_seed_tips();
+  CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
+  double readiness(const Tip& tip, double t);
+  /// Of all tips; returns the largest.
+  double find_readiness(double t);
+  void grow(Tip& tip, double t);
+  /// The end of a new facet: where it would meet another crack, the nearest end of a facet of that.
+  bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
+  void solve_faces();
+  void find_unknowns();
+  void derive();
+  void book_work();
+  void visit_tips(StateVisitor& visitor);
+
+  std::shared_ptr<const Body<2>> body_;
+  std::vector<CrackFacet<2>> seeds_;
+  Material material_;
+  std::vector<Port> ports_;
+  std::vector<Index> plate_unknowns_;
+  Eigen::SparseMatrix<double> free_unknowns_;
+  std::optional<Vector<2>> initial_stress_;
+  ScheduledVector prescribed_{0};
+  ScheduledVector load_{0};
+  std::vector<double> intact_weight_;  ///< sum of a family's weights
+
+  BondState<2>& bonds_;
+  CrackedBody cracked_;
+  EnergyRelease energy_release_;
+  std::vector<Tip> tips_;
+
+  std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
+  bool unknowns_are_current_ = false;
+  bool derived_ = false;                 ///< dilatation and energy are those of the unknowns
+  std::vector<double> unknowns_before_;  ///< at the beginning of the window
+  std::vector<double> force_;  ///< external, on every unknown, the fluid's in cracks apart [N/m]
+  double external_work_ = 0.0;
+  double fracture_energy_ = 0.0;
+  double crack_length_ = 0.0;
+  double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
+  double last_growth_ = 0.0;       ///< [s]
+
+  std::vector<double> pore_stress_;
+  std::vector<double> crack_pressure_;
+  std::vector<double> crack_viscosity_;
+  InterfaceForce interface_;
+  CrackedBody::Faces faces_;
+  std::vector<double> opening_slope_;
+  std::vector<double> dilatation_;
+  std::vector<double> slope_;
+  std::vector<double> effective_stress_;
+  std::vector<double> damage_;
+  double elastic_energy_ = 0.0;
+  double window_end_ = 0.0;
+};
+
+}  // namespace perifrac
