@@ -62,15 +62,21 @@ void FluidDynamics<D>::start_totals() {
   if (exchange_) exchanged_mass_.assign(body_points_, 0.0);
 }
 
-/// A fluid point's pressure follows that of the pores about it at a rate of up to
-/// 4 kappa K / (0.4 horizon)^2, with the moments of the Gaussian taken over all space.
+/// A fluid point's pressure and that of the pores about it approach each other at a rate of up to
+/// 4 kappa (K + 1/S) / (0.4 horizon)^2, with the moments of the Gaussian taken over all space.
 template <int D>
 void FluidDynamics<D>::set_pores(const PoreInput& pores) {
   pores_ = pores;
   if (pores.mobility.empty()) return;
-  const double mobility = *std::ranges::max_element(pores.mobility);
+  pores_.mass = exchanged_mass_;
+  double fastest = 0.0;
+  for (Index w = cloud_.rigid_count; w < cloud_.size(); ++w) {
+    const Index i = cloud_.owner[w];
+    const double of_pores = fluid_.density * cloud_.volume[w] * pores.slope[i];
+    fastest = std::max(fastest, pores.mobility[i] * (fluid_.bulk_modulus + of_pores));
+  }
   const double width = 0.4 * scheme_.horizon;
-  longest_exchange_ = width * width / (4.0 * mobility * fluid_.bulk_modulus);
+  longest_exchange_ = width * width / (4.0 * fastest);
 }
 
 template <int D>

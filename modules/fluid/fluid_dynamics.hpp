@@ -35,10 +35,11 @@ class FluidDynamics {
                 std::unique_ptr<WallForce<D>> wall_force, std::unique_ptr<Exchange<D>> exchange);
 
   void set_body(const BodyInput& body) { body_ = body; }
-  void set_pores(const PoreInput& pores);
   /// Totals given to the body's points are counted from here: impulse, D blocks [N s], and mass
   /// [kg]. They are empty where the body is not there, or nothing passes into it.
   void start_totals();
+  /// All but `mass`, once the totals were started.
+  void set_pores(const PoreInput& pores);
   const std::vector<double>& impulse() const { return impulse_; }
   const std::vector<double>& exchanged_mass() const { return exchanged_mass_; }
   bool exchange_keeps_mass() const { return !exchange_ || exchange_->keeps_mass(); }
