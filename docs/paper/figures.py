@@ -295,8 +295,10 @@ def fig14(runs: Runs, images: Path, errors: Errors) -> None:
         late = f"{body.time + SCHEMES[name].loaded_at:.0f} s"
         errors.add("14", SCHEMES[name].label, f"pressure over the head at {late}",
                    body.fields["pore_pressure"] / SPECIMEN.head, pressure / SPECIMEN.head)  # fmt: skip
-        errors.add("14", SCHEMES[name].label, f"flux over the steady one at {late}",
-                   -body.fields["darcy_velocity"][:, 1] / SPECIMEN.steady_flux, flux / SPECIMEN.steady_flux)  # fmt: skip
+        # A velocity is found as if its face were sealed: two rows below the surface show too little.
+        for where, rows in [("", slice(None)), (", two rows below the surface left out", body.points[:, 1] < 48.0)]:
+            errors.add("14", SCHEMES[name].label, f"flux over the steady one at {late}{where}",
+                       -body.fields["darcy_velocity"][rows, 1] / SPECIMEN.steady_flux, flux[rows] / SPECIMEN.steady_flux)  # fmt: skip
         for axis, what in zip(pair, ["pressure", "flux"]):
             axis.set_title(f"{SCHEMES[name].label}, {late}", fontsize=9)
             axis.grid(False)

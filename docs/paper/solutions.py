@@ -137,7 +137,9 @@ class Seepage:
         t = np.maximum(np.asarray(time, dtype=float), 0.0)
         n = np.arange(1, self.terms + 1)
         rate = self.diffusivity * (n * np.pi / self.length) ** 2
-        return self.steady_flux * (t + 2.0 * ((1.0 - np.exp(-np.outer(t, rate))) / rate).sum(axis=1))
+        filled = self.length**2 / (3.0 * self.diffusivity)  # the sum of 2 / rate over all n
+        volume = self.steady_flux * (t + filled - 2.0 * (np.exp(-np.outer(t, rate)) / rate).sum(axis=1))
+        return np.where(t > 0.0, volume, 0.0)
 
     def volume(self, time: np.ndarray) -> np.ndarray:
         """Volume an area passed since the ramp began, at `time` after its beginning: many small jumps."""
