@@ -109,6 +109,12 @@ void Link::collect(double length) {
   if (lagged_) compare();
 }
 
+void Link::accept() {
+  std::swap(accepted_, reached_);
+  if (!counter_ || source_.module->ports()[*counter_].kind == PortKind::intensive) return;
+  std::ranges::fill(accepted_.counter, 0.0);
+}
+
 void Link::relax(std::span<const double> value, double length) {
   for (std::size_t i = 0; i < value_.size(); ++i) {
     if (length > 0.0) rate_[i] += (value[i] - value_[i]) / length;

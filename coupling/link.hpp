@@ -26,7 +26,7 @@ struct LinkEnd {
 /// link then sends the intercept c = output - s x*, with x* what the source saw when it gave that
 /// output, and its rate; the target adds s x with its own x, and where both agree it sees the
 /// output itself. This is the fixed-stress split, written for any pair. Without slope c is the
-/// output.
+/// output. An extensive x is a total over the window: it starts from 0 in each.
 ///
 /// A link is lagged where its source comes after its target in the order of advancing: the target
 /// then starts on a prediction. An intensive value is extrapolated with the rate of the last
@@ -48,6 +48,7 @@ class Link {
   Link(LinkEnd source, LinkEnd target, bool lagged);
 
   const std::string& name() const { return name_; }
+  PortKind kind() const { return kind_; }
   std::string path() const;  ///< `solid.dilatation -> pore_flow`, for people
   const LinkEnd& source() const { return source_; }
   const LinkEnd& target() const { return target_; }
@@ -86,7 +87,7 @@ class Link {
   void relax(std::span<const double> value, double length);
 
   /// The window stands: what was collected is what the next one begins with.
-  void accept() { std::swap(accepted_, reached_); }
+  void accept();
 
   /// The fields that the next window depends on.
   void visit_state(StateVisitor& visitor);

@@ -82,7 +82,8 @@ PortView DarcyFlow<D>::port(PortId id) {
     case exchanged_mass:
       return {points, system_->exchange().mass(count)};
     case pore_pressure:
-      return {points, pressure_};
+      find_pressure_slope();
+      return {points, pressure_, {}, pressure_slope_};
     case pore_stress:
       return {points, pore_stress_, {}, pore_stress_slope_};
     case fluid_content:
@@ -195,6 +196,18 @@ void DarcyFlow<D>::find_mobility() {
   for (Index i = 0; i < system_->points(); ++i) mobility_.push_back(system_->flow().mobility(i));
   for (const auto& [i, face_value] : system_->held_points()) {
     if (face_value < 0) mobility_[i] = 0.0;
+  }
+}
+
+/// While no fluid moves and the rock is held; empty where nobody hands over mass.
+template <int D>
+void DarcyFlow<D>::find_pressure_slope() {
+  if (!system_->exchange().is_linked()) return;
+  pressure_slope_.resize(system_->points());
+  for (Index i = 0; i < system_->points(); ++i) {
+    const double alpha = system_->biot_coefficient(i);
+    const double mass = system_->fluid().density * system_->volume()[i];
+    pressure_slope_[i] = -pore_stress_slope_[i] / (alpha * alpha * mass);
   }
 }
 

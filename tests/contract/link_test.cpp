@@ -90,6 +90,38 @@ TEST(Link, ValueAndRateRunFromTheLastWindowsEndToThisOnes) {
   EXPECT_EQ(pair.told(1.0, {3.0, 2.0}), (Values{14.0, 26.0}));
 }
 
+/// What answers a total over the window answers what of it differs from the last window's pace.
+TEST(Link, ATotalBeginsEveryWindowAtNothing) {
+  const Line points{1};
+  Socket source({{"mass", "kg", PortDirection::in, PortKind::extensive},
+                 {"pressure", "Pa", PortDirection::out}},
+                points.set(), true);
+  Socket target({{"pressure", "Pa", PortDirection::in}}, points.set(), true);
+  Link link({"pores", &source, 1}, {"fluid", &target, 0}, true);
+  source.at[0].slope.clear();
+  link.use_slope(0);
+  link.start();
+  source.at[1].slope = {5.0};
+  const auto told = [&](double before, double mass) {
+    const Socket::Values& in = target.at[0];
+    return in.value[0] - in.rate[0] * before + in.slope[0] * mass;
+  };
+  link.predict(2.0);
+  source.at[0].value = {8.0};  // 4 a second
+  source.at[1].value = {10.0};
+  link.collect(2.0);
+  link.deliver();
+  EXPECT_EQ(told(0.0, 8.0), 10.0) << "the same window again";
+  EXPECT_EQ(told(2.0, 0.0), 0.0) << "its beginning";
+
+  link.accept();
+  link.predict(1.0);
+  link.deliver();
+  EXPECT_EQ(told(1.0, 0.0), 10.0);
+  EXPECT_EQ(told(0.0, 4.0), 15.0) << "at the pace of the last window";
+  EXPECT_EQ(told(0.0, 4.5), 17.5);
+}
+
 TEST(Link, AWindowOfNoLengthHasNoRate) {
   Pair pair;
   pair.source.at[1].value = {10.0, 20.0};
