@@ -60,6 +60,9 @@ void Link::predict(double length) {
     accepted_.output_rate.assign(accepted_.output.size(), 0.0);
     accepted_.counter_rate.assign(accepted_.counter.size(), 0.0);
   }
+  if (counter_ && source_.module->ports()[*counter_].kind == PortKind::extensive) {
+    std::ranges::fill(accepted_.counter, 0.0);  // a total over the window grows from nothing
+  }
   read_slope();
   form_value(accepted_);
   if (kind_ == PortKind::extensive) {
@@ -107,12 +110,6 @@ void Link::collect(double length) {
   }
   form_value(reached_);
   if (lagged_) compare();
-}
-
-void Link::accept() {
-  std::swap(accepted_, reached_);
-  if (!counter_ || source_.module->ports()[*counter_].kind == PortKind::intensive) return;
-  std::ranges::fill(accepted_.counter, 0.0);
 }
 
 void Link::relax(std::span<const double> value, double length) {

@@ -87,7 +87,7 @@ class Link {
   void relax(std::span<const double> value, double length);
 
   /// The window stands: what was collected is what the next one begins with.
-  void accept();
+  void accept() { std::swap(accepted_, reached_); }
 
   /// The fields that the next window depends on.
   void visit_state(StateVisitor& visitor);

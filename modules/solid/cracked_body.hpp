@@ -111,7 +111,7 @@ class CrackedBody {
   Eigen::VectorXd load_;          ///< of those solved for
   Eigen::VectorXd intact_move_;   ///< what it does to the body with its first cracks
   std::vector<double> gradient_;  // workspace
-  Eigen::VectorXd loaded_;       ///< what it does now, on the condensed unknowns
+  Eigen::VectorXd loaded_;        ///< what it does now, on the condensed unknowns
   Eigen::VectorXd opening_;       ///< by load and relief, without pressure
 };
 
