@@ -50,7 +50,9 @@ class CrackedBody {
     std::vector<bool> closed;
   };
   Faces faces(const Eigen::VectorXd& pressure) const;
-  /// d(opening)/d(pressure) with these faces closed [m/Pa].
+  /// d(opening)/d(pressure) with all faces open [m/Pa].
+  const Eigen::MatrixXd& compliance() const { return compliance_; }
+  /// The same with these faces closed.
   Eigen::MatrixXd compliance(const std::vector<bool>& closed) const;
 
   /// All unknowns without what is prescribed, under the load and a pressure on the faces [m].

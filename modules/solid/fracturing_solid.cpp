@@ -282,8 +282,11 @@ double FracturingSolid::readiness(const Tip& tip, double t) {
   const CrackTip& at = tip.at;
   const IsotropicElasticity<2>& law = cracked_.elastic().law(body_->nearest_point(at.place));
   const double shear = law.shear_modulus, lame = law.lame_lambda;
+  // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
+  // what counts is the mean of its beginning and end.
+  const double needed = wet() ? 2.0 / (1.0 + tip.relief * tip.relief) : 1.0;
   const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
-                       material_.fracture_energy};
+                       needed * material_.fracture_energy};
   if (!crack_viscosity_.empty() && at.before >= 0 && crack_viscosity_[at.before] > 0.0) {
     const CrackFacet<2>& facet = bonds_.facets()[at.before];
     const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
@@ -295,7 +298,18 @@ double FracturingSolid::readiness(const Tip& tip, double t) {
   find_unknowns();
   const TipLoad load = energy_release_.at(at, unknowns_, faces_.pressure);
   if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
-  return std::sqrt(load.energy_release / material_.fracture_energy);
+  return std::sqrt(load.energy_release / tip_law.fracture_energy);
+}
+
+/// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
+/// changes as it does K_I.
+double FracturingSolid::intensity_at_fixed_volume(Index facet) const {
+  const Eigen::VectorXd opening = cracked_.compliance().rowwise().sum();
+  double volume = 0.0;
+  for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
+    volume += cracked_.jumps()[f].length * opening[f];
+  }
+  return opening[facet] / volume;
 }
 
 double FracturingSolid::find_readiness(double t) {
@@ -308,11 +322,10 @@ double FracturingSolid::find_readiness(double t) {
 }
 
 double FracturingSolid::conclude(const TimeWindow& window) {
-  const bool wet = !crack_pressure_.empty();
   double most = find_readiness(window.end);
   // Shorter windows than this, of the time since the last growth, would not tell.
   const bool can_cut = window.length() > 1e-4 * (window.end - last_growth_);
-  if (wet && most > 1.0 + late && can_cut) {
+  if (wet() && most > 1.0 + late && can_cut) {
     const double share = (1.0 - readiness_before_) / (most - readiness_before_);
     return window.begin + std::clamp(share, 0.05, 0.95) * window.length();
   }
@@ -326,7 +339,7 @@ double FracturingSolid::conclude(const TimeWindow& window) {
     readiness_before_ = 0.0;
     solve_faces();
     book_work();
-    if (wet) break;
+    if (wet()) break;
     most = find_readiness(window.end);
   }
   return window.end;
@@ -338,6 +351,8 @@ void FracturingSolid::grow(Tip& tip, double t) {
   if (std::abs(turn) < straight) turn = 0.0;
   CrackFacet<2> facet = next_facet(tip.at, turn);
   const bool joined = joins(facet, tip.at, facet[1]);
+  const bool known = tip.at.before != no_facet;
+  const double before = known ? intensity_at_fixed_volume(tip.at.before) : 1.0;
   if (!cracked_.cut(facet)) {
     tip.grows = false;
     return;
@@ -347,6 +362,7 @@ void FracturingSolid::grow(Tip& tip, double t) {
   crack_length_ += jump.length;
   tip.at = {facet[1], jump.tangent, static_cast<Index>(bonds_.facets().size()) - 1, tip.at.facet};
   tip.since = t;
+  tip.relief = known ? std::min(1.0, intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
   tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
 }
 
@@ -371,14 +387,14 @@ void FracturingSolid::visit_tips(StateVisitor& visitor) {
   std::vector<std::int64_t> indices;
   for (const Tip& tip : tips_) {
     numbers.insert(numbers.end(), {tip.at.place[0], tip.at.place[1], tip.at.direction[0],
-                                   tip.at.direction[1], tip.since});
+                                   tip.at.direction[1], tip.since, tip.relief});
     indices.insert(indices.end(), {tip.at.facet, tip.at.before, tip.grows});
   }
   visitor.visit("tips", numbers);
   visitor.visit("tip_facets", indices);
   tips_.resize(indices.size() / 3);
   for (std::size_t k = 0; k < tips_.size(); ++k) {
-    const double* const n = &numbers[5 * k];
+    const double* const n = &numbers[6 * k];
     const std::int64_t* const i = &indices[3 * k];
     tips_[k] = {{{n[0], n[1]}, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
                 n[4],

@@ -68,14 +68,18 @@ class FracturingSolid final : public PhysicsModule {
 
   struct Tip {
     CrackTip at;
-    double since;            ///< when it came there [s]
-    bool grows;              ///< some bond lies ahead
+    double since;  ///< when it came there [s]
+    bool grows;    ///< some bond lies ahead
+    /// K_I under fluid of fixed volume, over that before the last step: falls as the crack grows.
+    double relief = 1.0;
     double readiness = 0.0;  ///< how close it is to growth: 1 at it
   };
 
+  bool wet() const { return !crack_pressure_.empty(); }  ///< fluid may be in the cracks
   void find_seed_tips();
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
   double readiness(const Tip& tip, double t);
+  double intensity_at_fixed_volume(Index facet) const;
   /// Of all tips; returns the largest.
   double find_readiness(double t);
   void grow(Tip& tip, double t);

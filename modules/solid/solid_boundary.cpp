@@ -142,7 +142,8 @@ Eigen::SparseMatrix<double> SolidBoundary<D>::free_unknowns(
   std::vector<Eigen::Triplet<double>> entries;
   Index column = 0;
   for (Index u = 0; u < displacements; ++u) {
-    if (holders[u] < 0) entries.emplace_back(u, column++, 1.0);
+    const bool pinned = std::ranges::find(pinned_, u) != pinned_.end();
+    if (holders[u] < 0 && !pinned) entries.emplace_back(u, column++, 1.0);
   }
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (faces_[f].kind != Kind::rigid_plate) continue;

@@ -41,6 +41,9 @@ class SolidBoundary {
   /// A uniform pressure that presses on a face that is free otherwise, plane or sphere [Pa]. A
   /// sphere takes it only where all plane faces of the body are mirrored.
   void pressure(int face, double pressure, Schedule schedule = {});
+  /// One component of one point stays where it is: against a motion that nothing else resists, of a
+  /// body whose loads balance.
+  void pin(Index point, int axis) { pinned_.push_back(axis * body_->points().size() + point); }
   /// A uniform force per volume [N/m^3].
   void body_force(const Vector<D>& force, Schedule schedule = {});
   /// The weight of a rock of this density [kg/m^3] in this field [m/s^2].
@@ -96,6 +99,7 @@ class SolidBoundary {
 
   const Body<D>* body_;
   std::vector<Condition> faces_;
+  std::vector<Index> pinned_;  ///< unknowns
   std::vector<BodyForce> body_forces_;
 };
 

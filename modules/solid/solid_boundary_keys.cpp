@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/geometry/face_conditions.hpp"
 #include "core/time/schedule.hpp"
 
@@ -51,6 +53,17 @@ KeyTable solid_boundary_keys() {
        .required = true,
        .when = "type=rigid_plate",
        .meaning = "Force that presses the plate on the body."},
+      {.path = "pins[].at",
+       .type = KeyType::vector,
+       .unit = "m",
+       .required = true,
+       .meaning = "Place of a point, the nearest, that keeps one displacement at 0, where loads "
+                  "balance and nothing else would hold the body."},
+      {.path = "pins[].axis",
+       .type = KeyType::word,
+       .required = true,
+       .words = {"x", "y", "z"},
+       .meaning = "Which one."},
       {.path = "body_force",
        .type = KeyType::vector,
        .unit = "N/m^3",
@@ -124,6 +137,16 @@ void check_sphere_pressure(const Section& section, const FaceCondition& conditio
 }
 
 template <int D>
+void read_pins(const Section& section, const Body<D>& body, SolidBoundary<D>& boundary) {
+  for (std::size_t k = 0; k < section.count("pins"); ++k) {
+    const std::string path = fmt::format("pins[{}]", k);
+    const int axis = section.word(path + ".axis")[0] - 'x';
+    if (axis >= D) section.fail(path + ".axis", "'z' in 2D", "x or y");
+    boundary.pin(body.nearest_point(read_vector<D>(section, path + ".at")), axis);
+  }
+}
+
+template <int D>
 void read_body_force(const Section& section, SolidBoundary<D>& boundary) {
   const auto force = read_vector<D>(section, "body_force");
   const Schedule schedule = read_schedule_of(section, "body_force_schedule", force == Vector<D>{});
@@ -151,6 +174,7 @@ SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body
   for (const FaceCondition& condition : conditions) {
     check_sphere_pressure(section, condition, body.faces(), boundary.mirrored());
   }
+  read_pins(section, body, boundary);
   read_body_force(section, boundary);
   read_gravity(section, boundary);
   return boundary;
