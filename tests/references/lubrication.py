@@ -46,6 +46,7 @@ class Crack:
     rate: Callable[[float], float]  # [m^2/s] at zero pressure
     cavity: float = 0.0  # [m^2]
     lag: bool = False
+    stops: bool = True  # never grows shorter, K < K_IC then
 
 
 @dataclass
@@ -87,10 +88,10 @@ def graded_faces(cells: int, smallest: float) -> Array:
 
 
 class Arrival:
-    """When the front came to x: the straight line through the steps taken, a power law before."""
+    """When the front came to x: straight lines through the steps taken, front ~ t^(2/3) before."""
 
-    def __init__(self, state: State, power: float):
-        self.front, self.time, self.power = [state.front], [state.time], power
+    def __init__(self, state: State):
+        self.front, self.time = [state.front], [state.time]
 
     def add(self, state: State) -> None:
         if state.front > self.front[-1]:
@@ -103,18 +104,17 @@ class Arrival:
         if now.front > fronts[-1]:
             fronts.append(now.front)
             times.append(now.time)
-        early = times[0] * (np.minimum(x, fronts[0]) / fronts[0]) ** (1 / self.power)
+        early = times[0] * (np.minimum(x, fronts[0]) / fronts[0]) ** 1.5
         arrival = np.where(x < fronts[0], early, np.interp(x, fronts, times))
         return twice_rate * np.sqrt(np.maximum(now.time - arrival, 0))
 
 
 class March:
-    def __init__(self, crack: Crack, start: State, faces: Array, growth_power: float = 2 / 3):
-        """`start.pressure`: one for the cavity and one for each cell. `growth_power`: length over
-        time before the start, for leak-off."""
+    def __init__(self, crack: Crack, start: State, faces: Array):
+        """`start.pressure`: one for the cavity and one for each cell."""
         self.crack, self.state, self.faces = crack, start, faces
         self.points = np.sort(np.concatenate((faces, (faces[1:] + faces[:-1]) / 2)))
-        self.arrival = Arrival(start, growth_power)
+        self.arrival = Arrival(start)
         self.history = History()
         self.stored = [self.mass(start, *self.elastic(start), start.pressure[:, None])[:, 0]]
         self.fronts, self.times = [start.front], [start.time]
@@ -157,7 +157,9 @@ class March:
         flux = -face_density * conductivity[:-1] * np.diff(p, axis=0) / np.diff(centres)[:, None]
         carried = face_density * opening[:-1] + self.leaked(state)[:-1:2, None]
         flux -= carried * (self.faces[:-1] * speed)[:, None]
-        flux = np.vstack((np.full(p.shape[1], crack.rate(state.time)), flux, np.zeros(p.shape[1])))
+        left_behind = -self.leaked(state)[-1] * speed  # nothing while the front advances
+        ends = [np.full((1, p.shape[1]), v) for v in (crack.rate(state.time), left_behind)]
+        flux = np.vstack((ends[0], flux, ends[1]))
         balance = weights[0] * mass + stored + np.diff(flux, axis=0)
 
         if crack.lag:
@@ -233,7 +235,7 @@ class March:
     def step(self, step: float) -> None:
         old = self.state
         new = self.solve(step)
-        if self.growing and new.length < old.length * (1 - 1e-9):
+        if self.crack.stops and self.growing and new.length < old.length:
             self.growing = False
             new = self.solve(step)
         elif not self.growing:
