@@ -45,6 +45,7 @@ class Crack:
     toughness: float
     rate: Callable[[float], float]  # [m^2/s] at zero pressure
     cavity: float = 0.0  # [m^2]
+    cavity_wall: float = 0.0  # [m] of it leak, from time zero
     lag: bool = False
     stops: bool = True  # never grows shorter, K < K_IC then
 
@@ -64,7 +65,8 @@ class State:
 @dataclass
 class History:
     rows: list[tuple[float, ...]] = field(default_factory=list)
-    names = ("time", "length", "pressure", "opening", "lag", "volume", "leak_off", "intensity")
+    names = ("time", "length", "pressure", "opening", "lag", "volume", "leak_off", "mean_pressure",
+             "intensity")  # fmt: skip
 
     def column(self, name: str) -> Array:
         return np.array(self.rows)[:, self.names.index(name)]
@@ -131,6 +133,9 @@ class March:
             return np.zeros_like(self.points)
         return self.arrival.leaked(self.points * state.front, state, 2 * self.crack.fluid.leak_off)
 
+    def leaked_from_cavity(self, state: State) -> float:
+        return self.crack.cavity_wall * self.crack.fluid.leak_off * np.sqrt(state.time)
+
     def mass(self, state: State, G: Array, g: Array, p: Array) -> Array:
         """Of cavity and cells, leaked fluid included, over the density at zero pressure."""
         response = G @ p + g[:, None]
@@ -138,7 +143,8 @@ class March:
         widths = np.diff(self.faces)[:, None] * state.front
         mean = lambda v: (v[:-1:2] + 4 * v[1::2] + v[2::2]) / 6
         cells = widths * (density[1:] * mean(response[1:-1]) + mean(self.leaked(state)[:, None]))
-        return np.vstack((density[:1] * (self.crack.cavity + response[:1]), cells))
+        cavity = density[:1] * (self.crack.cavity + response[:1]) + self.leaked_from_cavity(state)
+        return np.vstack((cavity, cells))
 
     def residual(self, state: State, G: Array, g: Array, p: Array, step: float) -> Array:
         """Of all equations, for each column of p."""
@@ -261,7 +267,9 @@ class March:
         cells = lambda v: widths @ (v[:-1:2] + 4 * v[1::2] + v[2::2]) / 6
         self.history.rows.append(
             (state.time, state.length, state.pressure[0], response[1], state.lag,
-             cells(response[1:-1]), cells(self.leaked(state)), response[-1])
+             cells(response[1:-1]),
+             cells(self.leaked(state)) + self.leaked_from_cavity(state),
+             np.diff(self.faces) @ state.pressure[1:], response[-1])
         )  # fmt: skip
 
     def run(self, end: float, step: float, change: float = 0.02) -> History:

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Hydraulic fracture growing straight down from the notch of a rectangular specimen, with viscous
+flow and fluid lag: length, inlet pressure and opening, lag and leaked volume over time.
+
+Elasticity: the weight functions of this specimen, plate.py. Flow: lubrication.py. The crack begins
+as a slit; its length counts from the notch's floor. The notch is full of fluid at zero pressure at
+time zero, its walls carry the inlet pressure and its growth takes fluid in (`--notch dry`: no fluid
+and no pressure in it). Until K_I reaches K_IC the pressure is uniform over notch and slit.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from dataclasses import dataclass, replace
+from typing import Callable
+
+import numpy as np
+
+from lubrication import Array, Crack, Fluid, History, March, State, graded_faces
+from plate import Plate, WeightFunctions, shape, weight_functions
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(32)
+NODES, WEIGHTS = (NODES + 1) / 2, WEIGHTS / 2
+
+
+@dataclass
+class EdgeCrack:
+    """Openings and K_I of a crack from its weight functions: w(x) = (2/E') int_x^l m(x, c) K(c) dc."""
+
+    functions: WeightFunctions
+    lateral: float  # stress on left and right [Pa]
+    vertical: float  # on top and bottom
+    wet_notch: bool = True
+
+    def intensity(self, c: Array, faces: Array) -> tuple[Array, Array]:
+        """K_I of the part s < c under each unit pressure, notch first; under the outer stresses."""
+        terms = np.concatenate((np.ones((len(c), 1)), self.functions.terms(c)), axis=1)
+        ahead = np.maximum(c[:, None] - faces, 0)
+        share, power, to_face = ahead / c[:, None], np.sqrt(ahead), 0.0
+        for k in range(terms.shape[1]):
+            to_face = to_face + terms[:, k, None] * power / (k + 0.5)
+            power = power * share
+        unit = self.functions.unit(c) * np.sqrt(c)[:, None]
+        by_pressure = np.empty((len(c), len(faces)))
+        by_pressure[:, 0] = unit[:, 0] * self.wet_notch
+        by_pressure[:, 1:] = -np.sqrt(2 / np.pi) * np.diff(to_face, axis=1)
+        return by_pressure, unit[:, 1] * self.lateral + unit[:, 2] * self.vertical
+
+    def matrix(self, points: Array, faces: Array, length: float) -> tuple[Array, Array]:
+        if length > self.functions.terms.x[-1]:
+            raise ValueError(f"crack of {length:g} m is longer than the weight functions know")
+        compliance = 2 / self.functions.plate.modulus
+        beyond = (length - points)[:, None]
+        c = points[:, None] + beyond * NODES**2  # takes the singularity of m away
+        u = points[:, None] / c
+        M = shape(self.functions.terms(c.ravel()), u.ravel()).reshape(c.shape)
+        weight = compliance * 2 * np.sqrt(2 * np.maximum(beyond, 0) / np.pi) * WEIGHTS * M
+        G, g = np.zeros((len(points) + 2, len(faces))), np.zeros(len(points) + 2)
+        by_pressure, by_stress = self.intensity(c.ravel(), faces)
+        G[1:-1] = (weight[:, None, :] @ by_pressure.reshape(*c.shape, -1))[:, 0]
+        g[1:-1] = np.sum(weight * by_stress.reshape(c.shape), axis=1)
+
+        if self.wet_notch:
+            c = length * NODES**2
+            by_pressure, by_stress = self.intensity(c, faces)
+            weight = compliance * 2 * length * NODES * WEIGHTS * by_pressure[:, 0]
+            G[0], g[0] = weight @ by_pressure, weight @ by_stress
+            G[0, 0] += self.functions.notch_compliance
+        by_pressure, by_stress = self.intensity(np.array([length]), faces)
+        G[-1], g[-1] = by_pressure[0], by_stress[0]
+        return G, g
+
+
+@dataclass
+class Case:
+    energy: float  # Gc [J/m^2]
+    rate: float  # [m^2/s]
+    lateral: float  # [Pa]
+    vertical: float
+    viscosity: float = 1e-3
+    bulk_modulus: float = np.inf
+    slit: float = 0.004  # [m]
+    leak_off: float = 0.0  # C_L [m/s^(1/2)]
+    leaking_notch: bool = False
+    wet_notch: bool = True
+
+
+class Filling:
+    """Notch and slit under uniform pressure, before the crack grows."""
+
+    def __init__(self, case: Case, elasticity: EdgeCrack):
+        plate = elasticity.functions.plate
+        self.case = case
+        self.cavity = plate.notch_width * plate.notch_depth if case.wet_notch else 0.0
+        self.wall = (plate.notch_width + 2 * plate.notch_depth) if case.leaking_notch else 0.0
+        points = np.linspace(0, case.slit, 41)
+        G, self.by_stress = elasticity.matrix(points, np.array([0.0, 1.0]) * case.slit, case.slit)
+        self.by_pressure = G.sum(axis=1)
+
+    def response(self, pressure: float) -> tuple[float, float, float]:
+        """Notch's growth, slit's volume and opening at the mouth."""
+        values = np.maximum(self.by_pressure * pressure + self.by_stress, 0)
+        return values[0], self.case.slit / 40 * (np.sum(values[1:-1]) - values[1] / 2), values[1]
+
+    def leaked(self, time: float) -> float:
+        """As `March` takes it: the slit's share with the history that it assumes before its start."""
+        share = self.wall + 2 * 0.7925 * self.case.slit  # int (1 - x^1.5)^.5 dx
+        return 2 * self.case.leak_off * share * np.sqrt(time)
+
+    def pressure(self, time: float) -> float:
+        def surplus(p: float) -> float:
+            growth, slit, _ = self.response(p)
+            content = (1 + p / self.case.bulk_modulus) * (self.cavity + growth + slit)
+            return content - self.cavity - self.case.rate * time + self.leaked(time)
+
+        return bisect(surplus, 0.0, 1e9)
+
+    def row(self, time: float) -> tuple[float, ...]:
+        p = self.pressure(time)
+        _, slit, opening = self.response(p)
+        return time, self.case.slit, p, opening, 0.0, slit, self.leaked(time), p, np.nan
+
+
+def bisect(rising: Callable[[float], float], low: float, high: float) -> float:
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if rising(middle) < 0 else (low, middle)
+    return low
+
+
+def march(case: Case, elasticity: EdgeCrack, end: float, cells: int = 40, change: float = 0.02,
+          smallest: float = 1e-4) -> History:  # fmt: skip
+    faces, filling = graded_faces(cells, smallest), Filling(case, elasticity)
+    toughness = np.sqrt(case.energy * elasticity.functions.plate.modulus)
+    G, g = elasticity.matrix(faces, np.array([0.0, 0.98, 1.0]) * case.slit, case.slit)
+    pressure = (toughness - g[-1]) / (G[-1, 0] + G[-1, 1])
+    growth = bisect(lambda t: filling.pressure(t) - pressure, 0.0, end)
+    start = State(growth, 0.98 * case.slit, 0.02 * case.slit, np.full(len(faces), pressure))
+    crack = Crack(elasticity, Fluid(case.viscosity, case.bulk_modulus, 2 * case.leak_off), toughness,
+                  lambda t: case.rate, filling.cavity, filling.wall, lag=True)  # fmt: skip
+    history = March(crack, start, faces).run(end, 1e-5 * growth, change)
+    history.rows[:0] = [filling.row(t) for t in np.linspace(0, growth, 42)[:-1]]
+    return history
+
+
+def carter_coefficient(pressure: float, *, young: float, poisson: float, permeability: float,
+                       viscosity: float, porosity: float, bulk_modulus: float) -> float:  # fmt: skip
+    """C_L into a poroelastic half-space, alpha = 1, that strains along the flow only."""
+    uniaxial = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
+    storage = porosity / bulk_modulus + 1 / uniaxial
+    return pressure * np.sqrt(permeability * storage / (np.pi * viscosity))
+
+
+def with_leak_off(case: Case, elasticity: EdgeCrack, end: float, coefficient: Callable[[float], float],
+                  **options) -> tuple[History, float]:  # fmt: skip
+    """The march, and the mean pressure on the crack's wet walls that its Carter coefficient takes."""
+    pressure = case.lateral
+    for _ in range(6):
+        history = march(replace(case, leak_off=coefficient(pressure)), elasticity, end, **options)
+        times = np.linspace(history.column("time")[41], end, 101)
+        mean = float(np.mean(history.at("mean_pressure", times)))
+        if abs(mean / pressure - 1) < 2e-3:
+            break
+        pressure = mean
+    return history, pressure
