@@ -46,6 +46,7 @@ class Crack:
     rate: Callable[[float], float]  # [m^2/s] at zero pressure
     cavity: float = 0.0  # [m^2]
     cavity_wall: float = 0.0  # [m] of it leak, from time zero
+    tight: float = 0.0  # walls nearer to the mouth do not leak, past 1.5 times that they do in full
     lag: bool = False
     stops: bool = True  # never grows shorter, K < K_IC then
 
@@ -66,7 +67,7 @@ class State:
 class History:
     rows: list[tuple[float, ...]] = field(default_factory=list)
     names = ("time", "length", "pressure", "opening", "lag", "volume", "leak_off", "mean_pressure",
-             "intensity")  # fmt: skip
+             "intensity", "content")  # fmt: skip
 
     def column(self, name: str) -> Array:
         return np.array(self.rows)[:, self.names.index(name)]
@@ -120,6 +121,7 @@ class March:
         self.history = History()
         self.stored = [self.mass(start, *self.elastic(start), start.pressure[:, None])[:, 0]]
         self.fronts, self.times = [start.front], [start.time]
+        self.longest = start.length
         self.growing = True
         self.record()
 
@@ -131,7 +133,10 @@ class March:
     def leaked(self, state: State) -> Array:
         if self.crack.fluid.leak_off == 0:
             return np.zeros_like(self.points)
-        return self.arrival.leaked(self.points * state.front, state, 2 * self.crack.fluid.leak_off)
+        x, twice_rate = self.points * state.front, 2 * self.crack.fluid.leak_off
+        if self.crack.tight > 0:
+            twice_rate = twice_rate * np.clip(2 * x / self.crack.tight - 2, 0, 1)
+        return self.arrival.leaked(x, state, twice_rate)
 
     def leaked_from_cavity(self, state: State) -> float:
         return self.crack.cavity_wall * self.crack.fluid.leak_off * np.sqrt(state.time)
@@ -176,7 +181,7 @@ class March:
         if self.growing:
             grow = response[-1] - crack.toughness
         else:
-            grow = np.full(p.shape[1], state.length - self.state.length)
+            grow = np.full(p.shape[1], state.length - self.longest)
         return np.vstack((balance, tip, grow))
 
     def difference_weights(self, step: float) -> tuple[float, ...]:
@@ -241,13 +246,11 @@ class March:
     def step(self, step: float) -> None:
         old = self.state
         new = self.solve(step)
-        if self.crack.stops and self.growing and new.length < old.length:
-            self.growing = False
-            new = self.solve(step)
-        elif not self.growing:
+        if self.crack.stops:
             G, g = self.elastic(new)
-            if (G @ new.pressure + g)[-1] > self.crack.toughness:
-                self.growing = True
+            held = new.length < self.longest
+            if self.growing == held and (held or (G @ new.pressure + g)[-1] > self.crack.toughness):
+                self.growing = not held
                 new = self.solve(step)
         change = abs(new.length - old.length) / old.length, abs(new.front - old.front) / old.front
         if max(change) > 0.06:
@@ -256,6 +259,7 @@ class March:
         self.fronts = [*self.fronts[-1:], new.front]
         self.times = [*self.times[-1:], new.time]
         self.arrival.add(new)
+        self.longest = max(self.longest, new.length)
         self.state = new
         self.record()
 
@@ -269,7 +273,8 @@ class March:
             (state.time, state.length, state.pressure[0], response[1], state.lag,
              cells(response[1:-1]),
              cells(self.leaked(state)) + self.leaked_from_cavity(state),
-             np.diff(self.faces) @ state.pressure[1:], response[-1])
+             np.diff(self.faces) @ state.pressure[1:], response[-1],
+             self.mass(state, G, g, state.pressure[:, None]).sum())
         )  # fmt: skip
 
     def run(self, end: float, step: float, change: float = 0.02) -> History:

@@ -175,18 +175,34 @@ def condense(mesh: Mesh, K, fixed: Array, loads: Array, axis: Array) -> tuple[Ar
     return S, loads[path] - coupling.T @ moved, loads[free].T @ moved
 
 
-def weight_functions(plate: Plate, fine: float = 2e-4) -> WeightFunctions:
+@dataclass
+class Axis:
+    """The path's nodes on the axis, all else condensed out."""
+
+    s: Array  # from the mouth [m]
+    stiffness: Array  # of half the plate
+    tractions: Array  # on the held axis, under unit pressure in the notch, lateral, vertical
+    forces: Array  # the same, nodal
+    notch_compliance: float  # growth of the notch [m^2] per pressure [Pa], no crack
+
+
+def axis_of(plate: Plate, fine: float) -> Axis:
     mesh = Mesh(plate, fine)
     K = mesh.stiffness()
-    axis = 2 * mesh.node(0, np.arange(mesh.floor_row + 1))
+    nodes = 2 * mesh.node(0, np.arange(mesh.floor_row + 1))
     loads = np.column_stack((mesh.notch(), mesh.lateral(), mesh.vertical()))
-    S, forces, moved = condense(mesh, K, held(mesh, plate.outer), loads, axis)
+    S, forces, moved = condense(mesh, K, held(mesh, plate.outer), loads, nodes)
     if plate.outer == "rollers":  # confined by stress, then held: the axis keeps the forces it had
-        forces[:, 1:] = condense(mesh, K, held(mesh, "stress"), loads, axis)[1][:, 1:]
+        forces[:, 1:] = condense(mesh, K, held(mesh, "stress"), loads, nodes)[1][:, 1:]
+    s = mesh.y[mesh.floor_row] - mesh.y[mesh.floor_row - np.arange(mesh.path_rows)]
+    return Axis(s, S, forces / mesh.shares(s)[:, None], forces, 2 * moved[0, 0])
 
+
+def weight_functions(plate: Plate, fine: float = 2e-4) -> WeightFunctions:
+    axis = axis_of(plate, fine)
+    s, S = axis.s, axis.stiffness
     factor = scipy.linalg.cholesky(S, lower=True)
     rows = scipy.linalg.solve_triangular(factor, np.eye(len(S)), lower=True)
-    s = mesh.y[mesh.floor_row] - mesh.y[mesh.floor_row - np.arange(mesh.path_rows)]
     step = np.diff(s)
     c = (s[1:] + s[:-1]) / 2
     m = rows[:-1] * np.sqrt(plate.modulus / step)[:, None]  # row j: node j released, tip in s_j, s_j+1
@@ -200,10 +216,10 @@ def weight_functions(plate: Plate, fine: float = 2e-4) -> WeightFunctions:
         terms.append(np.linalg.lstsq(powers * weight[:, None], (M - 1) * weight, rcond=None)[0])
         lengths.append(c[j])
     splines = CubicSpline(lengths, np.array(terms), axis=0)
-    tractions = CubicSpline(s[:-1], (forces / mesh.shares(s)[:, None])[:-1], axis=0)
+    tractions = CubicSpline(s[:-1], axis.tractions[:-1], axis=0)
     unit = np.array([intensity(tractions, splines, c) for c in lengths[1:]])
     unit = np.vstack((HALF_PLANE * np.sqrt(np.pi) * tractions(0.0), unit))
-    return WeightFunctions(plate, splines, CubicSpline(lengths, unit, axis=0), 2 * moved[0, 0])
+    return WeightFunctions(plate, splines, CubicSpline(lengths, unit, axis=0), axis.notch_compliance)
 
 
 def shape(terms: Array, u: Array) -> Array:

@@ -5,7 +5,17 @@ flow and fluid lag: length, inlet pressure and opening, lag and leaked volume ov
 Elasticity: the weight functions of this specimen, plate.py. Flow: lubrication.py. The crack begins
 as a slit; its length counts from the notch's floor. The notch is full of fluid at zero pressure at
 time zero, its walls carry the inlet pressure and its growth takes fluid in (`--notch dry`: no fluid
-and no pressure in it). Until K_I reaches K_IC the pressure is uniform over notch and slit.
+and no pressure in it). Until K_I reaches K_IC the pressure is uniform over notch and slit. The rate
+is a mass rate over the density at zero pressure.
+
+Outer faces. `stress`: constant lateral stress on left and right, vertical on top and bottom.
+`rollers`: the specimen is confined by these stresses, crack and slit closed; then left, right and
+bottom keep their normal displacement, the top its stress. All without friction. What the notch does
+not carry of the vertical stress, and its pressure, the bottom balances uniformly.
+
+Leak-off. Carter's law with C_L of the case's pore fluid at the mean pressure over the wet walls and
+over the time of growth (found by iteration); the slit's walls do not leak, the crack's do in full
+from 1.5 slit lengths on; the notch's walls with `--leaking-notch` only.
 """
 
 from __future__ import annotations
@@ -14,7 +24,7 @@ import argparse
 import csv
 import sys
 from dataclasses import dataclass, replace
-from typing import Callable
+from typing import Callable, Iterator
 
 import numpy as np
 
@@ -78,10 +88,9 @@ class Case:
     energy: float  # Gc [J/m^2]
     rate: float  # [m^2/s]
     lateral: float  # [Pa]
-    vertical: float
     viscosity: float = 1e-3
     bulk_modulus: float = np.inf
-    slit: float = 0.004  # [m]
+    slit: float = 0.004  # [m], it does not leak
     leak_off: float = 0.0  # C_L [m/s^(1/2)]
     leaking_notch: bool = False
     wet_notch: bool = True
@@ -105,9 +114,7 @@ class Filling:
         return values[0], self.case.slit / 40 * (np.sum(values[1:-1]) - values[1] / 2), values[1]
 
     def leaked(self, time: float) -> float:
-        """As `March` takes it: the slit's share with the history that it assumes before its start."""
-        share = self.wall + 2 * 0.7925 * self.case.slit  # int (1 - x^1.5)^.5 dx
-        return 2 * self.case.leak_off * share * np.sqrt(time)
+        return 2 * self.case.leak_off * self.wall * np.sqrt(time)
 
     def pressure(self, time: float) -> float:
         def surplus(p: float) -> float:
@@ -120,7 +127,7 @@ class Filling:
     def row(self, time: float) -> tuple[float, ...]:
         p = self.pressure(time)
         _, slit, opening = self.response(p)
-        return time, self.case.slit, p, opening, 0.0, slit, self.leaked(time), p, np.nan
+        return time, self.case.slit, p, opening, 0.0, slit, self.leaked(time), p, np.nan, np.nan
 
 
 def bisect(rising: Callable[[float], float], low: float, high: float) -> float:
@@ -139,7 +146,7 @@ def march(case: Case, elasticity: EdgeCrack, end: float, cells: int = 40, change
     growth = bisect(lambda t: filling.pressure(t) - pressure, 0.0, end)
     start = State(growth, 0.98 * case.slit, 0.02 * case.slit, np.full(len(faces), pressure))
     crack = Crack(elasticity, Fluid(case.viscosity, case.bulk_modulus, 2 * case.leak_off), toughness,
-                  lambda t: case.rate, filling.cavity, filling.wall, lag=True)  # fmt: skip
+                  lambda t: case.rate, filling.cavity, filling.wall, case.slit, lag=True)  # fmt: skip
     history = March(crack, start, faces).run(end, 1e-5 * growth, change)
     history.rows[:0] = [filling.row(t) for t in np.linspace(0, growth, 42)[:-1]]
     return history
@@ -156,12 +163,96 @@ def carter_coefficient(pressure: float, *, young: float, poisson: float, permeab
 def with_leak_off(case: Case, elasticity: EdgeCrack, end: float, coefficient: Callable[[float], float],
                   **options) -> tuple[History, float]:  # fmt: skip
     """The march, and the mean pressure on the crack's wet walls that its Carter coefficient takes."""
-    pressure = case.lateral
+    pressure = 1.4 * case.lateral
     for _ in range(6):
         history = march(replace(case, leak_off=coefficient(pressure)), elasticity, end, **options)
         times = np.linspace(history.column("time")[41], end, 101)
         mean = float(np.mean(history.at("mean_pressure", times)))
-        if abs(mean / pressure - 1) < 2e-3:
+        if abs(mean / pressure - 1) < 5e-3:
             break
         pressure = mean
     return history, pressure
+
+
+ROCKS = {
+    "storage": dict(young=700e6, energy=5.0, rate=1.6e-4, lateral=0.21e6, permeability=0.0),
+    "leak-off": dict(young=4e9, energy=2.0, rate=0.8e-4, lateral=0.9e6, permeability=1.02e-14),
+}
+COLUMNS = ("time", "length", "pressure", "opening", "lag", "volume", "leak_off")
+
+
+def rows(history: History, end: float, step: float) -> Iterator[list[str]]:
+    for time in np.arange(0, end + step / 2, step):
+        yield [f"{time:.6g}", *(f"{history.at(name, time):.5g}" for name in COLUMNS[1:])]
+
+
+def results(rock: dict, outer: str, bulk_modulus: float, end: float, fine: float, *,
+            wet_notch: bool = True, leaking_notch: bool = False, vertical: float | None = None,
+            lateral: float | None = None, **options) -> tuple[History, History | None, float]:  # fmt: skip
+    """Without leak-off, with it if the rock is permeable, and the pressure of its C_L."""
+    lateral = rock["lateral"] if lateral is None else lateral
+    vertical = lateral / 2 if vertical is None else vertical
+    functions = weight_functions(Plate(young=rock["young"], outer=outer), fine)
+    elasticity = EdgeCrack(functions, lateral, vertical, wet_notch)
+    case = Case(rock["energy"], rock["rate"], lateral, bulk_modulus=bulk_modulus,
+                leaking_notch=leaking_notch, wet_notch=wet_notch)  # fmt: skip
+    plain = march(case, elasticity, end, **options)
+    if rock["permeability"] == 0:
+        return plain, None, 0.0
+
+    def coefficient(pressure: float) -> float:
+        return carter_coefficient(pressure, young=rock["young"], poisson=0.25, viscosity=case.viscosity,
+                                  permeability=rock["permeability"], porosity=0.1,
+                                  bulk_modulus=bulk_modulus)  # fmt: skip
+
+    return plain, *with_leak_off(case, elasticity, end, coefficient, **options)
+
+
+def tables(name: str, writer, end: float, step: float, fine: float, **options) -> None:
+    """Both kinds of outer face, fluids of 22 MPa, 2.2 GPa and (storage) no compressibility."""
+    leaking = name == "leak-off"
+    more = ("length_without_leak_off", "leak_off_pressure") if leaking else ()
+    writer.writerow(("outer", "bulk_modulus", *COLUMNS, *more))
+    for outer in ("stress", "rollers"):
+        for bulk_modulus in (22e6, 2.2e9) if leaking else (22e6, 2.2e9, np.inf):
+            plain, leaky, pressure = results(ROCKS[name], outer, bulk_modulus, end, fine, **options)
+            for row in rows(leaky or plain, end, step):
+                without = (f"{plain.at('length', float(row[0])):.5g}", f"{pressure:.4g}")
+                writer.writerow((outer, f"{bulk_modulus:g}", *row, *(without if leaking else ())))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--case", choices=ROCKS, default="storage")
+    parser.add_argument("--outer", choices=("stress", "rollers"), default="stress")
+    parser.add_argument("--bulk-modulus", type=float, default=np.inf, help="of the fluid [Pa]")
+    parser.add_argument("--lateral", type=float, help="stress on left and right [Pa]")
+    parser.add_argument("--vertical", type=float, help="on top and bottom [Pa], else half the lateral")
+    parser.add_argument("--notch", choices=("wet", "dry"), default="wet")
+    parser.add_argument("--leaking-notch", action="store_true")
+    parser.add_argument("--end", type=float, default=0.1, help="[s]")
+    parser.add_argument("--step", type=float, default=1e-3, help="between rows [s]")
+    parser.add_argument("--cells", type=int, default=24)
+    parser.add_argument("--fine", type=float, default=1e-4, help="element at the mouth [m]; 5 times it on the path")
+    parser.add_argument("--table", action="store_true", help="all variants of the case")
+    parser.add_argument("--test", action="store_true", help="verify this script")
+    a = parser.parse_args()
+    if a.test:
+        for name, test in list(globals().items()):
+            if name.startswith("test_"):
+                test()
+        return
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    if a.table:
+        return tables(a.case, writer, a.end, a.step, a.fine, cells=a.cells)
+    plain, leaky, pressure = results(
+        ROCKS[a.case], a.outer, a.bulk_modulus, a.end, a.fine, wet_notch=a.notch == "wet",
+        leaking_notch=a.leaking_notch, lateral=a.lateral, vertical=a.vertical, cells=a.cells)  # fmt: skip
+    if leaky:
+        print(f"# C_L at {pressure:.4g} Pa; length without leak-off {plain.rows[-1][1]:.5g} m", file=sys.stderr)
+    writer.writerow(COLUMNS)
+    writer.writerows(rows(leaky or plain, a.end, a.step))
+
+
+if __name__ == "__main__":
+    main()
