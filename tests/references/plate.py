@@ -68,18 +68,18 @@ class Mesh:
     """Half of the plate: x from the axis, y up from the bottom; no elements in the notch."""
 
     def __init__(self, plate: Plate, fine: float):
-        """`fine`: cell at the mouth; five times that further on."""
+        """`fine`: twice the cell at the mouth, a fifth of the cells further down the path."""
         self.plate = plate
         half, floor = plate.width / 2, plate.height - plate.notch_depth
         if plate.notch_depth > 0:
-            inner = spacing(plate.notch_width / 2, fine, 1.1, 2 * fine)
+            inner = spacing(plate.notch_width / 2, fine / 2, 1.1, 2 * fine)
             outer = spacing(half - plate.notch_width / 2, inner[-1] - inner[-2], 1.1, half / 30)
             self.x = np.concatenate((inner, plate.notch_width / 2 + outer[1:]))
-            above = floor + spacing(plate.notch_depth, fine, 1.15, plate.notch_depth / 8)
+            above = floor + spacing(plate.notch_depth, fine / 2, 1.15, plate.notch_depth / 8)
         else:
-            self.x = spacing(half, fine, 1.1, half / 30)
+            self.x = spacing(half, fine / 2, 1.1, half / 30)
             above = np.array([floor])
-        path = spacing(plate.longest, fine, 1.05, 5 * fine)
+        path = spacing(plate.longest, fine / 2, 1.07, 5 * fine)
         rest = spacing(floor - plate.longest, 5 * fine, 1.15, plate.height / 40)
         below = floor - np.concatenate((path, plate.longest + rest[1:]))
         self.y = np.concatenate((below[::-1], above[1:]))
@@ -207,8 +207,8 @@ def weight_functions(plate: Plate, fine: float = 2e-4) -> WeightFunctions:
     c = (s[1:] + s[:-1]) / 2
     m = rows[:-1] * np.sqrt(plate.modulus / step)[:, None]  # row j: node j released, tip in s_j, s_j+1
     lengths, terms = [0.0], [np.array([0.6147, 0.2502] + [0.0] * (TERMS - 2))]  # Bueckner 1970
-    for j in range(20, len(c)):
-        points = slice(0, j - 5)  # the nodes next to the tip see the elements
+    for j in range(14, len(c)):
+        points = slice(0, j - 4)  # the nodes next to the tip see the elements
         u = s[points] / c[j]
         M = m[j, points] * np.sqrt(np.pi * (c[j] - s[points]) / 2)
         weight = np.sqrt(np.gradient(u))

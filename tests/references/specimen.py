@@ -27,9 +27,11 @@ from dataclasses import dataclass, replace
 from typing import Callable, Iterator
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
+from kgd import ROCK, solve
 from lubrication import Array, Crack, Fluid, History, March, State, graded_faces
-from plate import Plate, WeightFunctions, shape, weight_functions
+from plate import TERMS, Mesh, Plate, WeightFunctions, axis_of, shape, weight_functions
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(32)
 NODES, WEIGHTS = (NODES + 1) / 2, WEIGHTS / 2
@@ -221,6 +223,132 @@ def tables(name: str, writer, end: float, step: float, fine: float, **options) -
                 writer.writerow((outer, f"{bulk_modulus:g}", *row, *(without if leaking else ())))
 
 
+# Checks, run by --test
+
+
+def check(what: str, value: float, expected: float, tolerance: float) -> None:
+    print(f"{what:62s} {value:11.5g} expected {expected:10.5g}, {value / expected - 1:+.2e}")
+    assert abs(value / expected - 1) <= tolerance, what
+
+
+def strip_factor(x: float) -> float:
+    """K_I/(p (pi a)^(1/2)) of an edge crack a = x W in a long strip in tension (Tada, within .5 %)."""
+    angle = np.pi * x / 2
+    top = 0.752 + 2.02 * x + 0.37 * (1 - np.sin(angle)) ** 3
+    return np.sqrt(np.tan(angle) / angle) * top / np.cos(angle)
+
+
+def test_strip() -> None:
+    """Crack of unit pressure, and unit tension far away, in a plate four times as long as wide."""
+    long = weight_functions(Plate(width=0.8, notch_depth=0.0, longest=0.16), 4e-4)
+    edge = EdgeCrack(long, 1.0, 0.0)
+    for x in (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6):
+        a = 0.2 * x
+        by_pressure, by_stress = edge.intensity(np.array([a]), np.array([0.0, a]))
+        root = np.sqrt(np.pi * a)
+        check(f"strip, a/W {x}: K_I of pressure", by_pressure[0, 1] / root, strip_factor(x), 1e-2)
+        check(f"strip, a/W {x}: K_I of tension", -by_stress[0] / root, strip_factor(x), 1e-2)
+
+
+def test_compliance() -> None:
+    """Openings and notch put together from weight functions against one solve of the same elements."""
+    plate = Plate()
+    axis, functions = axis_of(plate, 2e-4), weight_functions(plate, 2e-4)
+    edge, faces = EdgeCrack(functions, 1.0, 0.5), np.array([0.0, 0.025, 0.05])
+    last = int(np.searchsorted(axis.s, 0.05))
+    length = axis.s[last]  # the first node held
+    faces *= length / faces[-1]
+    wide = Mesh.shares(axis.s)
+    loads = np.column_stack((axis.forces[:, 0], wide * (axis.s < faces[1]), wide * (axis.s >= faces[1]),
+                             axis.forces[:, 1] + 0.5 * axis.forces[:, 2]))[:last]  # fmt: skip
+    moved = 2 * np.linalg.solve(axis.stiffness[:last, :last], loads)
+    G, g = edge.matrix(axis.s[:last], faces, length)
+    for node in (0, np.searchsorted(axis.s, 0.02)):
+        for what, value, expected in (("notch", G[node + 1, 0], moved[node, 0]),
+                                      ("whole crack", G[node + 1, 1:].sum(), moved[node, 1:3].sum()),
+                                      ("stresses", g[node + 1], moved[node, 3])):  # fmt: skip
+            check(f"opening at {axis.s[node] * 1e3:.0f} mm under {what}", value, expected, 2e-2)
+    volume = axis.notch_compliance + axis.forces[:last, 0] @ moved[:, 0]
+    check("volume of the notch under its own pressure", G[0, 0], volume, 2e-2)
+
+    faces = np.linspace(0, 0.05, 26)
+    points = np.sort(np.concatenate((faces, (faces[1:] + faces[:-1]) / 2)))
+    G, _ = edge.matrix(points, faces, 0.05)
+    parts = np.vstack((G[0], (G[1:-1:2][:-1] + 4 * G[2:-1:2] + G[3:-1:2]) / 6 * 0.002))
+    shapes = np.zeros((26, 3))  # the notch alone, the crack uniformly, the crack more and more
+    shapes[0, 0], shapes[1:, 1], shapes[1:, 2] = 1, 1, faces[1:] / 0.05
+    work = shapes.T @ parts @ shapes
+    scale = np.sqrt(np.outer(np.diag(work), np.diag(work)))
+    print(f"asymmetry of the compliance (Maxwell) {np.abs((work - work.T) / scale).max():.1e}")
+    assert np.abs((work - work.T) / scale).max() < 2e-3
+
+
+@dataclass
+class Unbounded:
+    """Stands in for the weight functions: two wings in an infinite body, M = (2/(1 + s/c))^(1/2)."""
+
+    plate: Plate
+    notch_compliance: float = 0.0
+
+    def __post_init__(self) -> None:
+        u = np.linspace(0, 1, 201)
+        powers = (1 - u)[:, None] ** np.arange(1, TERMS + 1)
+        fitted = np.linalg.lstsq(powers, np.sqrt(2 / (1 + u)) - 1, rcond=None)[0]
+        self.terms = CubicSpline((0.0, 100.0), np.array((fitted, fitted)))
+        unit = np.array((0.0, -np.sqrt(np.pi), 0.0))
+        self.unit = CubicSpline((0.0, 100.0), np.array((unit, unit)))
+
+
+def test_flow() -> None:
+    """The marches of kgd.py, whose kernel is in closed form."""
+    options = dict(ROCK, cells=20, smallest=1e-4)
+    for lag, stress in ((False, 0.0), (True, 0.21e6)):
+        body = EdgeCrack(Unbounded(Plate()), stress, 0.0, wet_notch=False)
+        mine = solve(**options, lag=lag, stress=stress, body=body).rows[-1]
+        theirs = solve(**options, lag=lag, stress=stress).rows[-1]
+        for name, column in (("length", 1), ("pressure", 2), ("opening", 3)):
+            check(f"infinite body, lag {lag}: {name}", mine[column], theirs[column], 2e-3)
+
+
+def test_convergence() -> None:
+    """Storage case, 22 MPa: mesh of the plate, cells and steps of the flow, one at a time."""
+    case = Case(5.0, 1.6e-4, 0.21e6, bulk_modulus=22e6)
+    histories = {}
+    for outer in ("stress", "rollers"):
+        for fine, cells, change in ((4e-4, 16, 0.03), (2e-4, 16, 0.03), (4e-4, 32, 0.015)):
+            functions = weight_functions(Plate(outer=outer), fine)
+            h = march(case, EdgeCrack(functions, 0.21e6, 0.105e6), 0.1, cells=cells, change=change)
+            histories[fine, cells] = h
+            content = h.rows[-1][h.names.index("content")] - 4e-5
+            check(f"{outer}: fluid stored against injected", content, 1.6e-5, 2e-4)
+        for other in ((2e-4, 16), (4e-4, 32)):
+            for name, tolerance in (("length", 1.5e-2), ("pressure", 1e-2), ("opening", 4e-2)):
+                for time in (0.02, 0.05, 0.1):
+                    check(f"{outer}: {name} at {time} s, element and cells {other}",
+                          histories[4e-4, 16].at(name, time), histories[other].at(name, time),
+                          tolerance)  # fmt: skip
+
+
+def test_leak_off() -> None:
+    coefficient = carter_coefficient(1e6, young=4e9, poisson=0.25, permeability=1.02e-14,
+                                     viscosity=1e-3, porosity=0.1, bulk_modulus=22e6)  # fmt: skip
+    check("C_L at 1 MPa", coefficient, 1e6 * np.sqrt(1.02e-14 * (0.1 / 22e6 + 1 / 4.8e9) / (np.pi * 1e-3)), 1e-9)
+    functions = weight_functions(Plate(young=4e9), 4e-4)
+    edge = EdgeCrack(functions, 0.9e6, 0.45e6)
+    case = Case(2.0, 0.8e-4, 0.9e6, bulk_modulus=2.2e9)
+    plain = march(case, edge, 0.05, cells=16, change=0.03)
+    none = march(replace(case, leak_off=1e-12), edge, 0.05, cells=16, change=0.03)
+    check("leak-off without end: length", none.rows[-1][1], plain.rows[-1][1], 1e-5)
+    leaky = march(replace(case, leak_off=coefficient), edge, 0.05, cells=16, change=0.03)
+    kept = leaky.rows[-1][leaky.names.index("content")] - 4e-5  # leaked fluid counts
+    check("fluid stored and leaked against injected", kept, 4e-6, 2e-3)
+    assert leaky.rows[-1][1] < 0.95 * plain.rows[-1][1]
+    # all of the crack exposed at once, and as it grows in proportion to time
+    most = 4 * coefficient * leaky.rows[-1][1] * np.sqrt(0.05)
+    print(f"leaked {leaky.rows[-1][6]:.4g} m^2 of at most {most:.4g}")
+    assert 0.4 * most < leaky.rows[-1][6] < most
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--case", choices=ROCKS, default="storage")
@@ -233,7 +361,7 @@ def main() -> None:
     parser.add_argument("--end", type=float, default=0.1, help="[s]")
     parser.add_argument("--step", type=float, default=1e-3, help="between rows [s]")
     parser.add_argument("--cells", type=int, default=24)
-    parser.add_argument("--fine", type=float, default=1e-4, help="element at the mouth [m]; 5 times it on the path")
+    parser.add_argument("--fine", type=float, default=1e-4, help="a fifth of the elements down the path [m], twice those at the mouth")
     parser.add_argument("--table", action="store_true", help="all variants of the case")
     parser.add_argument("--test", action="store_true", help="verify this script")
     a = parser.parse_args()
