@@ -17,8 +17,10 @@ bool takes_slope(const Link& link) {
   return !link.target().module->port(link.target().port).slope.empty();
 }
 
+/// A property that answers nothing.
 bool is_property(const Link& link) {
-  return link.source().module->ports()[link.source().port].role == PortRole::property;
+  return link.source().module->ports()[link.source().port].role == PortRole::property &&
+         !carries_slope(link);
 }
 
 bool are_opposite(const Link& a, const Link& b) {

@@ -31,7 +31,8 @@ struct LinkEnd {
 /// A link is lagged where its source comes after its target in the order of advancing: the target
 /// then starts on a prediction. An intensive value is extrapolated with the rate of the last
 /// window, so that one pass is second order in the window; or it is held. An extensive one is the
-/// total of the last window: late, but in one-pass nothing of it is lost.
+/// total of the last window: late, but in one-pass nothing of it is lost. Where the slope refers to
+/// a total, the prediction is the output as it stands: nothing has been handed over yet.
 ///
 /// All that is held lies on the source's points and is mapped when delivered, so either end may
 /// insert, remove or reorder points at any time.
@@ -101,8 +102,9 @@ class Link {
   void read_source(Sample& sample);
   void read_slope();
   void find_rates(double length);
-  void rate_since(const std::vector<double>& now, const std::vector<double>& before, double length,
-                  std::vector<double>& rate) const;
+  PortKind counter_kind() const;
+  void rate_since(const std::vector<double>& now, const std::vector<double>& before, PortKind kind,
+                  double length, std::vector<double>& rate) const;
   void form_value(const Sample& sample);
   void compare();
 

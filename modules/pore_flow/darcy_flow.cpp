@@ -23,6 +23,8 @@ const std::vector<Port>& darcy_ports(int dimension) {
         {"darcy_velocity", "m/s", PortDirection::out, PortKind::intensive, PortRole::field, d},
         {"pore_mobility", "m^2/(Pa s)", PortDirection::out, PortKind::intensive,
          PortRole::property},
+        {"answering_pore_pressure", "Pa", PortDirection::out, PortKind::intensive,
+         PortRole::property},
         total("pore_fluid_mass", "kg", PortRole::mass_stored),
         total("pore_fluid_at_rest", "kg", PortRole::mass_reference),
         total("pore_fluid_gained", "kg", PortRole::mass_gained),
@@ -94,6 +96,9 @@ PortView DarcyFlow<D>::port(PortId id) {
     case pore_mobility:
       if (mobility_.empty()) find_mobility();
       return {points, mobility_};
+    case answering_pressure:
+      find_pressure_slope();
+      return {points, pressure_, {}, pressure_slope_};
     default: {
       double& value = scalars_[id - mass_stored];
       value = id < integrator_steps || id == artificial_mass ? scalar(id) : work(id);
@@ -196,6 +201,17 @@ void DarcyFlow<D>::find_mobility() {
   for (const auto& [i, face_value] : system_->held_points()) {
     if (face_value < 0) mobility_[i] = 0.0;
   }
+}
+
+/// That flow takes some of it on at once makes the pressure answer less.
+template <int D>
+void DarcyFlow<D>::find_pressure_slope() {
+  const std::span<const double> storage = system_->effective_storage(time_, unknowns_);
+  pressure_slope_.resize(system_->points());
+  for (Index i = 0; i < system_->points(); ++i) {
+    pressure_slope_[i] = 1.0 / (system_->fluid().density * system_->volume()[i] * storage[i]);
+  }
+  for (const HeldPoint& held : system_->held_points()) pressure_slope_[held.point] = 0.0;
 }
 
 template <int D>
