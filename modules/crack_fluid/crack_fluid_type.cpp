@@ -22,11 +22,15 @@ CrackLiquid read_liquid(const Section& section) {
   return liquid;
 }
 
-std::vector<CrackFilling> read_fillings(const Section& section) {
+std::vector<CrackFilling> read_fillings(const Section& section, const CrackLiquid& liquid) {
   std::vector<CrackFilling> fillings;
   for (std::size_t k = 0; k < section.count("filled"); ++k) {
     const std::string path = fmt::format("filled[{}]", k);
     CrackFilling filling{.box = {}, .pressure = section.number(path + ".pressure")};
+    if (filling.pressure < liquid.vapour_pressure) {
+      section.fail(path + ".pressure", "a full crack under less than the vapour pressure",
+                   "vapour_pressure or more");
+    }
     std::ranges::copy(section.numbers(path + ".from"), filling.box.from.begin());
     std::ranges::copy(section.numbers(path + ".to"), filling.box.to.begin());
     fillings.push_back(filling);
@@ -56,7 +60,7 @@ std::unique_ptr<PhysicsModule> make_network(const Section& section,
   auto leak_off = read_leak_off(section, body, liquid);
   return std::make_unique<CrackNetwork>(std::move(body), liquid,
                                         CrackInlets(read_crack_inlets(section), liquid),
-                                        read_fillings(section), std::move(leak_off));
+                                        read_fillings(section, liquid), std::move(leak_off));
 }
 
 KeyTable network_keys() {

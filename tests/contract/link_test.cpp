@@ -17,9 +17,9 @@ using Values = std::vector<double>;
 /// A source that answers theta to p, and a target that takes theta and answers p. Ports 0 are in,
 /// ports 1 out.
 struct Pair {
-  explicit Pair(bool lagged = true)
-      : source({{"p", "Pa", PortDirection::in}, {"theta", "1", PortDirection::out}}, points.set(),
-               true),
+  explicit Pair(bool lagged = true, PortKind counter = PortKind::intensive)
+      : source({{"p", "Pa", PortDirection::in, counter}, {"theta", "1", PortDirection::out}},
+               points.set(), true),
         target({{"theta", "1", PortDirection::in}, {"p", "Pa", PortDirection::out}}, points.set(),
                true),
         link({"solid", &source, 1}, {"pore_flow", &target, 0}, lagged) {}
@@ -88,6 +88,25 @@ TEST(Link, ValueAndRateRunFromTheLastWindowsEndToThisOnes) {
   pair.link.deliver();
   EXPECT_EQ(pair.told(0.0, {4.0, 2.0}), (Values{16.0, 29.0}));
   EXPECT_EQ(pair.told(1.0, {3.0, 2.0}), (Values{14.0, 26.0}));
+}
+
+TEST(Link, OfATotalNothingIsThereWhenAWindowBegins) {
+  Pair pair(true, PortKind::extensive);
+  pair.link.use_slope(0);
+  pair.source.at[1].slope = {0.5, 0.25};
+  pair.source.at[0].slope = {0.0, 0.0};
+  pair.link.start();
+  pair.source.at[0].value = {4.0, 8.0};
+  pair.source.at[1].value = {14.0, 26.0};
+  pair.link.collect(2.0);
+  pair.link.deliver();
+  EXPECT_EQ(pair.told(0.0, {4.0, 8.0}), (Values{14.0, 26.0}));
+  EXPECT_EQ(pair.told(2.0, {0.0, 0.0}), (Values{0.0, 0.0})) << "where the window began";
+  pair.link.accept();
+  pair.link.predict(1.0);
+  pair.link.deliver();
+  EXPECT_EQ(pair.told(1.0, {0.0, 0.0}), (Values{14.0, 26.0}));
+  EXPECT_EQ(pair.told(0.0, {2.0, 4.0}), (Values{15.0, 27.0}));
 }
 
 TEST(Link, AWindowOfNoLengthHasNoRate) {
