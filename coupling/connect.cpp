@@ -17,10 +17,8 @@ bool takes_slope(const Link& link) {
   return !link.target().module->port(link.target().port).slope.empty();
 }
 
-/// A property that answers nothing.
 bool is_property(const Link& link) {
-  return link.source().module->ports()[link.source().port].role == PortRole::property &&
-         !carries_slope(link);
+  return link.source().module->ports()[link.source().port].role == PortRole::property;
 }
 
 bool are_opposite(const Link& a, const Link& b) {
@@ -62,11 +60,24 @@ void link_writer(std::span<ModuleSlot> modules, std::size_t target, PortId in,
                          static_cast<PortId>(out)};
       const LinkEnd to{modules[target].name, modules[target].module.get(), in};
       links.emplace_back(from, to, source > target);
+      to.module->port(in);  // a module may do without inputs that nobody asks for
       check_ports(links.back());
     }
   }
   if (links.size() > before + 1) {
     throw std::logic_error(links.back().path() + ": a second writer of one port");
+  }
+}
+
+/// Who is handed totals over a window answers them within it, whatever the split.
+void use_slopes_of_totals(std::span<Link> links) {
+  for (Link& link : links) {
+    if (!link.lagged() || !carries_slope(link) || !takes_slope(link)) continue;
+    for (const Link& total : links) {
+      if (total.kind() == PortKind::extensive && are_opposite(link, total)) {
+        link.use_slope(total.target().port);
+      }
+    }
   }
 }
 
@@ -80,6 +91,7 @@ std::vector<Link> plain_links(std::span<ModuleSlot> modules) {
       }
     }
   }
+  use_slopes_of_totals(links);
   return links;
 }
 
@@ -129,6 +141,7 @@ std::vector<CoupledPair> coupled_pairs(std::span<const Link> links) {
   for (std::size_t i = 0; i < links.size(); ++i) {
     for (std::size_t j = i + 1; j < links.size(); ++j) {
       if (!are_opposite(links[i], links[j])) continue;
+      if (links[i].kind() != links[j].kind()) continue;
       if (!carries_slope(links[i]) && !carries_slope(links[j])) continue;
       if (paired[i] || paired[j]) {
         throw std::logic_error(links[i].path() + ": its slope could refer to two ports");

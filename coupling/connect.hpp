@@ -15,11 +15,14 @@ namespace perifrac {
 /// Of a coupled pair, the module that advances first is sent the slope of the other's answer, if
 /// it can add it. That is fixed stress in the order given. Where the split is, or may be, undrained
 /// and the later module can add a slope within its window, it is moved before the earlier one.
+/// Where the earlier hands over totals, it is sent the slope of the later one's answer to them
+/// whatever the split: such links are no coupled pair.
 /// Throws std::logic_error where two modules write one in-port, or the two ports of a link differ
 /// in unit, kind or components.
 std::vector<Link> connect(std::span<ModuleSlot> modules, Split split);
 
-/// Two links that run opposite ways between two modules, at least one with a slope on its out-port.
+/// Two links of one kind that run opposite ways between two modules, at least one with a slope on
+/// its out-port.
 struct CoupledPair {
   std::size_t first;  ///< indices among the links
   std::size_t second;

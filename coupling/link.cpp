@@ -60,15 +60,15 @@ void Link::predict(double length) {
     accepted_.output_rate.assign(accepted_.output.size(), 0.0);
     accepted_.counter_rate.assign(accepted_.counter.size(), 0.0);
   }
+  if (counter_ && source_.module->ports()[*counter_].kind == PortKind::extensive) {
+    std::ranges::fill(accepted_.counter, 0.0);  // a total over the window grows from nothing
+  }
   read_slope();
   form_value(accepted_);
   if (kind_ == PortKind::extensive) {
     for (std::size_t i = 0; i < value_.size(); ++i) {
       rate_[i] = length > 0.0 ? value_[i] / length : 0.0;
     }
-  } else if (uses_slope() && counter_kind() == PortKind::extensive) {
-    value_ = accepted_.output;  // nothing is handed over yet in this window
-    std::ranges::fill(rate_, 0.0);
   } else if (hold_) {
     std::ranges::fill(rate_, 0.0);
   } else {
@@ -150,20 +150,17 @@ void Link::read_slope() {
 }
 
 void Link::find_rates(double length) {
-  rate_since(reached_.output, accepted_.output, kind_, length, reached_.output_rate);
-  if (!uses_slope()) return;
-  rate_since(reached_.counter, accepted_.counter, counter_kind(), length, reached_.counter_rate);
+  rate_since(reached_.output, accepted_.output, length, reached_.output_rate);
+  rate_since(reached_.counter, accepted_.counter, length, reached_.counter_rate);
 }
 
-PortKind Link::counter_kind() const { return source_.module->ports()[*counter_].kind; }
-
 void Link::rate_since(const std::vector<double>& now, const std::vector<double>& before,
-                      PortKind kind, double length, std::vector<double>& rate) const {
+                      double length, std::vector<double>& rate) const {
   rate.assign(now.size(), 0.0);
   if (length <= 0.0 || now.empty()) return;
   std::vector<double> mapped;
   const std::vector<double>* begin = &before;
-  if (kind == PortKind::extensive) {
+  if (kind_ == PortKind::extensive) {
     mapped.assign(now.size(), 0.0);  // a total over the window grows from nothing
     begin = &mapped;
   } else if (!accepted_.points->set().same_points(reached_.points->set())) {

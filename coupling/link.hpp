@@ -26,13 +26,12 @@ struct LinkEnd {
 /// link then sends the intercept c = output - s x*, with x* what the source saw when it gave that
 /// output, and its rate; the target adds s x with its own x, and where both agree it sees the
 /// output itself. This is the fixed-stress split, written for any pair. Without slope c is the
-/// output.
+/// output. An extensive x is a total over the window: it starts from 0 in each.
 ///
 /// A link is lagged where its source comes after its target in the order of advancing: the target
 /// then starts on a prediction. An intensive value is extrapolated with the rate of the last
 /// window, so that one pass is second order in the window; or it is held. An extensive one is the
-/// total of the last window: late, but in one-pass nothing of it is lost. Where the slope refers to
-/// a total, the prediction is the output as it stands: nothing has been handed over yet.
+/// total of the last window: late, but in one-pass nothing of it is lost.
 ///
 /// All that is held lies on the source's points and is mapped when delivered, so either end may
 /// insert, remove or reorder points at any time.
@@ -49,6 +48,7 @@ class Link {
   Link(LinkEnd source, LinkEnd target, bool lagged);
 
   const std::string& name() const { return name_; }
+  PortKind kind() const { return kind_; }
   std::string path() const;  ///< `solid.dilatation -> pore_flow`, for people
   const LinkEnd& source() const { return source_; }
   const LinkEnd& target() const { return target_; }
@@ -62,6 +62,8 @@ class Link {
     hold_ = hold;
   }
   bool uses_slope() const { return counter_.has_value(); }
+  /// The slope of the present pass is a matrix.
+  bool sends_tangent() const { return slope_.size() > value_.size(); }
 
   /// Reads the source as it stands, at rest: the first exchange, before any window.
   void start();
@@ -102,9 +104,8 @@ class Link {
   void read_source(Sample& sample);
   void read_slope();
   void find_rates(double length);
-  PortKind counter_kind() const;
-  void rate_since(const std::vector<double>& now, const std::vector<double>& before, PortKind kind,
-                  double length, std::vector<double>& rate) const;
+  void rate_since(const std::vector<double>& now, const std::vector<double>& before, double length,
+                  std::vector<double>& rate) const;
   void form_value(const Sample& sample);
   void compare();
 

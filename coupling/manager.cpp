@@ -33,8 +33,11 @@ void CouplingManager::initialize(double t) {
 }
 
 bool CouplingManager::split_is_unusable() const {
-  return options_.split != Split::drained && !coupled_pairs(links_).empty() &&
-         std::ranges::none_of(links_, &Link::uses_slope);
+  const auto pairs = coupled_pairs(links_);
+  return options_.split != Split::drained && !pairs.empty() &&
+         std::ranges::none_of(pairs, [&](const CoupledPair& pair) {
+           return links_[pair.first].uses_slope() || links_[pair.second].uses_slope();
+         });
 }
 
 /// Fixed stress on extrapolated inputs, once a window: measured, it holds at a strength of 8 and

@@ -11,6 +11,15 @@ namespace perifrac {
 template <int D>
 using Positions = std::array<std::span<const double>, D>;
 
+/// The first `count` of these points; all, if it is left out.
+template <std::size_t D>
+std::array<std::span<const double>, D> positions_of(
+    const std::array<std::vector<double>, D>& position, std::size_t count = std::dynamic_extent) {
+  std::array<std::span<const double>, D> result;
+  for (std::size_t a = 0; a < D; ++a) result[a] = std::span(position[a]).subspan(0, count);
+  return result;
+}
+
 /// Moving points sorted into cells, to find who is near whom.
 ///
 /// The cells wrap around: their number follows from the number of points, and a point that flew

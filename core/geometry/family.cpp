@@ -1,7 +1,9 @@
 #include "core/geometry/family.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "core/geometry/cell_grid.hpp"
+#include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
 
@@ -52,64 +54,21 @@ void add_ghosts(Family<D>& family, const Face& face, int number, double horizon,
   }
 }
 
-/// Uniform cells as wide as the horizon; nodes of a cell are consecutive in `node`.
-template <int D>
-struct CellGrid {
-  Vector<D> low;
-  std::array<Index, D> cells;
-  double width;
-  std::vector<Index> first;
-  std::vector<Index> node;
-
-  CellGrid(const Family<D>& family, double horizon) : width(horizon) {
-    std::size_t total = 1;
-    for (int a = 0; a < D; ++a) {
-      const auto [min, max] = std::ranges::minmax_element(family.position[a]);
-      low[a] = *min;
-      cells[a] = static_cast<Index>((*max - *min) / width) + 1;
-      total *= cells[a];
+/// Takes out the bonds of bondless points.
+void remove_bonds(const std::vector<bool>& bondless, Neighbours& near) {
+  const Index points = static_cast<Index>(bondless.size());
+  const auto is_bondless = [&](Index i) { return i < points && bondless[i]; };
+  Index kept = 0;
+  for (Index i = 0, begin = 0; i < points; ++i) {
+    const Index end = near.offset[i + 1];
+    for (Index k = begin; k < end && !bondless[i]; ++k) {
+      if (!is_bondless(near.other[k])) near.other[kept++] = near.other[k];
     }
-    first.assign(total + 1, 0);
-    for (Index i = 0; i < family.node_count(); ++i) ++first[cell_of(family, i) + 1];
-    for (std::size_t c = 0; c < total; ++c) first[c + 1] += first[c];
-    node.resize(family.node_count());
-    std::vector<Index> next(first.begin(), first.end() - 1);
-    for (Index i = 0; i < family.node_count(); ++i) node[next[cell_of(family, i)]++] = i;
+    near.offset[i + 1] = kept;
+    begin = end;
   }
-
-  std::array<Index, D> place(const Family<D>& family, Index i) const {
-    std::array<Index, D> c;
-    for (int a = 0; a < D; ++a) {
-      c[a] = static_cast<Index>((family.position[a][i] - low[a]) / width);
-    }
-    return c;
-  }
-
-  std::size_t cell_of(const Family<D>& family, Index i) const { return flat(place(family, i)); }
-
-  std::size_t flat(const std::array<Index, D>& c) const {
-    std::size_t index = c[D - 1];
-    for (int a = D - 2; a >= 0; --a) index = index * cells[a] + c[a];
-    return index;
-  }
-
-  template <class Use>
-  void for_nodes_near(const Family<D>& family, Index i, Use&& use) const {
-    const std::array<Index, D> centre = place(family, i);
-    const int boxes = D == 2 ? 9 : 27;
-    for (int box = 0; box < boxes; ++box) {
-      std::array<Index, D> c = centre;
-      bool inside = true;
-      for (int a = 0, rest = box; a < D; ++a, rest /= 3) {
-        c[a] += rest % 3 - 1;
-        inside = inside && c[a] >= 0 && c[a] < cells[a];
-      }
-      if (!inside) continue;
-      const std::size_t cell = flat(c);
-      for (Index k = first[cell]; k < first[cell + 1]; ++k) use(node[k]);
-    }
-  }
-};
+  near.other.resize(kept);
+}
 
 }  // namespace
 
@@ -135,43 +94,21 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
     if (contains(mirrored, f)) add_ghosts(family, faces[f], static_cast<int>(f), reach, bondless);
   }
 
-  const CellGrid<D> grid(family, reach);
-  const auto bonds_of = [&](Index i, std::vector<Index>& found) {
-    found.clear();
-    if (bondless[i]) return;
-    grid.for_nodes_near(family, i, [&](Index j) {
-      if (j < family.point_count && bondless[j]) return;
-      if (j != i && squared_distance(family, i, j) <= reach * reach) found.push_back(j);
-    });
-    std::ranges::sort(found);
-  };
-  family.offset.assign(points.size() + 1, 0);
-#pragma omp parallel
-  {
-    std::vector<Index> found;
-#pragma omp for schedule(static)
-    for (Index i = 0; i < points.size(); ++i) {
-      bonds_of(i, found);
-      family.offset[i + 1] = static_cast<Index>(found.size());
+  CellGrid<D> grid;
+  grid.build(positions_of(family.position), reach);
+  Neighbours near;
+  grid.find_others(points.size(), reach, near);
+  remove_bonds(bondless, near);
+  family.offset = std::move(near.offset);
+  family.other = std::move(near.other);
+  family.weight.resize(family.other.size());
+  for_each_point(points.size(), [&](Index i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const Index j = family.other[bond];
+      const double r = std::sqrt(squared_distance(family, i, j));
+      family.weight[bond] = influence(influence_function, r, horizon) * family.volume[j];
     }
-  }
-  for (Index i = 0; i < points.size(); ++i) family.offset[i + 1] += family.offset[i];
-  family.other.resize(family.offset.back());
-  family.weight.resize(family.offset.back());
-#pragma omp parallel
-  {
-    std::vector<Index> found;
-#pragma omp for schedule(static)
-    for (Index i = 0; i < points.size(); ++i) {
-      bonds_of(i, found);
-      for (std::size_t k = 0; k < found.size(); ++k) {
-        const Index bond = family.offset[i] + static_cast<Index>(k);
-        const double r = std::sqrt(squared_distance(family, i, found[k]));
-        family.other[bond] = found[k];
-        family.weight[bond] = influence(influence_function, r, horizon) * family.volume[found[k]];
-      }
-    }
-  }
+  });
   return family;
 }
 

@@ -64,22 +64,11 @@ Eigen::VectorXd CondensedInverse::correct_block(const Eigen::VectorXd& x0) const
   return x0 - block_ * times_changes(x0);
 }
 
-Eigen::VectorXd CondensedInverse::correct(Eigen::VectorXd x0) const {
-  if (changes_.empty()) return x0;
-  Eigen::VectorXd named(block_.rows());
-  for (Eigen::Index k = 0; k < named.size(); ++k) named[k] = x0[unknowns_[k]];
-  const Eigen::VectorXd force = times_changes(correct_block(named));
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(x0.size());
-  for (Eigen::Index k = 0; k < named.size(); ++k) load[unknowns_[k]] = force[k];
-  Eigen::VectorXd answer(x0.size());
-  factor_.solve(load, answer);
-  return x0 - answer;
-}
-
-Eigen::VectorXd CondensedInverse::solve(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd x0(b.size());
-  factor_.solve(b, x0);
-  return correct(std::move(x0));
+Eigen::VectorXd CondensedInverse::force_of_changes(const Eigen::VectorXd& block) const {
+  const Eigen::VectorXd force = times_changes(block);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(place_.size()));
+  for (Eigen::Index k = 0; k < force.size(); ++k) all[unknowns_[k]] = force[k];
+  return all;
 }
 
 }  // namespace perifrac

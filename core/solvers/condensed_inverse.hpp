@@ -31,12 +31,10 @@ class CondensedInverse {
   const Eigen::MatrixXd& block() const { return block_; }
   std::span<const int> unknowns() const { return unknowns_; }
 
-  /// x = A^-1 b over all unknowns, at two back-substitutions.
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// The same where A0^-1 b is known: one.
-  Eigen::VectorXd correct(Eigen::VectorXd x0) const;
-  /// The block's part of A^-1 b from that of A0^-1 b: none.
+  /// The block's part of A^-1 b from that of A0^-1 b, at no back-substitution.
   Eigen::VectorXd correct_block(const Eigen::VectorXd& x0) const;
+  /// What the changes do on all unknowns where the block's part of x is this: A x = A0 x + that.
+  Eigen::VectorXd force_of_changes(const Eigen::VectorXd& block) const;
 
  private:
   struct Change {

@@ -137,9 +137,22 @@ class Seepage:
         t = np.maximum(np.asarray(time, dtype=float), 0.0)
         n = np.arange(1, self.terms + 1)
         rate = self.diffusivity * (n * np.pi / self.length) ** 2
-        return self.steady_flux * (t + 2.0 * ((1.0 - np.exp(-np.outer(t, rate))) / rate).sum(axis=1))
+        filled = self.length**2 / (3.0 * self.diffusivity)  # the sum of 2 / rate over all n
+        volume = self.steady_flux * (t + filled - 2.0 * (np.exp(-np.outer(t, rate)) / rate).sum(axis=1))
+        return np.where(t > 0.0, volume, 0.0)
 
     def volume(self, time: np.ndarray) -> np.ndarray:
         """Volume an area passed since the ramp began, at `time` after its beginning: many small jumps."""
-        starts = (np.arange(200) + 0.5) / 200 * self.ramp
-        return np.mean([self.volume_after_jump(np.asarray(time) - start) for start in starts], axis=0)
+        return np.mean([self.volume_after_jump(np.asarray(time) - start) for start in self.jumps()], axis=0)
+
+    def jumps(self) -> np.ndarray:
+        return (np.arange(200) + 0.5) / 200 * self.ramp
+
+    def profile(self, height: np.ndarray, time: float) -> tuple[np.ndarray, np.ndarray]:
+        """Pressure and downward flux at heights above the bottom, `time` after the ramp began, when it is over."""
+        n = np.arange(1, self.terms + 1)
+        rate = self.diffusivity * (n * np.pi / self.length) ** 2
+        decay = 2.0 * (-1.0) ** n * np.mean(np.exp(-np.outer(time - self.jumps(), rate)), axis=0)
+        angle = np.outer(height, n * np.pi / self.length)
+        pressure = self.head * (np.asarray(height) / self.length + np.sin(angle) @ (decay / (n * np.pi)))
+        return pressure, self.steady_flux * (1.0 + np.cos(angle) @ decay)

@@ -56,7 +56,7 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
                                      leak_off_->is_sink() ? mass_gained : PortRole::field});
   }
   if (pores_ != nullptr) {
-    add_port(Quantity::pore_pressure, {"answering_pore_pressure", "Pa", in});
+    add_port(Quantity::pore_pressure, {"pore_pressure", "Pa", in});
     add_port(Quantity::pore_mobility, {"pore_mobility", "m^2/(Pa s)", in});
     add_port(Quantity::exchanged_mass, {"exchanged_mass", "kg/m", out, extensive});
   }

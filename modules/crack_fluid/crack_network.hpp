@@ -31,7 +31,7 @@ struct CrackFilling {
 /// `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
 /// `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
 /// `crack_fluid_work`, `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on
-/// the body's points: in `answering_pore_pressure` [Pa], takes rate and a slope against
+/// the body's points: in `pore_pressure` [Pa], takes rate and a slope against
 /// `exchanged_mass`, `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg/m].
 class CrackNetwork final : public PhysicsModule {
  public:

@@ -14,7 +14,7 @@ namespace perifrac {
 /// and likewise J_j, m of the intact families: that of pore flow itself, over half the way. It is
 /// exact where pressure falls linearly on either side. A facet that is not full gives none.
 /// The pores' pressure answers what they get at once, p_i = b_i + s_i sum J_i, as the port
-/// `answering_pore_pressure` says: a lagged one would be an explicit step of diffusion.
+/// `pore_pressure` says: a lagged one would be an explicit step of diffusion.
 class PoreLeakOff final : public LeakOff {
  public:
   PoreLeakOff(std::shared_ptr<const Body<2>> body, double density, double vapour_pressure);

@@ -6,17 +6,6 @@
 
 namespace perifrac {
 
-namespace {
-
-template <int D>
-Positions<D> spans(const std::array<std::vector<double>, D>& position) {
-  Positions<D> result;
-  for (int a = 0; a < D; ++a) result[a] = position[a];
-  return result;
-}
-
-}  // namespace
-
 template <int D>
 BodyNeighbours<D>::BodyNeighbours(const Body<D>& body, const WallCloud<D>& cloud,
                                   std::span<const Index> others, const Period<D>& period,
@@ -35,8 +24,8 @@ BodyNeighbours<D>::BodyNeighbours(const Body<D>& body, const WallCloud<D>& cloud
   images.copy(volume, count);
   for (const Index k : images.source) source.push_back(source[k]);
   CellGrid<D> grid;
-  grid.build(spans<D>(position), horizon);
-  grid.find(spans<D>(cloud.position), horizon, near);
+  grid.build(positions_of(position), horizon);
+  grid.find(positions_of(cloud.position), horizon, near);
 }
 
 template struct BodyNeighbours<2>;

@@ -8,14 +8,18 @@
 namespace perifrac {
 
 /// What the pores tell the fluid, at all points of the body: the pressure at time t is
-/// pressure + rate (t - end).
+/// pressure + rate (t - end) + slope m, with m what they got in the window so far.
 struct PoreInput {
   std::span<const double> pressure{};  ///< [Pa]
   std::span<const double> rate{};      ///< [Pa/s]
+  std::span<const double> slope{};     ///< [Pa/kg]
   std::span<const double> mobility{};  ///< permeability / viscosity [m^2/(Pa s)]
   double end = 0.0;                    ///< [s]
+  std::span<const double> mass{};      ///< m [kg]
 
-  double at(Index point, double t) const { return pressure[point] + rate[point] * (t - end); }
+  double at(Index point, double t) const {
+    return pressure[point] + rate[point] * (t - end) + slope[point] * mass[point];
+  }
 };
 
 /// How mass passes between the free fluid and the pores of the body.

@@ -45,32 +45,38 @@ FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vecto
       gravity_(gravity),
       influence_(scheme.horizon),
       points_(std::move(points)),
-      cloud_(std::move(cloud)),
-      rigid_(std::move(rigid)),
+      wall_motion_(std::move(cloud), std::move(rigid), body_points),
       openings_(std::move(openings)),
       wall_force_(std::move(wall_force)),
       exchange_(std::move(exchange)),
-      body_points_(body_points),
       neighbours_(scheme.horizon, skin * scheme.spacing, std::move(period)) {
   moments_.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon);
 }
 
 template <int D>
 void FluidDynamics<D>::start_totals() {
-  if (body_points_ == 0) return;
-  impulse_.assign(D * body_points_, 0.0);
-  if (exchange_) exchanged_mass_.assign(body_points_, 0.0);
+  const std::size_t points = wall_motion_.body_points();
+  if (points == 0) return;
+  impulse_.assign(D * points, 0.0);
+  if (exchange_) exchanged_mass_.assign(points, 0.0);
 }
 
-/// A fluid point's pressure follows that of the pores about it at a rate of up to
-/// 4 kappa K / (0.4 horizon)^2, with the moments of the Gaussian taken over all space.
+/// A fluid point's pressure and that of the pores about it approach each other at a rate of up to
+/// 4 kappa (K + 1/S) / (0.4 horizon)^2, with the moments of the Gaussian taken over all space.
 template <int D>
 void FluidDynamics<D>::set_pores(const PoreInput& pores) {
   pores_ = pores;
   if (pores.mobility.empty()) return;
-  const double mobility = *std::ranges::max_element(pores.mobility);
+  pores_.mass = exchanged_mass_;
+  const WallCloud<D>& cloud = wall_motion_.cloud();
+  double fastest = 0.0;
+  for (Index w = cloud.rigid_count; w < cloud.size(); ++w) {
+    const Index i = cloud.owner[w];
+    const double of_pores = fluid_.density * cloud.volume[w] * pores.slope[i];
+    fastest = std::max(fastest, pores.mobility[i] * (fluid_.bulk_modulus + of_pores));
+  }
   const double width = 0.4 * scheme_.horizon;
-  longest_exchange_ = width * width / (4.0 * mobility * fluid_.bulk_modulus);
+  longest_exchange_ = width * width / (4.0 * fastest);
 }
 
 template <int D>
@@ -99,9 +105,9 @@ double FluidDynamics<D>::longest_step(double t) const {
 template <int D>
 void FluidDynamics<D>::step(double t, double length) {
   const double middle = t + 0.5 * length;
-  for (RigidWall<D>& wall : rigid_) wall.follow(middle);
+  wall_motion_.follow(middle);
   drift(0.5 * length);
-  place_walls(middle);
+  wall_motion_.place(middle, neighbours_.wall_images(), walls_);
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
   if (exchange_) remove_small_points(middle);
@@ -135,64 +141,19 @@ void FluidDynamics<D>::drift(double length) {
       points_.position[a][i] += length * points_.velocity[a][i];
     }
   }
-  for (RigidWall<D>& wall : rigid_) wall.drift(length);
-}
-
-template <int D>
-Vector<D> FluidDynamics<D>::wall_displacement(Index w, double t) const {
-  if (cloud_.is_rigid(w)) return rigid_[cloud_.owner[w]].displacement;
-  Vector<D> result{};
-  if (body_.displacement.empty()) return result;
-  for (int a = 0; a < D; ++a) {
-    const std::size_t k = a * body_points_ + cloud_.owner[w];
-    result[a] = body_.displacement[k] + body_.rate[k] * (t - body_.end);
-  }
-  return result;
-}
-
-template <int D>
-Vector<D> FluidDynamics<D>::wall_velocity(Index w) const {
-  if (cloud_.is_rigid(w)) return rigid_[cloud_.owner[w]].velocity;
-  Vector<D> result{};
-  if (body_.displacement.empty()) return result;
-  for (int a = 0; a < D; ++a) result[a] = body_.rate[a * body_points_ + cloud_.owner[w]];
-  return result;
-}
-
-template <int D>
-void FluidDynamics<D>::place_walls(double t) {
-  for (int a = 0; a < D; ++a) {
-    walls_.position[a].resize(walls_.wall.size());
-    walls_.velocity[a].resize(walls_.wall.size());
-  }
-  for (Index k = 0; k < walls_.count; ++k) {
-    const Index w = walls_.wall[k];
-    const Vector<D> moved = wall_displacement(w, t), v = wall_velocity(w);
-    for (int a = 0; a < D; ++a) {
-      walls_.position[a][k] = cloud_.position[a][w] + moved[a];
-      walls_.velocity[a][k] = v[a];
-    }
-  }
-  const PeriodicImages<D>& images = neighbours_.wall_images();
-  images.copy_positions(walls_.position, walls_.count);
-  for (int a = 0; a < D; ++a) images.copy(walls_.velocity[a], walls_.count);
+  wall_motion_.drift(length);
 }
 
 template <int D>
 void FluidDynamics<D>::find_neighbours(double t) {
   if (openings_.outlets) openings_.outlets->remove(points_);
   openings_.domain.remove(points_, t);
-  for (int a = 0; a < D; ++a) wall_position_[a].resize(cloud_.size());
-  for (Index w = 0; w < cloud_.size(); ++w) {
-    const Vector<D> moved = wall_displacement(w, t);
-    for (int a = 0; a < D; ++a) wall_position_[a][w] = cloud_.position[a][w] + moved[a];
-  }
-  neighbours_.find(points_, wall_position_, walls_);
+  neighbours_.find(points_, wall_motion_.positions(t), walls_);
   walls_.volume.resize(walls_.wall.size());
   for (std::size_t k = 0; k < walls_.wall.size(); ++k) {
-    walls_.volume[k] = cloud_.volume[walls_.wall[k]];
+    walls_.volume[k] = wall_motion_.cloud().volume[walls_.wall[k]];
   }
-  place_walls(t);
+  wall_motion_.place(t, neighbours_.wall_images(), walls_);
   ++version_;
 }
 
@@ -214,7 +175,8 @@ void FluidDynamics<D>::copy_to_images() {
 
 template <int D>
 FluidStep<D> FluidDynamics<D>::step_view() const {
-  return {points_, cloud_, neighbours_, moments_, fluid_, scheme_, influence_, gravity_, stress_};
+  return {points_, wall_motion_.cloud(), neighbours_, moments_, fluid_,
+          scheme_, influence_,           gravity_,    stress_};
 }
 
 template <int D>
@@ -233,12 +195,13 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
     }
   }
   if (exchange_->keeps_mass()) even_masses_.step(step_view(), length, points_);
+  const WallCloud<D>& cloud = wall_motion_.cloud();
   for (Index k = 0; k < walls_.count; ++k) {
     const Index w = walls_.wall[k];
-    if (cloud_.is_rigid(w)) continue;
-    exchanged_mass_[cloud_.owner[w]] += length * walls_.mass_rate[k];
+    if (cloud.is_rigid(w)) continue;
+    exchanged_mass_[cloud.owner[w]] += length * walls_.mass_rate[k];
     for (int a = 0; a < D; ++a) {
-      impulse_[a * body_points_ + cloud_.owner[w]] += length * walls_.momentum_rate[a][k];
+      impulse_[a * exchanged_mass_.size() + cloud.owner[w]] += length * walls_.momentum_rate[a][k];
     }
   }
   if (exchange_->keeps_mass()) return;
@@ -287,20 +250,7 @@ void FluidDynamics<D>::kick(double t, double length) {
     }
   }
   stop_at_walls<D>(view, length, points_, walls_);
-  on_rigid_.assign(rigid_.size(), Vector<D>{});
-  for (Index k = 0; k < walls_.count; ++k) {
-    const Index w = walls_.wall[k];
-    for (int a = 0; a < D; ++a) {
-      if (cloud_.is_rigid(w)) {
-        on_rigid_[cloud_.owner[w]][a] += walls_.force[a][k];
-      } else {
-        impulse_[a * body_points_ + cloud_.owner[w]] += length * walls_.force[a][k];
-      }
-    }
-  }
-  for (std::size_t r = 0; r < rigid_.size(); ++r) {
-    rigid_[r].kick(t, length, on_rigid_[r], gravity_);
-  }
+  wall_motion_.kick(t, length, gravity_, walls_, impulse_);
 }
 
 template <int D>
@@ -308,28 +258,13 @@ void FluidDynamics<D>::insert_points(double t) {
   const double heaviest = 1.5 * fluid_.density * std::pow(scheme_.spacing, D);
   Index added = split_points<D>(points_, walls_, neighbours_, heaviest);
   if (openings_.inlets) {
-    added += openings_.inlets->make_points(
-        points_, [&](const Vector<D>& x) { return is_free_of_walls(x, t); });
+    added += openings_.inlets->make_points(points_, [&](const Vector<D>& x) {
+      return wall_motion_.leaves_room(x, t, scheme_.spacing);
+    });
   }
   if (added == 0) return;
   neighbours_.forget();
   ++version_;
-}
-
-/// No wall point's cell holds x, nor comes near it.
-template <int D>
-bool FluidDynamics<D>::is_free_of_walls(const Vector<D>& x, double t) const {
-  for (Index w = 0; w < cloud_.size(); ++w) {
-    const Vector<D> moved = wall_displacement(w, t);
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double y = cloud_.position[a][w] + moved[a] - x[a];
-      square += y * y;
-    }
-    const double reach = 0.45 * (scheme_.spacing + std::pow(cloud_.volume[w], 1.0 / D));
-    if (square < reach * reach) return false;
-  }
-  return true;
 }
 
 template <int D>
@@ -349,15 +284,7 @@ void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   points_.count = static_cast<Index>(points_.mass.size());
   if (!exchange_keeps_mass()) visitor.visit("made_mass", made_mass_);
   openings_.visit_state(visitor);
-  for (RigidWall<D>& wall : rigid_) {
-    if (wall.motion == RigidWall<D>::Motion::fixed) continue;
-    visitor.enter(wall.name);
-    for (int a = 0; a < D; ++a) {
-      visitor.visit(std::string("displacement_") + axes[a], wall.displacement[a]);
-      visitor.visit(std::string("velocity_") + axes[a], wall.velocity[a]);
-    }
-    visitor.leave();
-  }
+  wall_motion_.visit_state(visitor);
 }
 
 template class FluidDynamics<2>;

@@ -10,17 +10,10 @@
 #include "modules/fluid/exchange.hpp"
 #include "modules/fluid/fluid_neighbours.hpp"
 #include "modules/fluid/fluid_openings.hpp"
-#include "modules/fluid/rigid_wall.hpp"
 #include "modules/fluid/wall_force.hpp"
+#include "modules/fluid/wall_motion.hpp"
 
 namespace perifrac {
-
-/// Where the body's points are: at time t they are displaced by displacement + rate (t - end).
-struct BodyInput {
-  std::span<const double> displacement{};  ///< D blocks [m]; empty: at rest
-  std::span<const double> rate{};          ///< [m/s]
-  double end = 0.0;                        ///< [s]
-};
 
 /// Newton's law and continuity for the points of a weakly compressible fluid between walls:
 /// drift by half a step, find density from the velocities there, then pressure, forces and
@@ -34,11 +27,12 @@ class FluidDynamics {
                 std::size_t body_points, FluidOpenings<D> openings,
                 std::unique_ptr<WallForce<D>> wall_force, std::unique_ptr<Exchange<D>> exchange);
 
-  void set_body(const BodyInput& body) { body_ = body; }
-  void set_pores(const PoreInput& pores);
+  void set_body(const BodyInput& body) { wall_motion_.set_body(body); }
   /// Totals given to the body's points are counted from here: impulse, D blocks [N s], and mass
   /// [kg]. They are empty where the body is not there, or nothing passes into it.
   void start_totals();
+  /// All but `mass`, once the totals were started.
+  void set_pores(const PoreInput& pores);
   const std::vector<double>& impulse() const { return impulse_; }
   const std::vector<double>& exchanged_mass() const { return exchanged_mass_; }
   bool exchange_keeps_mass() const { return !exchange_ || exchange_->keeps_mass(); }
@@ -56,7 +50,7 @@ class FluidDynamics {
 
   FluidPoints<D>& points() { return points_; }
   const FluidPoints<D>& points() const { return points_; }
-  const std::vector<RigidWall<D>>& rigid_walls() const { return rigid_; }
+  const std::vector<RigidWall<D>>& rigid_walls() const { return wall_motion_.rigid(); }
   const FluidOpenings<D>& openings() const { return openings_; }
   const FluidProperties& fluid() const { return fluid_; }
   const FluidScheme& scheme() const { return scheme_; }
@@ -70,15 +64,11 @@ class FluidDynamics {
   void drift(double length);
   void remove_small_points(double t);
   void find_neighbours(double t);
-  void place_walls(double t);
-  Vector<D> wall_displacement(Index w, double t) const;
-  Vector<D> wall_velocity(Index w) const;
   void copy_to_images();
   void exchange_mass(double t, double length);
   void find_densities(double t, double length);
   void kick(double t, double length);
   void insert_points(double t);
-  bool is_free_of_walls(const Vector<D>& x, double t) const;
   FluidStep<D> step_view() const;
 
   FluidProperties fluid_;
@@ -86,24 +76,19 @@ class FluidDynamics {
   Vector<D> gravity_;
   GaussianInfluence influence_;
   FluidPoints<D> points_;
-  WallCloud<D> cloud_;
-  std::vector<RigidWall<D>> rigid_;
+  WallMotion<D> wall_motion_;
   FluidOpenings<D> openings_;
   std::unique_ptr<WallForce<D>> wall_force_;
   std::unique_ptr<Exchange<D>> exchange_;
-  BodyInput body_;
   PoreInput pores_;
-  std::size_t body_points_;
 
   FluidNeighbours<D> neighbours_;
   NearWalls<D> walls_;
   FluidMoments<D> moments_;
   std::array<std::vector<double>, symmetric_size<D>> stress_;
   std::array<std::vector<double>, D> force_;
-  std::vector<Vector<D>> on_rigid_;  ///< the fluid's force on each rigid wall [N]
   std::vector<double> mass_rate_;
   EvenMasses<D> even_masses_;
-  std::array<std::vector<double>, D> wall_position_;  ///< of the whole cloud, when it is searched
   std::vector<double> impulse_;
   std::vector<double> exchanged_mass_;
   double made_mass_ = 0.0;

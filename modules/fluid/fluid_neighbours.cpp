@@ -7,13 +7,6 @@ namespace perifrac {
 
 namespace {
 
-template <int D>
-Positions<D> spans(const std::array<std::vector<double>, D>& position, std::size_t count) {
-  Positions<D> result;
-  for (int a = 0; a < D; ++a) result[a] = std::span(position[a]).first(count);
-  return result;
-}
-
 /// The square of the farthest that any of `count` points has moved.
 template <int D>
 double farthest(const std::array<std::vector<double>, D>& now,
@@ -49,12 +42,11 @@ void FluidNeighbours<D>::find(FluidPoints<D>& points,
   sort(points);
   images_.find(period_, points.position, points.count, reach_);
   images_.copy_positions(points.position, points.count);
-  const std::size_t nodes = points.position[0].size();
-  grid_.build(spans<D>(points.position, nodes), reach_);
+  grid_.build(positions_of(points.position), reach_);
   grid_.find_others(points.count, reach_, fluid_of_fluid_);
   find_near_walls(wall_position, walls);
-  grid_.build(spans<D>(walls.position, walls.wall.size()), reach_);
-  grid_.find(spans<D>(points.position, points.count), reach_, walls_of_fluid_);
+  grid_.build(positions_of(walls.position), reach_);
+  grid_.find(positions_of(points.position, points.count), reach_, walls_of_fluid_);
   for (int a = 0; a < D; ++a) {
     found_at_[a].assign(points.position[a].begin(), points.position[a].begin() + points.count);
     walls_found_at_[a].assign(walls.position[a].begin(), walls.position[a].begin() + walls.count);
@@ -68,7 +60,7 @@ template <int D>
 void FluidNeighbours<D>::find_near_walls(const std::array<std::vector<double>, D>& wall_position,
                                          NearWalls<D>& walls) {
   const Index cloud = static_cast<Index>(wall_position[0].size());
-  grid_.find(spans<D>(wall_position, cloud), reach_, fluid_of_cloud_);
+  grid_.find(positions_of(wall_position, cloud), reach_, fluid_of_cloud_);
   walls.wall.clear();
   fluid_of_walls_.offset.assign(1, 0);
   fluid_of_walls_.other.clear();
@@ -101,7 +93,7 @@ void FluidNeighbours<D>::wrap(FluidPoints<D>& points) const {
 
 template <int D>
 void FluidNeighbours<D>::sort(FluidPoints<D>& points) {
-  grid_.build(spans<D>(points.position, points.count), reach_);
+  grid_.build(positions_of(points.position, points.count), reach_);
   const auto permute = [&](auto& values, auto& sorted) {
     sorted.clear();
     for (const Index i : grid_.order()) sorted.push_back(values[i]);

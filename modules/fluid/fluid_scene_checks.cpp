@@ -124,8 +124,7 @@ std::optional<Index> first_in_body(const Body<D>& body, const Positions<D>& poin
   const double cell = 0.5 * body.spacing() * (1.0 - 1e-6);
   const double near = 0.5 * spacing * (1.0 - 1e-6);
   const double reach = std::max(near, std::sqrt(D) * cell);
-  Positions<D> body_points;
-  for (int a = 0; a < D; ++a) body_points[a] = body.points().position[a];
+  const Positions<D> body_points = positions_of(body.points().position);
   CellGrid<D> grid;
   grid.build(body_points, reach);
   Neighbours found;
@@ -149,9 +148,7 @@ void check_points_outside_body(const Section& section, const Body<D>& body,
                                const std::vector<SceneBox<D>>& boxes, double spacing) {
   for (const SceneBox<D>& one : boxes) {
     const Points<D> lattice = box_points<D>(section, one.path, spacing);
-    Positions<D> position;
-    for (int a = 0; a < D; ++a) position[a] = lattice.position[a];
-    const auto inside = first_in_body<D>(body, position, spacing);
+    const auto inside = first_in_body<D>(body, positions_of(lattice.position), spacing);
     if (!inside) continue;
     section.fail(one.path,
                  fmt::format("{} reaches into the body, with a point at ({:g}) m", one.what,

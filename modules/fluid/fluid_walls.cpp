@@ -7,6 +7,7 @@
 
 #include "core/geometry/cell_grid.hpp"
 #include "core/geometry/lattice.hpp"
+#include "modules/fluid/body_wall.hpp"
 #include "modules/fluid/fluid_blocks.hpp"
 
 namespace perifrac {
@@ -18,26 +19,6 @@ Vector<D> vector_at(const Section& section, const std::string& path) {
   Vector<D> result{};
   if (section.has(path)) std::ranges::copy(section.numbers(path), result.begin());
   return result;
-}
-
-template <int D>
-Vector<D> unit(int axis, int direction) {
-  Vector<D> result{};
-  result[axis] = direction;
-  return result;
-}
-
-template <int D>
-void add_point(WallCloud<D>& cloud, const Vector<D>& x, const Vector<D>& normal, double depth,
-               double volume, bool slips, Index owner) {
-  for (int a = 0; a < D; ++a) {
-    cloud.position[a].push_back(x[a]);
-    cloud.normal[a].push_back(normal[a]);
-  }
-  cloud.depth.push_back(depth);
-  cloud.volume.push_back(volume);
-  cloud.slips.push_back(slips);
-  cloud.owner.push_back(owner);
 }
 
 /// The rigid walls outside the closed faces of a box. Walls go on past open faces and corners.
@@ -87,8 +68,7 @@ void read_container(const Section& section, double spacing, double horizon, Flui
       if (words[2 * a + 1] == "wall" && above > depth) axis = a, direction = -1, depth = above;
     }
     if (axis >= 0) {
-      add_point<D>(walls.cloud, x, unit<D>(axis, direction), depth, lattice.volume[i], slips,
-                   owner);
+      walls.cloud.add(x, unit_vector<D>(axis, direction), depth, lattice.volume[i], slips, owner);
     }
   }
   walls.rigid.push_back({.name = "container"});
@@ -127,28 +107,10 @@ void read_wall(const Section& section, const std::string& path, double spacing, 
       if (high < depth) axis = a, direction = +1, depth = high;
     }
     if (depth > horizon) continue;
-    add_point<D>(walls.cloud, x, unit<D>(axis, direction), depth, lattice.volume[i], slips,
-                 static_cast<Index>(walls.rigid.size()));
+    walls.cloud.add(x, unit_vector<D>(axis, direction), depth, lattice.volume[i], slips,
+                    static_cast<Index>(walls.rigid.size()));
   }
   walls.rigid.push_back(std::move(wall));
-}
-
-template <int D>
-Positions<D> spans(const std::array<std::vector<double>, D>& position) {
-  Positions<D> result;
-  for (int a = 0; a < D; ++a) result[a] = position[a];
-  return result;
-}
-
-/// Takes out the container's points that lie where the body is.
-template <int D>
-void leave_room_for_body(const Body<D>& body, double spacing, WallCloud<D>& cloud) {
-  CellGrid<D> grid;
-  grid.build(spans<D>(body.points().position), body.spacing() + spacing);
-  Neighbours near;
-  const double reach = 0.5 * (body.spacing() + spacing) * (1.0 - 1e-9);
-  grid.find(spans<D>(cloud.position), reach, near);
-  cloud.remove_if([&](Index w) { return near.offset[w] < near.offset[w + 1]; });
 }
 
 /// Where fixed walls lie in each other takes out the later one's points; others may not.
@@ -157,7 +119,7 @@ void remove_doubles(const Section& section, double spacing, FluidWalls<D>& walls
   WallCloud<D>& cloud = walls.cloud;
   CellGrid<D> grid;
   const double reach = 0.5 * spacing * (1.0 - 1e-6);
-  grid.build(spans<D>(cloud.position), reach);
+  grid.build(positions_of(cloud.position), reach);
   Neighbours near;
   grid.find_others(cloud.size(), reach, near);
   std::vector<bool> doubled(cloud.size(), false);
@@ -178,69 +140,6 @@ void remove_doubles(const Section& section, double spacing, FluidWalls<D>& walls
     }
   }
   cloud.remove_if([&](Index w) { return doubled[w]; });
-}
-
-/// A point of the body and a face that it lies near.
-template <int D>
-struct NearFace {
-  Index point;
-  double depth;  ///< below the face [m]
-  Vector<D> normal;
-};
-
-/// All pairs not farther apart than `reach` [m], but for faces where space goes on by its period.
-template <int D>
-std::vector<NearFace<D>> faces_near_points(const Body<D>& body, const Period<D>& period,
-                                           double reach) {
-  std::vector<NearFace<D>> result;
-  for (Index i = 0; i < body.points().size(); ++i) {
-    const Vector<D> x = body.points().at(i);
-    double radius = 0.0;
-    for (const double component : x) radius += component * component;
-    radius = std::sqrt(radius);
-    for (const Face& face : body.faces()) {
-      NearFace<D> near{.point = i, .depth = face.coordinate - radius, .normal = x};
-      for (double& component : near.normal) component /= radius;
-      if (!face.curved()) {
-        if (period.ends[face.axis]) continue;
-        near.depth = face.direction * (face.coordinate - x[face.axis]);
-        near.normal = unit<D>(face.axis, face.direction);
-      }
-      if (near.depth <= reach) result.push_back(near);
-    }
-  }
-  return result;
-}
-
-/// Each point gets the depth below the nearest face, and that face's normal: of faces that fluid
-/// can be at, if it is near one, else of one that a rigid wall lies at.
-template <int D>
-void add_body(const Body<D>& body, bool slips, double spacing, double horizon,
-              const Period<D>& period, WallCloud<D>& cloud) {
-  const std::vector<NearFace<D>> faces = faces_near_points(body, period, horizon);
-  std::array<std::vector<double>, D> beyond;
-  for (const NearFace<D>& face : faces) {
-    const Vector<D> x = body.points().at(face.point);
-    for (int a = 0; a < D; ++a) {
-      beyond[a].push_back(x[a] + (face.depth + 0.5 * spacing) * face.normal[a]);
-    }
-  }
-  CellGrid<D> grid;
-  grid.build(spans<D>(cloud.position), spacing);
-  Neighbours rigid;
-  grid.find(spans<D>(beyond), 0.75 * spacing, rigid);
-  const auto covered = [&](std::size_t k) { return rigid.offset[k] < rigid.offset[k + 1]; };
-  for (std::size_t k = 0; k < faces.size();) {
-    std::size_t best = k;
-    const Index point = faces[k].point;
-    for (; k < faces.size() && faces[k].point == point; ++k) {
-      if (std::pair(covered(k), faces[k].depth) < std::pair(covered(best), faces[best].depth)) {
-        best = k;
-      }
-    }
-    add_point<D>(cloud, body.points().at(point), faces[best].normal, faces[best].depth,
-                 body.points().volume[point], slips, point);
-  }
 }
 
 }  // namespace

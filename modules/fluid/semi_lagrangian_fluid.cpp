@@ -155,7 +155,8 @@ PortView SemiLagrangianFluid<D>::port(PortId id) {
     case Quantity::pore_pressure:
       pore_pressure_.resize(body_points);
       pore_pressure_rate_.resize(body_points);
-      return {body, pore_pressure_, pore_pressure_rate_};
+      pore_pressure_slope_.resize(body_points);
+      return {body, pore_pressure_, pore_pressure_rate_, pore_pressure_slope_};
     case Quantity::pore_mobility:
       pore_mobility_.resize(body_points);
       return {body, pore_mobility_};
@@ -195,8 +196,9 @@ double SemiLagrangianFluid<D>::stable_time_step() const {
 template <int D>
 double SemiLagrangianFluid<D>::advance(const TimeWindow& window) {
   dynamics_->set_body({displacement_, displacement_rate_, window.end});
-  dynamics_->set_pores({pore_pressure_, pore_pressure_rate_, pore_mobility_, window.end});
   dynamics_->start_totals();
+  dynamics_->set_pores(
+      {pore_pressure_, pore_pressure_rate_, pore_pressure_slope_, pore_mobility_, window.end});
   double t = window.begin;
   std::int64_t left = 0;
   while (t < window.end) {

@@ -17,8 +17,8 @@ namespace perifrac {
 /// `<name>_displacement` [m] of each piston, and counts of work; with inlets `injected_fluid_mass`
 /// [kg], where points may be removed `removed_fluid_mass` [kg, negative] and `points_left`.
 /// On the points of a body, if there is one: in `displacement` [m]; out `interface_impulse` [N s],
-/// what the fluid gave each point over the window. If it has pores: in `pore_pressure` [Pa],
-/// `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg], likewise.
+/// what the fluid gave each point over the window. If it has pores: in `pore_pressure` [Pa]
+/// with rate and slope, `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg], likewise.
 template <int D>
 class SemiLagrangianFluid final : public PhysicsModule {
  public:
@@ -73,7 +73,7 @@ class SemiLagrangianFluid final : public PhysicsModule {
   PointSet point_set_;
   // Inputs and their companions; empty until somebody links them.
   std::vector<double> displacement_, displacement_rate_;
-  std::vector<double> pore_pressure_, pore_pressure_rate_;
+  std::vector<double> pore_pressure_, pore_pressure_rate_, pore_pressure_slope_;
   std::vector<double> pore_mobility_;
   // Outputs, made when they are asked for.
   std::vector<double> impulse_, exchanged_mass_;

@@ -8,6 +8,14 @@
 
 namespace perifrac {
 
+/// The normal of a wall across an axis; `direction` is +1 or -1.
+template <int D>
+Vector<D> unit_vector(int axis, int direction) {
+  Vector<D> result{};
+  result[axis] = direction;
+  return result;
+}
+
 /// All points that the fluid cannot enter, as they lie at the start: those of rigid walls, then
 /// those of the body within a horizon of its faces.
 template <int D>
@@ -29,6 +37,18 @@ struct WallCloud {
     return x;
   }
   bool is_rigid(Index w) const { return w < rigid_count; }
+
+  void add(const Vector<D>& x, const Vector<D>& outwards, double below, double v, bool is_slippery,
+           Index of) {
+    for (int a = 0; a < D; ++a) {
+      position[a].push_back(x[a]);
+      normal[a].push_back(outwards[a]);
+    }
+    depth.push_back(below);
+    volume.push_back(v);
+    slips.push_back(is_slippery);
+    owner.push_back(of);
+  }
 
   /// Takes out the points for which gone(w) holds.
   template <class Gone>

@@ -23,8 +23,6 @@ const std::vector<Port>& darcy_ports(int dimension) {
         {"darcy_velocity", "m/s", PortDirection::out, PortKind::intensive, PortRole::field, d},
         {"pore_mobility", "m^2/(Pa s)", PortDirection::out, PortKind::intensive,
          PortRole::property},
-        {"answering_pore_pressure", "Pa", PortDirection::out, PortKind::intensive,
-         PortRole::property},
         total("pore_fluid_mass", "kg", PortRole::mass_stored),
         total("pore_fluid_at_rest", "kg", PortRole::mass_reference),
         total("pore_fluid_gained", "kg", PortRole::mass_gained),
@@ -84,7 +82,8 @@ PortView DarcyFlow<D>::port(PortId id) {
     case exchanged_mass:
       return {points, system_->exchange().mass(count)};
     case pore_pressure:
-      return {points, pressure_};
+      find_pressure_slope();
+      return {points, pressure_, {}, pressure_slope_};
     case pore_stress:
       return {points, pore_stress_, {}, pore_stress_slope_};
     case fluid_content:
@@ -96,9 +95,6 @@ PortView DarcyFlow<D>::port(PortId id) {
     case pore_mobility:
       if (mobility_.empty()) find_mobility();
       return {points, mobility_};
-    case answering_pressure:
-      find_pressure_slope();
-      return {points, pressure_, {}, pressure_slope_};
     default: {
       double& value = scalars_[id - mass_stored];
       value = id < integrator_steps || id == artificial_mass ? scalar(id) : work(id);
@@ -203,15 +199,16 @@ void DarcyFlow<D>::find_mobility() {
   }
 }
 
-/// That flow takes some of it on at once makes the pressure answer less.
+/// While no fluid moves and the rock is held; empty where nobody hands over mass.
 template <int D>
 void DarcyFlow<D>::find_pressure_slope() {
-  const std::span<const double> storage = system_->effective_storage(time_, unknowns_);
+  if (!system_->exchange().is_linked()) return;
   pressure_slope_.resize(system_->points());
   for (Index i = 0; i < system_->points(); ++i) {
-    pressure_slope_[i] = 1.0 / (system_->fluid().density * system_->volume()[i] * storage[i]);
+    const double alpha = system_->biot_coefficient(i);
+    const double mass = system_->fluid().density * system_->volume()[i];
+    pressure_slope_[i] = -pore_stress_slope_[i] / (alpha * alpha * mass);
   }
-  for (const HeldPoint& held : system_->held_points()) pressure_slope_[held.point] = 0.0;
 }
 
 template <int D>

@@ -28,13 +28,11 @@ struct InitialPressure {
 /// Pore flow after Darcy, by whichever integrator it is given.
 ///
 /// Ports: in `dilatation`, `exchanged_mass` [kg] that others hand over to each point; out
-/// `pore_pressure` [Pa], `pore_stress` (alpha p) with its undrained
-/// slope d(pore_stress)/d(dilatation) [Pa], `fluid_content`, `darcy_velocity` [m/s], the properties
-/// `pore_mobility` [m^2/(Pa s)] and `answering_pore_pressure`, which is pore_pressure with the
-/// slope d(pore_pressure)/d(exchanged_mass) while no fluid flows on, and for the ledger
-/// `pore_fluid_mass`, `pore_fluid_gained` [kg], `pore_fluid_energy`, `pore_fluid_work`,
-/// `darcy_dissipation` [J] (per metre in 2D); `artificial_fluid_mass` [kg] where pressures are
-/// smoothed.
+/// `pore_pressure` [Pa] with its slope d(pore_pressure)/d(exchanged_mass), `pore_stress` (alpha p)
+/// with its undrained slope d(pore_stress)/d(dilatation) [Pa], `fluid_content`, `darcy_velocity`
+/// [m/s], the property `pore_mobility` [m^2/(Pa s)], and for the ledger `pore_fluid_mass`,
+/// `pore_fluid_gained` [kg], `pore_fluid_energy`, `pore_fluid_work`, `darcy_dissipation` [J] (per
+/// metre in 2D); `artificial_fluid_mass` [kg] where pressures are smoothed.
 template <int D>
 class DarcyFlow final : public PhysicsModule {
  public:
@@ -58,7 +56,6 @@ class DarcyFlow final : public PhysicsModule {
     fluid_content,
     darcy_velocity,
     pore_mobility,
-    answering_pressure,
     mass_stored,
     mass_reference,
     mass_gained,
@@ -104,7 +101,7 @@ class DarcyFlow final : public PhysicsModule {
   std::vector<double> pore_stress_slope_;
   std::vector<double> velocity_;        ///< empty until somebody asks
   std::vector<double> mobility_;        ///< likewise
-  std::vector<double> pressure_slope_;  ///< likewise
+  std::vector<double> pressure_slope_;  ///< d(pore_pressure)/d(exchanged_mass) [Pa/kg]
   std::array<double, port_count - mass_stored> scalars_{};
 };
 

@@ -221,22 +221,30 @@ void CrackedBody::set_load(const Eigen::VectorXd& load) {
   find_opening();
 }
 
-void CrackedBody::find_opening() {
-  const Eigen::MatrixXd& block = inverse_->block();
-  Eigen::VectorXd x(block.rows());
-  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = intact_move_[inverse_->unknowns()[k]];
-  x = inverse_->correct_block(x);
-  Eigen::VectorXd relieved = Eigen::VectorXd::Zero(x.size());
-  for (std::size_t f = 0; f < modes_.size() && initial_stress_; ++f) {
+/// What a pressure on the faces, and the stress they are relieved of, do on the condensed unknowns.
+Eigen::VectorXd CrackedBody::block_force(const Eigen::VectorXd& pressure) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
     const auto [normal, tangential] = relief(static_cast<Index>(f));
-    for (const auto& [place, c] : modes_[f].normal)
-      relieved[place] += jumps_[f].length * normal * c;
-    for (const auto& [place, c] : modes_[f].tangent)
-      relieved[place] += jumps_[f].length * tangential * c;
+    const double length = jumps_[f].length;
+    for (const auto& [place, c] : modes_[f].normal) {
+      force[place] += length * (pressure[f] + normal) * c;
+    }
+    for (const auto& [place, c] : modes_[f].tangent) force[place] += length * tangential * c;
   }
-  if (initial_stress_) x += block * relieved;
-  opening_.resize(static_cast<Eigen::Index>(modes_.size()));
-  for (std::size_t f = 0; f < modes_.size(); ++f) opening_[f] = dot(modes_[f].normal, x);
+  return force;
+}
+
+void CrackedBody::find_opening() {
+  Eigen::VectorXd moved(inverse_->block().rows());
+  for (Eigen::Index k = 0; k < moved.size(); ++k) {
+    moved[k] = intact_move_[inverse_->unknowns()[k]];
+  }
+  loaded_ = inverse_->correct_block(moved);
+  const auto count = static_cast<Eigen::Index>(modes_.size());
+  const Eigen::VectorXd x = loaded_ + inverse_->block() * block_force(Eigen::VectorXd::Zero(count));
+  opening_.resize(count);
+  for (Eigen::Index f = 0; f < count; ++f) opening_[f] = dot(modes_[f].normal, x);
 }
 
 CrackedBody::Faces CrackedBody::faces(const Eigen::VectorXd& pressure) const {
@@ -342,8 +350,13 @@ Eigen::VectorXd CrackedBody::face_force(const Eigen::VectorXd& pressure, bool re
 }
 
 Eigen::VectorXd CrackedBody::unknowns(const Eigen::VectorXd& pressure) const {
-  const Eigen::VectorXd load = load_ + free_unknowns_.transpose() * face_force(pressure);
-  return free_unknowns_ * inverse_->solve(load);
+  const Eigen::VectorXd force = block_force(pressure);
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  Eigen::VectorXd all = -inverse_->force_of_changes(block);
+  for (Eigen::Index k = 0; k < force.size(); ++k) all[inverse_->unknowns()[k]] += force[k];
+  Eigen::VectorXd moved(all.size());
+  factor_.solve(all, moved);
+  return free_unknowns_ * (intact_move_ + moved);
 }
 
 }  // namespace perifrac

@@ -89,6 +89,7 @@ class CrackedBody {
   void add_mode(const FaceJump& jump);
   void find_compliance();
   void find_opening();
+  Eigen::VectorXd block_force(const Eigen::VectorXd& pressure) const;
 
   std::shared_ptr<Family<2>> family_;
   Family<2> intact_;
@@ -110,6 +111,7 @@ class CrackedBody {
   Eigen::VectorXd load_;          ///< of those solved for
   Eigen::VectorXd intact_move_;   ///< what it does to the body with its first cracks
   std::vector<double> gradient_;  // workspace
+  Eigen::VectorXd loaded_;        ///< what it does now, on the condensed unknowns
   Eigen::VectorXd opening_;       ///< by load and relief, without pressure
 };
 

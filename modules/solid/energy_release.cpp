@@ -14,6 +14,13 @@ struct Cutoff {
   double inner;
   double outer;
 
+  double at(const Vector<2>& x) const {
+    const double distance = std::hypot(x[0] - centre[0], x[1] - centre[1]);
+    if (distance <= inner) return 1.0;
+    if (distance >= outer) return 0.0;
+    return 0.5 * (1.0 + std::cos(M_PI * (distance - inner) / (outer - inner)));
+  }
+
   Vector<2> gradient(const Vector<2>& x) const {
     const Vector<2> r = {x[0] - centre[0], x[1] - centre[1]};
     const double distance = std::hypot(r[0], r[1]);
@@ -97,14 +104,14 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
   }
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
-    const Vector<2> slope =
-        cutoff.gradient({0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
-    const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
-    if (along == 0.0) continue;
+    const Vector<2>& tangent = body_.jumps()[f].tangent;
+    const double ahead = tangent[0] * tip.direction[0] + tangent[1] * tip.direction[1];
+    // The integral of d . grad q along the facet.
+    const double rise = ahead * (cutoff.at(facet[1]) - cutoff.at(facet[0]));
+    if (rise == 0.0) continue;
     const Vector<2> jump = body_.jump(static_cast<Index>(f), unknowns);
     const Vector<2> relief = body_.relief(static_cast<Index>(f));
-    sum += ((pressure[f] + relief[0]) * jump[0] + relief[1] * jump[1]) * along *
-           body_.jumps()[f].length;
+    sum += ((pressure[f] + relief[0]) * jump[0] + relief[1] * jump[1]) * rise;
   }
   return sum;
 }

@@ -100,6 +100,22 @@ TEST(Connect, WithoutAReceiverOfTheSlopeAutomaticIsFixedStress) {
   }
 }
 
+/// It is no split: there is no other way round to choose.
+TEST(Connect, WhoIsHandedTotalsSendsItsSlopeWhateverTheSplit) {
+  for (const Split split :
+       {Split::drained, Split::fixed_stress, Split::undrained, Split::automatic}) {
+    auto modules = bare(
+        {{{"p", "Pa", PortDirection::in}, {"m", "kg", PortDirection::out, PortKind::extensive}},
+         {{"p", "Pa", PortDirection::out}, {"m", "kg", PortDirection::in, PortKind::extensive}}},
+        true);
+    static_cast<fake::Socket&>(*modules[0].module).at[1].slope.clear();
+    const auto links = connect(modules, split);
+    ASSERT_EQ(links.size(), 2u);
+    for (const Link& link : links) EXPECT_EQ(link.uses_slope(), link.name() == "p");
+    EXPECT_TRUE(coupled_pairs(links).empty());
+  }
+}
+
 TEST(Connect, RefusesASlopeThatCouldReferToTwoPorts) {
   auto modules = bare({{{"p", "Pa", PortDirection::in},
                         {"q", "Pa", PortDirection::in},

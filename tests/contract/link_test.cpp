@@ -17,9 +17,9 @@ using Values = std::vector<double>;
 /// A source that answers theta to p, and a target that takes theta and answers p. Ports 0 are in,
 /// ports 1 out.
 struct Pair {
-  explicit Pair(bool lagged = true, PortKind counter = PortKind::intensive)
-      : source({{"p", "Pa", PortDirection::in, counter}, {"theta", "1", PortDirection::out}},
-               points.set(), true),
+  explicit Pair(bool lagged = true)
+      : source({{"p", "Pa", PortDirection::in}, {"theta", "1", PortDirection::out}}, points.set(),
+               true),
         target({{"theta", "1", PortDirection::in}, {"p", "Pa", PortDirection::out}}, points.set(),
                true),
         link({"solid", &source, 1}, {"pore_flow", &target, 0}, lagged) {}
@@ -90,23 +90,36 @@ TEST(Link, ValueAndRateRunFromTheLastWindowsEndToThisOnes) {
   EXPECT_EQ(pair.told(1.0, {3.0, 2.0}), (Values{14.0, 26.0}));
 }
 
-TEST(Link, OfATotalNothingIsThereWhenAWindowBegins) {
-  Pair pair(true, PortKind::extensive);
-  pair.link.use_slope(0);
-  pair.source.at[1].slope = {0.5, 0.25};
-  pair.source.at[0].slope = {0.0, 0.0};
-  pair.link.start();
-  pair.source.at[0].value = {4.0, 8.0};
-  pair.source.at[1].value = {14.0, 26.0};
-  pair.link.collect(2.0);
-  pair.link.deliver();
-  EXPECT_EQ(pair.told(0.0, {4.0, 8.0}), (Values{14.0, 26.0}));
-  EXPECT_EQ(pair.told(2.0, {0.0, 0.0}), (Values{0.0, 0.0})) << "where the window began";
-  pair.link.accept();
-  pair.link.predict(1.0);
-  pair.link.deliver();
-  EXPECT_EQ(pair.told(1.0, {0.0, 0.0}), (Values{14.0, 26.0}));
-  EXPECT_EQ(pair.told(0.0, {2.0, 4.0}), (Values{15.0, 27.0}));
+/// What answers a total over the window answers what of it differs from the last window's pace.
+TEST(Link, ATotalBeginsEveryWindowAtNothing) {
+  const Line points{1};
+  Socket source({{"mass", "kg", PortDirection::in, PortKind::extensive},
+                 {"pressure", "Pa", PortDirection::out}},
+                points.set(), true);
+  Socket target({{"pressure", "Pa", PortDirection::in}}, points.set(), true);
+  Link link({"pores", &source, 1}, {"fluid", &target, 0}, true);
+  source.at[0].slope.clear();
+  link.use_slope(0);
+  link.start();
+  source.at[1].slope = {5.0};
+  const auto told = [&](double before, double mass) {
+    const Socket::Values& in = target.at[0];
+    return in.value[0] - in.rate[0] * before + in.slope[0] * mass;
+  };
+  link.predict(2.0);
+  source.at[0].value = {8.0};  // 4 a second
+  source.at[1].value = {10.0};
+  link.collect(2.0);
+  link.deliver();
+  EXPECT_EQ(told(0.0, 8.0), 10.0) << "the same window again";
+  EXPECT_EQ(told(2.0, 0.0), 0.0) << "its beginning";
+
+  link.accept();
+  link.predict(1.0);
+  link.deliver();
+  EXPECT_EQ(told(1.0, 0.0), 10.0);
+  EXPECT_EQ(told(0.0, 4.0), 15.0) << "at the pace of the last window";
+  EXPECT_EQ(told(0.0, 4.5), 17.5);
 }
 
 TEST(Link, AWindowOfNoLengthHasNoRate) {

@@ -48,6 +48,7 @@ TEST(Poiseuille, StartsAndSettlesWithSecondOrder) {
             3.0 * run.largest("velocity_error", 0.0, 1.0));
 }
 
+/// With the 20 points across of the scene: finer ones run farther ahead, see docs/scenes.md.
 TEST(DamBreak, FrontRunsAsMeasured) {
   const SceneRun run = run_fluid("dam_break");
   EXPECT_LE(run.largest("front_error", 0.0, 3.33), 0.1);

@@ -31,6 +31,16 @@ TEST(ConstantHead, FlowsSteadilyFromAWarmStart) {
   EXPECT_LE(run.largest("pressure_error", 0.0, 1.0), 2e-3);
 }
 
+/// Ten times dx^2 S / (3 kappa), beyond which several times too much would pass if fluid did not
+/// know how the pores fill up within a window.
+TEST(ConstantHead, BearsWindowsLongerThanThePoresTakeToFill) {
+  const SceneRun run =
+      run_both("constant_head", {"time.end=60 s", "output.times=[50 s]",
+                                 "coupling.window.first=3 s", "coupling.window.largest=3 s"});
+  EXPECT_LE(run.figure("volume passed"), 2e-2);
+  EXPECT_LE(run.figure("water pressure"), 5e-3);
+}
+
 /// A long specimen hides where the interface is.
 TEST(ConstantHead, MeetsTheWaterAtTheFaceOfAShortSpecimen) {
   const SceneRun run =

@@ -58,8 +58,8 @@ void expect_drains_wholly(int across, int high) {
       std::make_unique<BondFluxExchange<D>>(*scene.body, scene.cloud, scene.rigid, period,
                                             scene.scheme.horizon));
   scene.mobility.assign(scene.mobility.size(), 2e-5);
-  dynamics.set_pores(scene.pores());
   dynamics.start_totals();
+  dynamics.set_pores(scene.pores());
 
   Account<D> start;
   start.add(dynamics.points());

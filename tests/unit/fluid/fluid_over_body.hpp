@@ -60,6 +60,8 @@ struct FluidOverBody {
     mobility.assign(body->points().size(), 1e-9);
     pressure.assign(body->points().size(), 0.0);
     rate.assign(body->points().size(), 0.0);
+    slope.assign(body->points().size(), 0.0);
+    mass.assign(body->points().size(), 0.0);
   }
 
   static Period<D> make_period(double width) {
@@ -102,7 +104,7 @@ struct FluidOverBody {
   FluidStep<D> step() const {
     return {points, cloud, neighbours, moments, fluid, scheme, influence, gravity, stress};
   }
-  PoreInput pores() const { return {pressure, rate, mobility, 0.0}; }
+  PoreInput pores() const { return {pressure, rate, slope, mobility, 0.0, mass}; }
 
   FluidProperties fluid{.density = 1000.0, .bulk_modulus = 2e7, .viscosity = 1e-3};
   FluidScheme scheme;
@@ -116,7 +118,7 @@ struct FluidOverBody {
   NearWalls<D> walls;
   FluidMoments<D> moments;
   std::array<std::vector<double>, symmetric_size<D>> stress;
-  std::vector<double> pressure, rate, mobility;  ///< of the pores
+  std::vector<double> pressure, rate, slope, mobility, mass;  ///< of the pores
 };
 
 }  // namespace perifrac::test

@@ -2,73 +2,116 @@
 
 #include <cmath>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "modules/solid/cracked_body.hpp"
 #include "modules/solid/energy_release.hpp"
-#include "modules/solid/solid_boundary.hpp"
+#include "tests/unit/fracture/exact_crack.hpp"
+#include "tests/unit/operators/irregular_body.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 #include "tests/unit/solid/elastic.hpp"
 
 namespace perifrac::test {
 
-/// A free plate of nx * ny points at spacing 1, three of whose unknowns are pinned, so that loads
-/// must balance; E' = 1.
+/// A square plate of n * n points at spacing 1 around the origin of a crack, with E' = 1. Points in
+/// the outer three rows move as they are told, which stands for the plate going on for ever.
 struct CrackedPlate {
+  static constexpr int outer_rows = 3;
+
+  int n;
+  double poisson_ratio;
   std::shared_ptr<const Body<2>> body;
   std::shared_ptr<Family<2>> family;
+  SolidBoundary<2> boundary;
   std::shared_ptr<BreakableElasticity<2>> elastic;
   BondState<2> bonds;
-  SolidBoundary<2> boundary;
-  Eigen::SparseMatrix<double> free;
+  std::vector<Index> told;
   std::unique_ptr<CrackedBody> cracked;
+  Eigen::VectorXd prescribed;
 
-  CrackedPlate(int nx, int ny, std::vector<CrackFacet<2>> seeds, double poisson = 0.25,
-               Cloud cloud = Cloud::lattice)
-      : body(box_body<2>({nx, ny}, 1.0, cloud)),
+  double shear_modulus() const { return 0.5 * (1.0 - poisson_ratio); }
+  Vector<2> middle() const { return {0.5 * n, 0.5 * n}; }
+
+  CrackedPlate(int count, std::vector<CrackFacet<2>> seeds, double poisson = 0.25,
+               std::shared_ptr<const Body<2>> shape = nullptr)
+      : n(count),
+        poisson_ratio(poisson),
+        body(shape ? shape : box_body<2>({n, n}, 1.0)),
         family(std::make_shared<Family<2>>(*body->family(0))),
         boundary(*body) {
-    const double shear = 0.5 * (1.0 - poisson);
-    const IsotropicElasticity<2> law{2.0 * shear * poisson / (1.0 - 2.0 * poisson), shear};
+    const double mu = shear_modulus();
+    const IsotropicElasticity<2> law{2.0 * mu * poisson / (1.0 - 2.0 * poisson), mu};
+    const auto mirror = boundary.mirror_condition(*family);
     elastic = std::make_shared<LinearExactElasticity<2, IsotropicElasticity<2>>>(
-        LinearExactOperator<2, IsotropicElasticity<2>>(family, boundary.mirror_condition(*family),
-                                                       law));
-    const Index points = family->point_count;
-    const Index low = body->nearest_point({0.0, 0.0}), right = body->nearest_point({1.0 * nx, 0.0});
-    free.resize(2 * points, 2 * points - 3);
+        LinearExactOperator<2, IsotropicElasticity<2>>(family, mirror, law));
     std::vector<Eigen::Triplet<double>> ones;
+    const Index points = family->point_count;
+    const auto is_told = [&](Index i) {
+      const Vector<2> x = body->points().at(i);
+      const double inside = std::min({x[0], x[1], n - x[0], n - x[1]});
+      return inside < outer_rows;
+    };
     int column = 0;
     for (Index k = 0; k < 2 * points; ++k) {
-      if (k == low || k == points + low || k == points + right) continue;
-      ones.emplace_back(k, column++, 1.0);
+      if (!is_told(k % points)) ones.emplace_back(k, column++, 1.0);
     }
+    for (Index i = 0; i < points; ++i) {
+      if (is_told(i)) told.push_back(i);
+    }
+    Eigen::SparseMatrix<double> free(2 * points, column);
     free.setFromTriplets(ones.begin(), ones.end());
+    free_ = free;
     cracked = std::make_unique<CrackedBody>(family, 1.0, elastic, free, bonds, std::nullopt,
                                             std::move(seeds));
     cracked->start();
+    prescribed = Eigen::VectorXd::Zero(2 * points);
   }
 
-  /// Facets of a straight crack of `count` spacings.
-  static std::vector<CrackFacet<2>> line(Vector<2> from, Vector<2> direction, int count) {
-    std::vector<CrackFacet<2>> facets;
-    const double size = std::hypot(direction[0], direction[1]);
-    const auto at = [&](int k) {
-      return Vector<2>{from[0] + k * direction[0] / size, from[1] + k * direction[1] / size};
-    };
-    for (int k = 0; k < count; ++k) facets.push_back({at(k), at(k + 1)});
-    return facets;
+  /// The equilibrium with the outer rows where the exact crack's plate has them, and its pressure.
+  Eigen::VectorXd solve(const ExactCrack& exact) {
+    const Index points = family->point_count;
+    for (const Index i : told) {
+      const Vector<2> u = exact.displacement(body->points().at(i));
+      for (int a = 0; a < 2; ++a) prescribed[a * points + i] = u[a];
+    }
+    std::vector<double> u(prescribed.begin(), prescribed.end()), force(u.size()), theta(points);
+    elastic->apply(u, {}, force, theta);
+    cracked->set_load(-free_.transpose() *
+                      Eigen::Map<const Eigen::VectorXd>(force.data(), prescribed.size()));
+    pressure = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cracked->jumps().size()),
+                                         exact.pressure);
+    return prescribed + cracked->unknowns(pressure);
   }
 
-  /// Load of uniform stresses at the faces.
-  Eigen::VectorXd remote(double sx, double sy, double sxy) {
-    SolidBoundary<2> loads(*body);
-    loads.traction(0, {-sx, -sxy});
-    loads.traction(1, {sx, sxy});
-    loads.traction(2, {-sxy, -sy});
-    loads.traction(3, {sxy, sy});
-    const auto mirror = loads.mirror_condition(*family);
-    return free.transpose() * loads.loads(mirror, elastic->gradient_matrix()).at(0.0);
+  Eigen::VectorXd pressure;
+
+  /// The tip of a straight crack at its end (1) or its beginning (0).
+  TipLoad tip_load(const ExactCrack& exact, int end, const Eigen::VectorXd& u) const {
+    const double sign = end == 1 ? 1.0 : -1.0;
+    const Vector<2> ahead = {sign * std::cos(exact.angle), sign * std::sin(exact.angle)};
+    const CrackTip tip{{exact.centre[0] + exact.half_length * ahead[0],
+                        exact.centre[1] + exact.half_length * ahead[1]},
+                       ahead,
+                       no_facet,
+                       no_facet};
+    return EnergyRelease(*cracked, 1.0)
+        .at(tip, {u.data(), static_cast<std::size_t>(u.size())}, pressure);
   }
+
+ private:
+  Eigen::SparseMatrix<double> free_;
 };
+
+/// Facets of a straight crack of `count` spacings about a centre.
+inline std::vector<CrackFacet<2>> straight_crack(const Vector<2>& centre, double angle, int count) {
+  const auto at = [&](int k) {
+    const double r = k - 0.5 * count;
+    return Vector<2>{centre[0] + r * std::cos(angle), centre[1] + r * std::sin(angle)};
+  };
+  std::vector<CrackFacet<2>> facets;
+  for (int k = 0; k < count; ++k) facets.push_back({at(k), at(k + 1)});
+  return facets;
+}
 
 }  // namespace perifrac::test

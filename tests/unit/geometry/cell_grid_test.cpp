@@ -22,13 +22,6 @@ template <int D>
 using Coordinates = std::array<std::vector<double>, D>;
 
 template <int D>
-Positions<D> spans(const Coordinates<D>& x) {
-  Positions<D> result;
-  for (int a = 0; a < D; ++a) result[a] = x[a];
-  return result;
-}
-
-template <int D>
 Coordinates<D> random_points(Index count, double size, unsigned seed) {
   std::mt19937 bits(seed);
   std::uniform_real_distribution<double> place(-0.3 * size, 0.7 * size);
@@ -56,9 +49,9 @@ void expect_all_pairs(const Coordinates<D>& points, const Coordinates<D>& target
                       double reach) {
   const auto count = static_cast<Index>(points[0].size());
   CellGrid<D> grid;
-  grid.build(spans<D>(points), cell);
+  grid.build(positions_of(points), cell);
   Neighbours near, others;
-  grid.find(spans<D>(targets), reach, near);
+  grid.find(positions_of(targets), reach, near);
   grid.find_others(count, reach, others);
   ASSERT_EQ(near.target_count(), static_cast<Index>(targets[0].size()));
   ASSERT_EQ(others.target_count(), count);
@@ -101,7 +94,7 @@ TEST(CellGrid, HoldsOnALatticeOfTheCellsEdge) {
 TEST(CellGrid, FindsCoincidentPoints) {
   const Coordinates<2> x = {{{0.5, 0.5, 0.5, 3.0}, {0.25, 0.25, 0.25, 0.0}}};
   CellGrid<2> grid;
-  grid.build(spans<2>(x), 1.0);
+  grid.build(positions_of(x), 1.0);
   Neighbours found;
   grid.find_others(4, 1.0, found);
   EXPECT_THAT(found.offset, ElementsAre(0, 2, 4, 6, 6));
@@ -111,7 +104,7 @@ TEST(CellGrid, FindsCoincidentPoints) {
 TEST(CellGrid, GivesTheFirstTargetsAlone) {
   const Coordinates<2> x = {{{0.0, 2.0, 0.5, 1.5}, {0.0, 0.0, 0.0, 0.0}}};
   CellGrid<2> grid;
-  grid.build(spans<2>(x), 1.0);
+  grid.build(positions_of(x), 1.0);
   Neighbours found;
   grid.find_others(2, 1.0, found);
   EXPECT_THAT(found.offset, ElementsAre(0, 1, 2));
@@ -126,10 +119,10 @@ TEST(CellGrid, TakesEmptySets) {
   grid.find_others(0, 1.0, found);
   EXPECT_THAT(found.offset, ElementsAre(0));
   const auto targets = random_points<3>(2, 1.0, 1);
-  grid.find(spans<3>(targets), 1.0, found);
+  grid.find(positions_of(targets), 1.0, found);
   EXPECT_THAT(found.offset, ElementsAre(0, 0, 0));
   EXPECT_TRUE(found.other.empty());
-  grid.build(spans<3>(targets), 1.0);
+  grid.build(positions_of(targets), 1.0);
   grid.find({}, 1.0, found);
   EXPECT_THAT(found.offset, ElementsAre(0));
 }
@@ -151,15 +144,15 @@ TEST(CellGrid, IgnoresPointsThatAreNotFinite) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const Coordinates<2> x = {{{0.0, nan, 0.1, inf, -inf, inf}, {0.0, 0.0, 0.1, 0.0, nan, 0.0}}};
   CellGrid<2> grid;
-  grid.build(spans<2>(x), 1.0);
+  grid.build(positions_of(x), 1.0);
   Neighbours found;
   grid.find_others(6, 1.0, found);
   EXPECT_THAT(found.offset, ElementsAre(0, 1, 1, 2, 2, 2, 2));
   EXPECT_THAT(found.other, ElementsAre(2, 0));
-  grid.find(spans<2>(x), 1.0, found);
+  grid.find(positions_of(x), 1.0, found);
   EXPECT_THAT(found.offset, ElementsAre(0, 2, 2, 4, 4, 4, 4));
   const Coordinates<2> none = {{{nan, inf}, {nan, nan}}};
-  grid.build(spans<2>(none), 1.0);
+  grid.build(positions_of(none), 1.0);
   grid.find_others(2, 1.0, found);
   EXPECT_TRUE(found.other.empty());
 }
@@ -167,7 +160,7 @@ TEST(CellGrid, IgnoresPointsThatAreNotFinite) {
 TEST(CellGrid, OrdersEveryPointOnceByRowsOfCells) {
   const auto x = random_points<3>(2000, 8.0, 15);
   CellGrid<3> grid;
-  grid.build(spans<3>(x), 1.0);
+  grid.build(positions_of(x), 1.0);
   std::vector<Index> order(grid.order().begin(), grid.order().end());
   const auto cell = [&](Index i) {
     return std::array{std::floor(x[2][i]), std::floor(x[1][i]), std::floor(x[0][i])};
@@ -186,7 +179,7 @@ TEST(CellGrid, DoesNotDependOnTheNumberOfThreads) {
   for (int t = 0; t < 3; ++t) {
     omp_set_num_threads(t + 1);
     CellGrid<2> grid;
-    grid.build(spans<2>(x), 1.0);
+    grid.build(positions_of(x), 1.0);
     grid.find_others(4000, 1.0, found[t]);
   }
   omp_set_num_threads(threads);
@@ -199,12 +192,12 @@ TEST(CellGrid, DoesNotDependOnTheNumberOfThreads) {
 TEST(CellGrid, AllocatesNothingWhenRepeated) {
   const auto x = random_points<2>(1000, 10.0, 17);
   CellGrid<2> grid;
-  grid.build(spans<2>(x), 1.0);
+  grid.build(positions_of(x), 1.0);
   Neighbours found;
   grid.find_others(1000, 1.0, found);
   const Index *const offset = found.offset.data(), *const other = found.other.data(),
                      *const order = grid.order().data();
-  grid.build(spans<2>(x), 1.0);
+  grid.build(positions_of(x), 1.0);
   grid.find_others(1000, 1.0, found);
   EXPECT_EQ(found.offset.data(), offset);
   EXPECT_EQ(found.other.data(), other);

@@ -23,10 +23,8 @@ struct Crowd {
 
   explicit Crowd(const std::array<int, D>& counts)
       : points(test::box_points<D>(counts, 1.0, Cloud::jittered)) {
-    Positions<D> position;
-    for (int a = 0; a < D; ++a) position[a] = points.position[a];
     CellGrid<D> grid;
-    grid.build(position, 1.1 * horizon);
+    grid.build(positions_of(points.position), 1.1 * horizon);
     grid.find_others(points.size(), 1.1 * horizon, neighbours);
   }
 };

@@ -86,6 +86,9 @@ TEST(MassExchange, RaisesThePressureByWhatTheRockStores) {
     flow.advance({0.7, 0.9});
     const double exact = 0.25 + 0.06 / (some_rock.fluid_density * 0.125 * some_rock.storage);
     for (const double p : test::port(flow, "pore_pressure").value) EXPECT_NEAR(p, exact, 1e-13);
+    for (const double slope : test::port(flow, "pore_pressure").slope) {
+      EXPECT_NEAR(0.25 + slope * 0.06, exact, 1e-13) << "what it told of that before";
+    }
     for (const double zeta : test::port(flow, "fluid_content").value) {
       EXPECT_NEAR(zeta, exact * some_rock.storage, 1e-13);
     }

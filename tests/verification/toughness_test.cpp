@@ -1,0 +1,96 @@
+// The apparent toughness of the criteria, K_app / K_IC: the exact field of a crack is imposed on a
+// plate around it, and J of the plate's own solution is held against the exact one. `make
+// toughness` prints the table.
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/fracture/cracked_plate.hpp"
+
+namespace perifrac::test {
+namespace {
+
+constexpr double degree = M_PI / 180.0;
+
+struct Loading {
+  const char* name;
+  double normal, along, pressure;
+};
+
+constexpr Loading loadings[] = {
+    {"uniaxial", 1e-3, 0.0, 0.0}, {"biaxial", 1e-3, 1e-3, 0.0}, {"pressure", 0.0, 0.0, 1e-3}};
+
+struct Apparent {
+  double mean;
+  double largest;
+};
+
+/// K_app / K_IC over a growth by `steps` spacings of the crack's end.
+Apparent apparent_toughness(const Loading& loading, double angle, int half_length, int steps,
+                            double poisson = 0.25, std::shared_ptr<const Body<2>> body = nullptr) {
+  const int n = 2 * (half_length + steps / 2 + 20);
+  const Vector<2> middle = {0.5 * n, 0.5 * n};
+  CrackedPlate plate(n, straight_crack(middle, angle, 2 * half_length), poisson, body);
+  Apparent apparent{0.0, 0.0};
+  for (int step = 0; step <= steps; ++step) {
+    ExactCrack exact{
+        {middle[0] + 0.5 * step * std::cos(angle), middle[1] + 0.5 * step * std::sin(angle)},
+        angle,
+        half_length + 0.5 * step,
+        loading.normal,
+        loading.along,
+        0.0,
+        loading.pressure,
+        plate.shear_modulus(),
+        poisson};
+    const Eigen::VectorXd u = plate.solve(exact);
+    const double j = plate.tip_load(exact, 1, u).energy_release;
+    const double ratio = exact.mode_one() / std::sqrt(j);
+    apparent.mean += ratio / (steps + 1);
+    apparent.largest = std::max(apparent.largest, ratio);
+    const double r = half_length + step;
+    const auto at = [&](double s) {
+      return Vector<2>{middle[0] + s * std::cos(angle), middle[1] + s * std::sin(angle)};
+    };
+    plate.cracked->cut({at(r), at(r + 1)});
+  }
+  return apparent;
+}
+
+TEST(ApparentToughness, IsThatOfTheMaterialWhateverTheLoadAndTheLattice) {
+  fmt::print("K_app / K_IC of energy_release, nu 0.25, 10 spacings of growth: mean (largest)\n");
+  fmt::print("{:>6} {:>7}", "a/dx", "angle");
+  for (const Loading& loading : loadings) fmt::print(" {:>16}", loading.name);
+  fmt::print("\n");
+  for (const int half_length : {10, 20, 40}) {
+    for (const double angle : {0.0, 20.0, 26.565051177, 45.0}) {
+      fmt::print("{:>6} {:>7.1f}", half_length, angle);
+      double biaxial = 0.0;
+      for (const Loading& loading : loadings) {
+        const Apparent found = apparent_toughness(loading, angle * degree, half_length, 10);
+        fmt::print("   {:.4f} ({:.3f})", found.mean, found.largest);
+        EXPECT_NEAR(found.mean, 1.0, 0.03) << loading.name << ' ' << angle;
+        EXPECT_LE(found.largest, 1.05) << loading.name << ' ' << angle;
+        if (std::string(loading.name) == "biaxial") biaxial = found.mean;
+        if (std::string(loading.name) == "pressure") {
+          EXPECT_NEAR(found.mean, biaxial, 0.02);
+        }
+      }
+      fmt::print("\n");
+      std::fflush(stdout);
+    }
+  }
+}
+
+TEST(ApparentToughness, DoesNotDependOnPoissonsRatio) {
+  for (const double poisson : {0.1, 0.2, 0.3, 0.4}) {
+    const Apparent found = apparent_toughness(loadings[0], 0.0, 10, 5, poisson);
+    fmt::print("nu {:.1f}: {:.4f} ({:.3f})\n", poisson, found.mean, found.largest);
+    EXPECT_NEAR(found.mean, 1.0, 0.03) << poisson;
+  }
+}
+
+}  // namespace
+}  // namespace perifrac::test
