@@ -43,16 +43,28 @@ void check_interface(const Section& scene) {
   }
 }
 
-/// Mass that goes from fluid to pores is measured by one density at no pressure.
-void check_densities(const Section& scene) {
-  if (!names(scene, "fluid") || !names(scene, "pore_flow")) return;
-  if (scene.word("interface.exchange") == "none") return;
-  const double free = scene.number("fluid.density");
+/// Mass that goes from a fluid to pores is measured by one density at no pressure.
+void check_density(const Section& scene, const std::string& fluid) {
+  const double outside = scene.number(fluid + ".density");
   const double in_pores = scene.number("pore_flow.fluid.density");
-  if (std::abs(free - in_pores) <= 1e-12 * in_pores) return;
-  scene.fail("fluid.density",
-             fmt::format("{:g} kg/m^3 of the fluid that flows into the pores", free),
+  if (std::abs(outside - in_pores) <= 1e-12 * in_pores) return;
+  scene.fail(fluid + ".density",
+             fmt::format("{:g} kg/m^3 of the fluid that flows into the pores", outside),
              fmt::format("pore_flow.fluid.density, {:g} kg/m^3", in_pores));
+}
+
+/// What flows into the pores is of their kind, and comes from one side.
+void check_exchange(const Section& scene) {
+  if (!names(scene, "pore_flow")) return;
+  const bool free = names(scene, "fluid") && scene.word("interface.exchange") != "none";
+  const bool in_cracks =
+      names(scene, "crack_fluid") && scene.word("crack_fluid.leak_off") == "pores";
+  if (free) check_density(scene, "fluid");
+  if (in_cracks) check_density(scene, "crack_fluid");
+  if (free && in_cracks) {
+    scene.fail("crack_fluid.leak_off", "free fluid seeps into the pores already",
+               "none, or interface.exchange: none");
+  }
 }
 
 }  // namespace
@@ -60,7 +72,7 @@ void check_densities(const Section& scene) {
 void check_sections_together(const Section& scene) {
   refuse_unreachable_tolerance(scene);
   check_interface(scene);
-  check_densities(scene);
+  check_exchange(scene);
 }
 
 }  // namespace perifrac

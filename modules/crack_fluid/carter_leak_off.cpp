@@ -10,22 +10,26 @@ constexpr double never = -1.0;
 
 }  // namespace
 
-void CarterLeakOff::match(const CrackGraph& graph) {
+void CarterLeakOff::match(const BondState<2>&, const CrackGraph& graph) {
   graph_ = &graph;
   wet_since_.resize(graph.facet_count(), never);
 }
 
-Leak CarterLeakOff::leak(Index facet, double, double fill) const {
-  const double since = wet_since_[facet] == never ? step_.begin : wet_since_[facet];
-  const double roots = std::sqrt(step_.end - since) - std::sqrt(step_.begin - since);
-  const double full = density_ * 4.0 * coefficient_ * roots * graph_->length(facet);
-  return {.mass = full * fill, .by_fill = full};
+void CarterLeakOff::evaluate(const Eigen::VectorXd&, const Eigen::VectorXd& fill,
+                             LeakedFluid& leaked) {
+  for (Index f = 0; f < graph_->facet_count(); ++f) {
+    const double since = wet_since_[f] == never ? step_.begin : wet_since_[f];
+    const double roots = std::sqrt(step_.end - since) - std::sqrt(step_.begin - since);
+    leaked.by_fill[f] = density_ * 4.0 * coefficient_ * roots * graph_->length(f);
+    leaked.mass[f] = leaked.by_fill[f] * fill[f];
+  }
 }
 
-void CarterLeakOff::accept(std::span<const double> mass) {
+double CarterLeakOff::accept(std::span<const double> mass) {
   for (std::size_t f = 0; f < mass.size(); ++f) {
     if (wet_since_[f] == never && mass[f] > 0.0) wet_since_[f] = step_.begin;
   }
+  return 0.0;
 }
 
 }  // namespace perifrac

@@ -14,10 +14,12 @@ class CarterLeakOff final : public LeakOff {
   CarterLeakOff(double coefficient, double density)
       : coefficient_(coefficient), density_(density) {}
 
-  void match(const CrackGraph& graph) override;
+  bool is_sink() const override { return true; }
+  void match(const BondState<2>& bonds, const CrackGraph& graph) override;
   void begin(const TimeWindow& step) override { step_ = step; }
-  Leak leak(Index facet, double pressure, double fill) const override;
-  void accept(std::span<const double> mass) override;
+  void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
+                LeakedFluid& leaked) override;
+  double accept(std::span<const double> mass) override;
   void visit_state(StateVisitor& visitor) override { visitor.visit("crack_wet_since", wet_since_); }
 
  private:

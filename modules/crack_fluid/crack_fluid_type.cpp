@@ -22,11 +22,15 @@ CrackLiquid read_liquid(const Section& section) {
   return liquid;
 }
 
-std::vector<CrackFilling> read_fillings(const Section& section) {
+std::vector<CrackFilling> read_fillings(const Section& section, const CrackLiquid& liquid) {
   std::vector<CrackFilling> fillings;
   for (std::size_t k = 0; k < section.count("filled"); ++k) {
     const std::string path = fmt::format("filled[{}]", k);
     CrackFilling filling{.box = {}, .pressure = section.number(path + ".pressure")};
+    if (filling.pressure < liquid.vapour_pressure) {
+      section.fail(path + ".pressure", "a full crack under less than the vapour pressure",
+                   "vapour_pressure or more");
+    }
     std::ranges::copy(section.numbers(path + ".from"), filling.box.from.begin());
     std::ranges::copy(section.numbers(path + ".to"), filling.box.to.begin());
     fillings.push_back(filling);
@@ -35,8 +39,17 @@ std::vector<CrackFilling> read_fillings(const Section& section) {
 }
 
 /// Null where the rock takes nothing.
-std::unique_ptr<LeakOff> read_leak_off(const Section& section) {
-  if (section.word("leak_off") == "none") return nullptr;
+std::unique_ptr<LeakOff> read_leak_off(const Section& section, std::shared_ptr<const Body<2>> body,
+                                       const CrackLiquid& liquid) {
+  const std::string word = section.word("leak_off");
+  if (word == "none") return nullptr;
+  if (word == "pores") {
+    const Section scene = section.scene();
+    if (!scene.has("pore_flow")) {
+      section.fail("leak_off", "the scene has no section 'pore_flow'", "none or carter");
+    }
+    return std::make_unique<PoreLeakOff>(std::move(body), liquid.density, liquid.vapour_pressure);
+  }
   return std::make_unique<CarterLeakOff>(section.number("leak_off_coefficient"),
                                          section.number("density"));
 }
@@ -44,9 +57,10 @@ std::unique_ptr<LeakOff> read_leak_off(const Section& section) {
 std::unique_ptr<PhysicsModule> make_network(const Section& section,
                                             std::shared_ptr<const Body<2>> body) {
   const CrackLiquid liquid = read_liquid(section);
+  auto leak_off = read_leak_off(section, body, liquid);
   return std::make_unique<CrackNetwork>(std::move(body), liquid,
                                         CrackInlets(read_crack_inlets(section), liquid),
-                                        read_fillings(section), read_leak_off(section));
+                                        read_fillings(section, liquid), std::move(leak_off));
 }
 
 KeyTable network_keys() {
@@ -92,8 +106,9 @@ KeyTable network_keys() {
       {.path = "leak_off",
        .type = KeyType::word,
        .fallback = "none",
-       .words = {"none", "carter"},
-       .meaning = "What the rock takes. carter: Carter's law, where no pore flow is simulated."},
+       .words = {"none", "carter", "pores"},
+       .meaning = "What the rock takes. carter: Carter's law, where no pore flow is simulated. "
+                  "pores: what pore_flow takes."},
       {.path = "leak_off_coefficient",
        .unit = "m/s*sqrt(s)",
        .range = "[0, inf)",

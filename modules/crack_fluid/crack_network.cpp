@@ -31,7 +31,8 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
       liquid_(liquid),
       inlets_(std::move(inlets)),
       fillings_(std::move(fillings)),
-      leak_off_(std::move(leak_off)) {
+      leak_off_(std::move(leak_off)),
+      pores_(dynamic_cast<PoreLeakOff*>(leak_off_.get())) {
   using enum PortDirection;
   using enum PortKind;
   using enum PortRole;
@@ -51,8 +52,13 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
   add_port(Quantity::injected_mass,
            {"injected_crack_fluid_mass", "kg/m", out, extensive, mass_gained});
   if (leak_off_) {
-    add_port(Quantity::leaked_mass,
-             {"leaked_crack_fluid_mass", "kg/m", out, extensive, mass_gained});
+    add_port(Quantity::leaked_mass, {"leaked_crack_fluid_mass", "kg/m", out, extensive,
+                                     leak_off_->is_sink() ? mass_gained : PortRole::field});
+  }
+  if (pores_ != nullptr) {
+    add_port(Quantity::pore_pressure, {"pore_pressure", "Pa", in});
+    add_port(Quantity::pore_mobility, {"pore_mobility", "m^2/(Pa s)", in});
+    add_port(Quantity::exchanged_mass, {"exchanged_mass", "kg/m", out, extensive});
   }
   add_port(Quantity::energy, {"crack_fluid_energy", "J/m", out, extensive, energy_stored});
   add_port(Quantity::work, {"crack_fluid_work", "J/m", out, extensive, energy_gained});
@@ -81,7 +87,7 @@ void CrackNetwork::match_facets() {
   unknown_.resize(count, liquid_.empty());
   settled_.resize(count, liquid_.empty());
   aperture_.resize(count, liquid_.residual_aperture);
-  if (leak_off_) leak_off_->match(lubrication_.graph());
+  if (leak_off_) leak_off_->match(bonds, lubrication_.graph());
   for (std::vector<double>* input : {&opening_, &opening_rate_}) input->resize(count);
   if (opening_slope_.size() != count * count) opening_slope_.assign(count * count, 0.0);
 }
@@ -99,6 +105,12 @@ PortView CrackNetwork::port(PortId id) {
     case Quantity::flow_rate:
     case Quantity::viscosity:
       return {facets, field(quantity)};
+    case Quantity::pore_pressure:
+      return pores_->pore_pressure();
+    case Quantity::pore_mobility:
+      return pores_->pore_mobility();
+    case Quantity::exchanged_mass:
+      return {&body_->point_set(), pores_->exchanged()};
     default:
       scalars_[id] = scalar(quantity, id);
       return {&whole_crack, std::span(scalars_).subspan(id, 1)};
@@ -223,6 +235,7 @@ double CrackNetwork::advance(const TimeWindow& window) {
   match_facets();
   if (mass_.empty()) return window.end;
   if (has_begun_ == 0) fill_at_start(window);
+  if (leak_off_) leak_off_->begin_window(window);
   std::int64_t parts = 1;
   for (std::int64_t done = 0; done < parts;) {
     const auto time_after = [&](std::int64_t n) {
@@ -267,6 +280,7 @@ bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
 /// What has moved is what counts: mass is kept to rounding whatever Newton left over. Enthalpy is
 /// the mean of begin and end, so that fluid and a linear solid exchange the same work.
 void CrackNetwork::book(const Eigen::VectorXd& v) {
+  const bool is_sink = leak_off_ && leak_off_->is_sink();
   for (std::size_t f = 0; f < mass_.size(); ++f) {
     const double inflow = lubrication_.inflow()[f];
     const double outflow = lubrication_.outflow()[f];
@@ -276,12 +290,15 @@ void CrackNetwork::book(const Eigen::VectorXd& v) {
     mass_[f] += inflow - outflow - leaked;
     injected_.add(inflow);
     leaked_.add(-leaked);
-    work_.add(enthalpy * (inflow - leaked));
-    dissipation_.add(enthalpy * outflow);
+    work_.add(enthalpy * (is_sink ? inflow - leaked : inflow));
+    dissipation_.add(enthalpy * (is_sink ? outflow : outflow + leaked));
     unknown_[f] = v[f];
     aperture_[f] = lubrication_.aperture()[f];
   }
-  if (leak_off_) leak_off_->accept(mass_);
+  if (!leak_off_) return;
+  const double handed_over = leak_off_->accept(mass_);  // which pore flow counts as gained
+  work_.add(-handed_over);
+  dissipation_.add(-handed_over);
 }
 
 void CrackNetwork::visit_state(StateVisitor& visitor) {

@@ -10,6 +10,7 @@
 #include "modules/crack_fluid/crack_inlets.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/lubrication.hpp"
+#include "modules/crack_fluid/pore_leak_off.hpp"
 
 namespace perifrac {
 
@@ -28,8 +29,10 @@ struct CrackFilling {
 /// property `crack_viscosity` [Pa s], 0 where less than half a facet is wet. On its own:
 /// `wetted_length` [m], `crack_volume` [m^2], `inlet_<name>_pressure` [Pa]; for the ledger
 /// `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
-/// `leaked_crack_fluid_mass` [kg/m], `crack_fluid_energy`, `crack_fluid_work`,
-/// `crack_flow_dissipation` [J/m]; counts of work.
+/// `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
+/// `crack_fluid_work`, `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on
+/// the body's points: in `pore_pressure` [Pa], takes rate and a slope against
+/// `exchanged_mass`, `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg/m].
 class CrackNetwork final : public PhysicsModule {
  public:
   /// `leak_off` may be null.
@@ -58,6 +61,9 @@ class CrackNetwork final : public PhysicsModule {
     stored_mass,
     injected_mass,
     leaked_mass,
+    pore_pressure,
+    pore_mobility,
+    exchanged_mass,
     energy,
     work,
     dissipation,
@@ -80,6 +86,7 @@ class CrackNetwork final : public PhysicsModule {
   CrackInlets inlets_;
   std::vector<CrackFilling> fillings_;
   std::unique_ptr<LeakOff> leak_off_;
+  PoreLeakOff* pores_;  ///< which is the leak-off, or null
   std::vector<Port> ports_;
   std::vector<Quantity> quantities_;  ///< by port
   PortId first_inlet_ = 0;

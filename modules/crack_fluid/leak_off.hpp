@@ -1,31 +1,41 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include "core/geometry/bond_state.hpp"
 #include "core/module/time_window.hpp"
 #include "core/state/state_visitor.hpp"
 #include "modules/crack_fluid/crack_graph.hpp"
 
 namespace perifrac {
 
-/// What leaves a facet over a step [kg/m], and how that follows its pressure [Pa] and fill.
-struct Leak {
-  double mass = 0.0;
-  double by_pressure = 0.0;
-  double by_fill = 0.0;
+/// What leaves the facets over a step [kg/m], and how that follows their pressures and fills.
+struct LeakedFluid {
+  Eigen::VectorXd mass;
+  Eigen::VectorXd by_fill;
+  std::vector<Eigen::Triplet<double>> by_pressure;
 };
 
 /// How fluid passes from a crack into the rock.
 class LeakOff {
  public:
   virtual ~LeakOff() = default;
+  /// The fluid is gone, as far as the run is concerned.
+  virtual bool is_sink() const = 0;
   /// Follows the facets; `graph` must last.
-  virtual void match(const CrackGraph& graph) = 0;
+  virtual void match(const BondState<2>& bonds, const CrackGraph& graph) = 0;
+  virtual void begin_window(const TimeWindow&) {}
   virtual void begin(const TimeWindow& step) = 0;
-  /// Over the step that has begun, at what the facet holds at its end.
-  virtual Leak leak(Index facet, double pressure, double fill) const = 0;
-  /// The step that has begun stands, and facets hold these masses [kg/m].
-  virtual void accept(std::span<const double> mass) = 0;
+  /// Over the step that has begun, by what the facets hold at its end. Appends to by_pressure.
+  virtual void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
+                        LeakedFluid& leaked) = 0;
+  /// The step that has begun stands as it was last evaluated; facets now hold these masses [kg/m].
+  /// Returns the energy that the leaked fluid still has [J/m].
+  virtual double accept(std::span<const double> mass) = 0;
   virtual void visit_state(StateVisitor& visitor) = 0;
 };
 

@@ -14,8 +14,9 @@ constexpr double smallest_pressure = 1e3;
 Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph)
     : liquid_(liquid), graph_(std::move(graph)) {
   const Index count = graph_.facet_count();
-  for (Eigen::VectorXd* field : {&pressure_, &opening_, &aperture_, &capacity_, &residual_,
-                                 &rounding_, &outflow_, &leaked_, &inflow_, &by_fill_}) {
+  for (Eigen::VectorXd* field :
+       {&pressure_, &fill_, &opening_, &aperture_, &capacity_, &residual_, &rounding_, &outflow_,
+        &leaked_.mass, &leaked_.by_fill, &inflow_, &by_fill_}) {
     field->setZero(count);
   }
 }
@@ -24,6 +25,7 @@ void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v
   by_pressure_.clear();
   by_aperture_.clear();
   store(step, v);
+  if (step.leak_off != nullptr) leak(*step.leak_off);
   outflow_.setZero();
   if (step.time.length() > 0.0) flow(step.time.length());
   residual_ += outflow_;
@@ -33,26 +35,32 @@ void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v
 void Lubrication::store(const LubricationStep& step, const Eigen::VectorXd& v) {
   const Index count = graph_.facet_count();
   const CrackOpening& given = step.opening;
-  for (Index f = 0; f < count; ++f) pressure_[f] = liquid_.pressure(v[f]);
-  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(given.slope.data(),
-                                                                               count, count);
-  opening_.noalias() = slope * pressure_;
+  for (Index f = 0; f < count; ++f) {
+    pressure_[f] = liquid_.pressure(v[f]);
+    fill_[f] = liquid_.fill(v[f]);
+  }
+  opening_.noalias() = given.slope * pressure_;
   for (Index f = 0; f < count; ++f) {
     opening_[f] += given.value[f] + given.rate[f] * (step.time.end - given.end);
     aperture_[f] = std::max(opening_[f], liquid_.residual_aperture);
     capacity_[f] = liquid_.density * graph_.length(f) * aperture_[f];
     const double compression = 1.0 + pressure_[f] / liquid_.bulk_modulus;
-    const double fill = liquid_.fill(v[f]);
-    const double mass = capacity_[f] * compression * fill;
-    Leak leak;
-    if (step.leak_off != nullptr) leak = step.leak_off->leak(f, pressure_[f], fill);
-    leaked_[f] = leak.mass;
-    residual_[f] = mass - step.mass[f] + leak.mass;
-    rounding_[f] = mass + std::abs(step.mass[f]) + std::abs(leak.mass);
-    by_fill_[f] = capacity_[f] * compression + leak.by_fill;
-    by_pressure_.emplace_back(f, f, capacity_[f] * fill / liquid_.bulk_modulus + leak.by_pressure);
+    const double mass = capacity_[f] * compression * fill_[f];
+    residual_[f] = mass - step.mass[f];
+    rounding_[f] = mass + std::abs(step.mass[f]);
+    by_fill_[f] = capacity_[f] * compression;
+    by_pressure_.emplace_back(f, f, capacity_[f] * fill_[f] / liquid_.bulk_modulus);
     by_aperture_.emplace_back(f, f, mass / aperture_[f]);
   }
+}
+
+void Lubrication::leak(LeakOff& leak_off) {
+  leaked_.by_pressure.clear();
+  leak_off.evaluate(pressure_, fill_, leaked_);
+  residual_ += leaked_.mass;
+  rounding_ += leaked_.mass.cwiseAbs();
+  by_fill_ += leaked_.by_fill;
+  by_pressure_.insert(by_pressure_.end(), leaked_.by_pressure.begin(), leaked_.by_pressure.end());
 }
 
 void Lubrication::find_conductances(std::span<const CrackGraph::Branch> joint,
@@ -141,13 +149,11 @@ Eigen::MatrixXd Lubrication::jacobian(const LubricationStep& step, const Eigen::
   Eigen::SparseMatrix<double, Eigen::RowMajor> by_aperture(count, count);
   by_pressure.setFromTriplets(by_pressure_.begin(), by_pressure_.end());
   by_aperture.setFromTriplets(by_aperture_.begin(), by_aperture_.end());
-  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(
-      step.opening.slope.data(), count, count);
   Eigen::VectorXd is_open(count);
   for (Index f = 0; f < count; ++f) {
     is_open[f] = opening_[f] > liquid_.residual_aperture ? 1.0 : 0.0;
   }
-  Eigen::MatrixXd jacobian = (by_aperture * is_open.asDiagonal()) * slope;
+  Eigen::MatrixXd jacobian = (by_aperture * is_open.asDiagonal()) * step.opening.slope;
   jacobian += by_pressure;
   for (Index f = 0; f < count; ++f) {
     if (liquid_.is_full(v[f])) continue;

@@ -16,10 +16,20 @@ namespace perifrac {
 /// How wide the facets are: value + rate (t - end) + slope p at time t under the fluid's pressures
 /// p, of all facets.
 struct CrackOpening {
+  using Slope = Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>;
+
+  /// `slope`: count * count values, row by row.
+  CrackOpening(std::span<const double> value, std::span<const double> rate,
+               std::span<const double> slope, double end)
+      : value(value),
+        rate(rate),
+        slope(slope.data(), static_cast<Index>(value.size()), static_cast<Index>(value.size())),
+        end(end) {}
+
   std::span<const double> value;  ///< [m]
   std::span<const double> rate;   ///< [m/s]
-  std::span<const double> slope;  ///< [m/Pa], count * count values, row by row
-  double end = 0.0;               ///< [s]
+  Slope slope;                    ///< [m/Pa]
+  double end;                     ///< [s]
 };
 
 /// Fluid that comes in at a facet over a step: `least` to `most` [kg/m], within which it holds the
@@ -37,7 +47,7 @@ struct LubricationStep {
   CrackOpening opening;
   std::span<const double> mass;  ///< of the facets when it begins [kg/m]
   std::span<const FacetInflow> inflows{};
-  const LeakOff* leak_off = nullptr;  ///< may be null
+  LeakOff* leak_off = nullptr;  ///< may be null
 };
 
 /// The mass balance of every facet at the unknowns v of crack_liquid.hpp:
@@ -62,7 +72,7 @@ class Lubrication {
   const Eigen::VectorXd& aperture() const { return aperture_; }    ///< [m]
   const Eigen::VectorXd& raw_opening() const { return opening_; }  ///< may be below the residual
   const Eigen::VectorXd& capacity() const { return capacity_; }    ///< rho_0 length aperture
-  const Eigen::VectorXd& leaked() const { return leaked_; }        ///< over the step [kg/m]
+  const Eigen::VectorXd& leaked() const { return leaked_.mass; }   ///< over the step [kg/m]
   const Eigen::VectorXd& inflow() const { return inflow_; }        ///< by inlets [kg/m]
   /// What flows and leaks out over the step, inlets apart [kg/m].
   const Eigen::VectorXd& outflow() const { return outflow_; }
@@ -90,6 +100,7 @@ class Lubrication {
   void find_conductances(std::span<const CrackGraph::Branch> joint,
                          std::span<const double> aperture);
   void store(const LubricationStep& step, const Eigen::VectorXd& v);
+  void leak(LeakOff& leak_off);
   void flow(double dt);
   void differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt);
   void let_in(const LubricationStep& step, const Eigen::VectorXd& v);
@@ -97,8 +108,9 @@ class Lubrication {
   CrackLiquid liquid_{};
   CrackGraph graph_;
 
-  Eigen::VectorXd pressure_, opening_, aperture_, capacity_;
-  Eigen::VectorXd residual_, rounding_, outflow_, leaked_, inflow_;
+  Eigen::VectorXd pressure_, fill_, opening_, aperture_, capacity_;
+  Eigen::VectorXd residual_, rounding_, outflow_, inflow_;
+  LeakedFluid leaked_;                               ///< its by_pressure is part of by_pressure_
   Eigen::VectorXd by_fill_;                          ///< of the residual, diagonal
   std::vector<Eigen::Triplet<double>> by_pressure_;  ///< at given apertures
   std::vector<Eigen::Triplet<double>> by_aperture_;

@@ -58,8 +58,6 @@ NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const Lu
                    Eigen::VectorXd& v) {
   NewtonReport report;
   const Index count = lubrication.graph().facet_count();
-  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(
-      step.opening.slope.data(), count, count);
   Eigen::VectorXd pressure_change(count);
   for (; report.iterations < most_iterations; ++report.iterations) {
     lubrication.evaluate(step, v);
@@ -71,7 +69,7 @@ NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const Lu
     for (Index f = 0; f < count; ++f) {
       pressure_change[f] = liquid.is_full(v[f]) ? change[f] : 0.0;
     }
-    const double part = part_allowed(lubrication, liquid, slope * pressure_change);
+    const double part = part_allowed(lubrication, liquid, step.opening.slope * pressure_change);
     for (Index f = 0; f < count; ++f) v[f] = moved(liquid, v[f], part * change[f]);
   }
   return report;

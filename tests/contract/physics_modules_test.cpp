@@ -9,11 +9,19 @@
 namespace perifrac {
 namespace {
 
-/// A line of six facets with a branch of two.
-void seed_crack(const AnyBody& body) {
-  BondState<2>& bonds = std::get<std::shared_ptr<const Body<2>>>(body)->claim_bond_state();
-  for (int k = 0; k < 6; ++k) bonds.add_facet({{{3.0 + k, 5.0}, {4.0 + k, 5.0}}}, {});
-  for (int k = 0; k < 2; ++k) bonds.add_facet({{{6.0, 5.0 + k}, {6.0, 6.0 + k}}}, {});
+/// A line of six facets with a branch of two, each across a bond.
+void seed_crack(const Body<2>& body) {
+  BondState<2>& bonds = body.claim_bond_state();
+  const auto add = [&](const CrackFacet<2>& facet, const Vector<2>& one, const Vector<2>& other) {
+    const std::pair bond = std::minmax({body.nearest_point(one), body.nearest_point(other)});
+    bonds.add_facet(facet, {{bond}});
+  };
+  for (int k = 0; k < 6; ++k) {
+    add({{{3.0 + k, 5.0}, {4.0 + k, 5.0}}}, {3.5 + k, 4.5}, {3.5 + k, 5.5});
+  }
+  for (int k = 0; k < 2; ++k) {
+    add({{{6.0, 5.0 + k}, {6.0, 6.0 + k}}}, {5.5, 5.5 + k}, {6.5, 5.5 + k});
+  }
 }
 
 std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::string& physics,
@@ -23,7 +31,7 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
   AnyBody body = std::shared_ptr<const Body<2>>();
   if (dimension == 3) body = std::shared_ptr<const Body<3>>();
   if (scene.has("body")) body = make_body(scene.at("body"), dimension);
-  if (physics == "crack_fluid") seed_crack(body);
+  if (physics == "crack_fluid") seed_crack(*std::get<0>(body));
   return make_module(scene, physics, body);
 }
 
@@ -109,6 +117,8 @@ const std::vector<Variant>& variants() {
       variant("crack_network_carter", "crack_fluid/network", box_2d + crack_network,
               {"crack_fluid.leak_off=carter", "crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)",
                "crack_fluid.vapour_pressure=-50 kPa"}),
+      variant("crack_network_in_pores", "crack_fluid/network", box_2d + darcy + crack_network,
+              {"crack_fluid.leak_off=pores"}),
       variant("fluid_2d", "fluid/semi_lagrangian", tank_2d),
       variant("fluid_3d", "fluid/semi_lagrangian", tank_3d),
       variant("fluid_tait", "fluid/semi_lagrangian", tank_2d,

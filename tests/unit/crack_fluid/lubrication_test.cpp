@@ -75,10 +75,10 @@ struct AnyStep {
       v[f] = f % 4 == 3 ? -2e4 - 10e6 * random(bits) : 4e5 * random(bits);
       for (int g = 0; g < 15; ++g) slope.push_back(1e-11 * random(bits));
     }
-    leak_off.match(lubrication.graph());
+    leak_off.match(BondState<2>(), lubrication.graph());
     leak_off.begin({0.1, 0.12});
   }
-  LubricationStep step(double end = 0.12) const {
+  LubricationStep step(double end = 0.12) {
     return {.time = {0.1, end},
             .opening = {value, rate, slope, 0.13},
             .mass = mass,

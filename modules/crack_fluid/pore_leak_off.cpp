@@ -1,0 +1,149 @@
+#include "modules/crack_fluid/pore_leak_off.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/operators/bond_traversal.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// m_i of the intact family.
+double weighted_volume(const Family<2>& family, Index i) {
+  return sum_over_bonds<1, 2>(family, i, [](Index, const Vector<2>& xi, double weight) {
+    return std::array{weight * (xi[0] * xi[0] + xi[1] * xi[1])};
+  })[0];
+}
+
+/// omega V_j of the bond from i to j.
+double weight_of(const Family<2>& family, Index i, Index j) {
+  const auto begin = family.other.begin() + family.offset[i];
+  const auto end = family.other.begin() + family.offset[i + 1];
+  return family.weight[std::lower_bound(begin, end, j) - family.other.begin()];
+}
+
+}  // namespace
+
+PoreLeakOff::PoreLeakOff(std::shared_ptr<const Body<2>> body, double density,
+                         double vapour_pressure)
+    : body_(std::move(body)),
+      family_(body_->family(0)),
+      density_(density),
+      vapour_pressure_(vapour_pressure),
+      received_(body_->points().size()) {}
+
+PortView PoreLeakOff::pore_pressure() {
+  for (auto* input : {&pressure_, &pressure_rate_, &pressure_slope_}) {
+    input->resize(body_->points().size());
+  }
+  return {&body_->point_set(), pressure_, pressure_rate_, pressure_slope_};
+}
+
+PortView PoreLeakOff::pore_mobility() {
+  mobility_.resize(body_->points().size());
+  return {&body_->point_set(), mobility_};
+}
+
+void PoreLeakOff::match(const BondState<2>& bonds, const CrackGraph&) {
+  if (version_ == bonds.version()) return;
+  version_ = bonds.version();
+  find_contacts(bonds);
+}
+
+void PoreLeakOff::find_contacts(const BondState<2>& bonds) {
+  constexpr double d = 2.0;
+  std::map<std::pair<Index, Index>, double> factors;  // by facet and point
+  for (const auto& [i, j, facet] : bonds.broken()) {
+    if (facet == no_facet) continue;
+    const double factor = 2.0 * 4.0 * d * weight_of(*family_, i, j) * body_->points().volume[i] /
+                          (weighted_volume(*family_, i) + weighted_volume(*family_, j));
+    for (const Index point : {i, j}) factors[{facet, point}] += factor;
+  }
+  touched_.clear();
+  for (const auto& [key, factor] : factors) touched_.push_back(key.second);
+  std::ranges::sort(touched_);
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  contacts_.clear();
+  for (const auto& [key, factor] : factors) {
+    const auto place = std::ranges::lower_bound(touched_, key.second) - touched_.begin();
+    contacts_.push_back({key.first, static_cast<Index>(place), factor});
+  }
+  std::ranges::stable_sort(contacts_, {}, &Contact::touched);
+  for (auto* field : {&base_, &base_before_, &sum_, &mean_}) field->resize(touched_.size());
+  for (auto* field : {&conductance_, &flux_}) field->resize(contacts_.size());
+}
+
+void PoreLeakOff::begin_window(const TimeWindow& window) {
+  window_ = window;
+  std::ranges::fill(received_, 0.0);
+  pore_pressure();  // where nobody links them, the pores are empty and closed
+  pore_mobility();
+}
+
+void PoreLeakOff::begin(const TimeWindow& step) {
+  step_ = step;
+  for (std::size_t n = 0; n < touched_.size(); ++n) {
+    const Index i = touched_[n];
+    const double answer = pressure_[i] + pressure_slope_[i] * received_[i];
+    base_[n] = answer + pressure_rate_[i] * (step.end - window_.end);
+    base_before_[n] = answer + pressure_rate_[i] * (step.begin - window_.end);
+  }
+}
+
+void PoreLeakOff::evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
+                           LeakedFluid& leaked) {
+  const double length = step_.length();
+  std::ranges::fill(sum_, 0.0);
+  std::ranges::fill(mean_, 0.0);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const auto& [f, n, factor] = contacts_[k];
+    conductance_[k] = length * density_ * mobility_[touched_[n]] * factor;
+    // Pores under less than any facet take from a facet what there is.
+    if (base_[n] < vapour_pressure_) conductance_[k] *= fill[f];
+    sum_[n] += conductance_[k];
+    mean_[n] += conductance_[k] * pressure[f];
+  }
+  for (std::size_t n = 0; n < touched_.size(); ++n) {
+    const double slope = pressure_slope_[touched_[n]];
+    mean_[n] = (base_[n] + slope * mean_[n]) / (1.0 + slope * sum_[n]);
+  }
+  leaked.mass.setZero();
+  leaked.by_fill.setZero();
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const auto& [f, n, factor] = contacts_[k];
+    flux_[k] = conductance_[k] * (pressure[f] - mean_[n]);
+    leaked.mass[f] += flux_[k];
+    if (base_[n] < vapour_pressure_ && fill[f] > 0.0) leaked.by_fill[f] += flux_[k] / fill[f];
+    leaked.by_pressure.emplace_back(f, f, conductance_[k]);
+  }
+  differentiate(leaked);
+}
+
+/// Facets that touch the same point feel each other through its pressure.
+void PoreLeakOff::differentiate(LeakedFluid& leaked) const {
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const Index n = contacts_[k].touched;
+    if (contacts_[first].touched != n) first = k;
+    const double slope = pressure_slope_[touched_[n]];
+    const double answer = slope / (1.0 + slope * sum_[n]);
+    for (std::size_t l = first; l < contacts_.size() && contacts_[l].touched == n; ++l) {
+      leaked.by_pressure.emplace_back(contacts_[k].facet, contacts_[l].facet,
+                                      -conductance_[k] * answer * conductance_[l]);
+    }
+  }
+}
+
+double PoreLeakOff::accept(std::span<const double>) {
+  double energy = 0.0;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const Index n = contacts_[k].touched;
+    received_[touched_[n]] += flux_[k];
+    energy += flux_[k] * 0.5 * (base_before_[n] + mean_[n]) / density_;
+  }
+  return energy;
+}
+
+}  // namespace perifrac

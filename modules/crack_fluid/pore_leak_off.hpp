@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/body.hpp"
+#include "core/module/port.hpp"
+#include "modules/crack_fluid/leak_off.hpp"
+
+namespace perifrac {
+
+/// Fluid that passes between a crack and the pores on both of its sides, by each bond (i, j) that a
+/// facet f cuts,
+///   J_i = 2 rho_0 kappa_i omega 4d / (m_i + m_j) V_i V_j (p_f - p_i),
+/// and likewise J_j, m of the intact families: that of pore flow itself, over half the way. It is
+/// exact where pressure falls linearly on either side. A facet that is not full gives none.
+/// The pores' pressure answers what they get at once, p_i = b_i + s_i sum J_i, as the port
+/// `pore_pressure` says: a lagged one would be an explicit step of diffusion.
+class PoreLeakOff final : public LeakOff {
+ public:
+  PoreLeakOff(std::shared_ptr<const Body<2>> body, double density, double vapour_pressure);
+
+  bool is_sink() const override { return false; }
+  void match(const BondState<2>& bonds, const CrackGraph& graph) override;
+  void begin_window(const TimeWindow& window) override;
+  void begin(const TimeWindow& step) override;
+  void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
+                LeakedFluid& leaked) override;
+  double accept(std::span<const double> mass) override;
+  void visit_state(StateVisitor&) override {}
+
+  PortView pore_pressure();                               ///< in, takes rate and slope
+  PortView pore_mobility();                               ///< in
+  std::vector<double>& exchanged() { return received_; }  ///< by point, over the window [kg/m]
+
+ private:
+  /// Of all bonds between a facet and one point.
+  struct Contact {
+    Index facet;
+    Index touched;  ///< the point's place in touched_
+    double factor;  ///< 2 omega 4d / (m_i + m_j) V_i V_j, summed
+  };
+
+  void find_contacts(const BondState<2>& bonds);
+  void differentiate(LeakedFluid& leaked) const;
+
+  std::shared_ptr<const Body<2>> body_;
+  std::shared_ptr<const Family<2>> family_;
+  double density_;
+  double vapour_pressure_;
+  std::uint64_t version_ = 0;      ///< of the bonds that the contacts are made of
+  std::vector<Contact> contacts_;  ///< sorted by point
+  std::vector<Index> touched_;     ///< points with contacts
+
+  TimeWindow window_{};
+  TimeWindow step_{};
+  // By touched point, of the step at hand.
+  std::vector<double> base_;         ///< b [Pa]
+  std::vector<double> base_before_;  ///< the pressure when the step begins [Pa]
+  std::vector<double> sum_;          ///< sum C
+  std::vector<double> mean_;         ///< sum C p_f, then p_i [Pa]
+  // By contact.
+  std::vector<double> conductance_;  ///< C, over the step [kg/(m Pa)]
+  std::vector<double> flux_;         ///< [kg/m]
+
+  std::vector<double> received_;
+  std::vector<double> pressure_, pressure_rate_, pressure_slope_, mobility_;
+};
+
+}  // namespace perifrac
