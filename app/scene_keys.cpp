@@ -85,11 +85,18 @@ KeyTable output_keys() {
 KeyTable reference_keys() {
   std::vector<std::string> words;
   for (const ReferenceType& type : reference_types()) words.push_back(type.name);
-  return {{.path = "type",
-           .type = KeyType::word,
-           .required = true,
-           .words = words,
-           .meaning = "Analytic solution that the run is compared with."}};
+  return {
+      {.path = "type",
+       .type = KeyType::word,
+       .required = true,
+       .words = words,
+       .meaning = "What the run is compared with: an analytic solution, or a table of numbers."},
+      {.path = "file",
+       .type = KeyType::text,
+       .required = true,
+       .when = "type=table",
+       .meaning = "Columns with commas, `time [s]` first, then scalars as history.csv names "
+                  "them."}};
 }
 
 constexpr const char* body_meaning =

@@ -10,8 +10,10 @@
 #include "app/references/diffusion_reference.hpp"
 #include "app/references/drained_plate_reference.hpp"
 #include "app/references/hydrostatic_reference.hpp"
+#include "app/references/kgd_reference.hpp"
 #include "app/references/mandel_reference.hpp"
 #include "app/references/poiseuille_reference.hpp"
+#include "app/references/table_reference.hpp"
 #include "app/references/water_on_plate_reference.hpp"
 
 namespace perifrac {
@@ -30,6 +32,8 @@ const std::vector<ReferenceType>& reference_types() {
       {"dam_break", make_dam_break_reference},
       {"constant_head", make_constant_head_reference},
       {"water_on_plate", make_water_on_plate_reference},
+      {"kgd", make_kgd_reference},
+      {"table", make_table_reference},
   };
   return types;
 }

@@ -278,15 +278,18 @@ bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
 }
 
 /// What has moved is what counts: mass is kept to rounding whatever Newton left over. Enthalpy is
-/// the mean of begin and end, so that fluid and a linear solid exchange the same work.
+/// the mean of begin and end, so that fluid and a linear solid exchange the same work; a facet that
+/// was not full opens only once it is nearly at its last pressure.
 void CrackNetwork::book(const Eigen::VectorXd& v) {
   const bool is_sink = leak_off_ && leak_off_->is_sink();
   for (std::size_t f = 0; f < mass_.size(); ++f) {
     const double inflow = lubrication_.inflow()[f];
     const double outflow = lubrication_.outflow()[f];
     const double leaked = lubrication_.leaked()[f];
-    const double enthalpy = 0.5 * (liquid_.enthalpy(liquid_.pressure(unknown_[f])) +
-                                   liquid_.enthalpy(liquid_.pressure(v[f])));
+    const double last = liquid_.enthalpy(liquid_.pressure(v[f]));
+    const double first =
+        liquid_.is_full(unknown_[f]) ? liquid_.enthalpy(liquid_.pressure(unknown_[f])) : last;
+    const double enthalpy = 0.5 * (first + last);
     mass_[f] += inflow - outflow - leaked;
     injected_.add(inflow);
     leaked_.add(-leaked);
