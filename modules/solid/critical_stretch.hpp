@@ -10,8 +10,9 @@
 
 namespace perifrac {
 
-/// Bonds that break for good where they are stretched beyond a limit, s = xi . du / |xi|^2 > s0 of
-/// the reference bond xi (small strain; paper section 2.3).
+/// Bonds that break for good where they are stretched beyond a limit, |xi + du| > (1 + s0) |xi| of
+/// the reference bond xi (paper section 2.3). For small displacements that is xi . du > s0 |xi|^2;
+/// unlike this, it lets go of a loose piece that slides past or turns away.
 template <int D>
 class CriticalStretch {
  public:

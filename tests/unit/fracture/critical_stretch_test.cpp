@@ -45,11 +45,11 @@ TEST(CriticalStretch, ClosesTheEnergyBalanceAndHealsNoBond) {
     bar.safety = safety;
     bar.limit = 0.01;
     bar.boundary.roller(0, 0.0);
-    bar.boundary.traction(1, {2.0 * bar.limit * (test::lambda + 2.0 * test::mu), 0.0},
-                          Schedule::ramp(3.0));
+    bar.boundary.traction(1, {1.1 * bar.limit * (test::lambda + 2.0 * test::mu), 0.0},
+                          Schedule::ramp(30.0));
     bar.start();
     std::size_t before = 0;
-    for (int n = 0; n < 20; ++n) {
+    for (int n = 0; n < 40; ++n) {
       bar.advance(1.0);
       ASSERT_GE(bar.broken(), before);
       before = bar.broken();
@@ -171,8 +171,8 @@ double largest_eigenvalue(const Eigen::SparseMatrix<double>& a) {
 /// However bonds break, the stable step that the solid takes is stable; and what breaking sets free
 /// is the difference of two energies of the whole body.
 TEST(CriticalStretch, BoundsTheStiffnessOfWhatIsLeft) {
-  for (const double limit : {0.0, 0.3, 0.6}) {
-    for (unsigned seed = 1; seed <= 4; ++seed) {
+  for (const double limit : {0.0, 0.3, 0.45, 0.8}) {
+    for (unsigned seed = 1; seed <= 6; ++seed) {
       const auto body = test::box_body<2>({11, 10}, 0.5);
       const SolidBoundary<2> boundary(*body);
       const Breakable<2> parts(*body, boundary, {test::lambda, test::mu});
