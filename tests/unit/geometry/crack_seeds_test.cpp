@@ -10,9 +10,10 @@ namespace perifrac {
 namespace {
 
 std::vector<CrackFacet<2>> read(const std::string& cracks) {
-  const Catalogue catalogue = {{"", "", crack_seed_keys()}};
-  return read_crack_seeds(read_scene(SceneFile("cracks: " + cracks + "\n").path(), {}, catalogue),
-                          1.0);
+  KeyTable keys = crack_seed_keys();
+  keys.push_back({.path = "dimension", .type = KeyType::integer, .meaning = "Of space."});
+  const SceneFile file("dimension: 2\ncracks: " + cracks + "\n");
+  return read_crack_seeds(read_scene(file.path(), {}, {{"", "", keys}}), 1.0);
 }
 
 TEST(CrackSeeds, CutsEveryLegIntoPiecesOfAboutASpacing) {
