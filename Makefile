@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper permeability bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper permeability toughness bench clean
 
 SCENE ?= configs/mandel.yaml
 BUILD := build/release
@@ -13,6 +13,7 @@ help:
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 15 minutes)'
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
+	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
 	@echo 'make permeability  explicit against cvode, 1e-20 to 1e-8 m^2: docs/permeability.md'
 
 install:
@@ -50,6 +51,10 @@ docs: perifrac
 
 permeability: perifrac
 	tests/verification/permeability.py $(PERIFRAC) --page docs/permeability.md
+
+toughness: configure
+	@cmake --build --preset release --target verification_toughness
+	$(BUILD)/bin/verification_toughness
 
 clean:
 	rm -rf build

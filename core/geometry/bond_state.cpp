@@ -89,9 +89,23 @@ Family<D> intact_family(const Family<D>& family, const BondState<D>& bonds) {
   return intact;
 }
 
+template <int D>
+void silence(Family<D>& family, Index i, Index j) {
+  for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)}) {
+    for (Index bond = family.offset[from]; bond < family.offset[from + 1]; ++bond) {
+      const Index end = family.other[bond];
+      const Index source =
+          end < family.point_count ? end : family.ghost_source[end - family.point_count];
+      if (source == to) family.weight[bond] = 0.0;
+    }
+  }
+}
+
 template class BondState<2>;
 template class BondState<3>;
 template Family<2> intact_family<2>(const Family<2>&, const BondState<2>&);
 template Family<3> intact_family<3>(const Family<3>&, const BondState<3>&);
+template void silence<2>(Family<2>&, Index, Index);
+template void silence<3>(Family<3>&, Index, Index);
 
 }  // namespace perifrac

@@ -64,4 +64,8 @@ class BondState {
 template <int D>
 Family<D> intact_family(const Family<D>& family, const BondState<D>& bonds);
 
+/// Sets the weight of a bond to 0 from both of its ends, and with it the bonds to the ends' ghosts.
+template <int D>
+void silence(Family<D>& family, Index i, Index j);
+
 }  // namespace perifrac

@@ -124,6 +124,24 @@ class LinearExactOperator {
     return on_unknowns(*family_, mirror_, i, family_->volume[i] * matrix);
   }
 
+  /// The energy of point i alone in the field that apply() was last given.
+  double energy(Index i) const {
+    const Tensor<R, D> f = gradient_at(i);
+    const Tensor<R, D> stress = law_at(law_, i).stress(f);
+    double density = 0.0;
+    for (int k = 0; k < R * D; ++k) density += f[k] * stress[k];
+    const auto rest = sum_over_bonds<1>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+      std::array<double, 1> square{};
+      for (int r = 0; r < R; ++r) {
+        double difference = field(r)[j] - field(r)[i];
+        for (int b = 0; b < D; ++b) difference -= f[r * D + b] * xi[b];
+        square[0] += w * difference * difference;
+      }
+      return square;
+    });
+    return 0.5 * family_->volume[i] * (density + bond_stiffness_[i] * rest[0]);
+  }
+
   double weighted_volume(Index i) const { return moments_.weighted_volume[i]; }
   Index point_unknowns() const { return R * family_->point_count; }
   Index size() const { return point_unknowns() + mirror_.face_value_count(); }

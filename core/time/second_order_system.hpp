@@ -38,6 +38,10 @@ class SecondOrderSystem {
 
   /// A bound, at least 1, of how much stiffer than K the system is now.
   virtual double stiffness_growth() const { return 1.0; }
+
+  /// Called after every step, at the y of the last force: true where the system became another one
+  /// there, whose force is to be found anew.
+  virtual bool changes() { return false; }
 };
 
 }  // namespace perifrac

@@ -23,12 +23,16 @@ void VelocityVerlet::evaluate(double t, Motion& motion) {
 
 void VelocityVerlet::advance(double begin, double end, Motion& motion) {
   if (end == begin) return;
-  const std::int64_t steps = equal_steps(end - begin, longest_step(begin));
-  const double length = (end - begin) / static_cast<double>(steps);
-  for (std::int64_t n = 1; n <= steps; ++n) {
-    step(n == steps ? end : begin + static_cast<double>(n) * length, length, motion);
+  for (double t = begin; t < end;) {  // once, unless the stiffness changes on the way
+    const double first = t, growth = system_.stiffness_growth();
+    const std::int64_t steps = equal_steps(end - first, longest_step(first));
+    const double length = (end - first) / static_cast<double>(steps);
+    for (std::int64_t n = 1; n <= steps && system_.stiffness_growth() == growth; ++n) {
+      t = n == steps ? end : first + static_cast<double>(n) * length;
+      step(t, length, motion);
+      ++steps_;
+    }
   }
-  steps_ += steps;
   const auto bad =
       std::ranges::find_if_not(motion.position, [](double x) { return std::isfinite(x); });
   if (bad != motion.position.end()) {
@@ -49,6 +53,7 @@ void VelocityVerlet::step(double t, double length, Motion& motion) {
   evaluate(t, motion);
   kick(0.5 * length, motion);
   damp(factor, motion);
+  if (system_.changes()) evaluate(t, motion);
 }
 
 void VelocityVerlet::damp(double factor, Motion& motion) const {

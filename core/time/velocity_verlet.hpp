@@ -33,7 +33,8 @@ class VelocityVerlet {
   /// Finds the acceleration at t [s] anew: at the start, and where f has jumped.
   void evaluate(double t, Motion& motion);
 
-  /// From `begin` to `end` [s] in equal steps. Throws NumericalError.
+  /// From `begin` to `end` [s] in equal steps, as long as the stiffness is the same. Throws
+  /// NumericalError.
   void advance(double begin, double end, Motion& motion);
 
   /// 2 / largest angular frequency [s] of the present stiffness; infinity where there is none.

@@ -19,6 +19,9 @@ class BreakableElasticity : public ElasticOperator<D> {
   /// What the energy of point i alone adds to the stiffness.
   virtual PointStiffness point_stiffness(Index i) const = 0;
 
+  /// The energy of point i alone at u, which apply() was last given.
+  virtual double point_energy(Index i, std::span<const double> u) const = 0;
+
   /// Bonds of these points broke: their weights are 0 in the family now.
   virtual void update(std::span<const Index> points) = 0;
 

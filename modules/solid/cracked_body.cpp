@@ -11,16 +11,6 @@ namespace perifrac {
 
 namespace {
 
-/// Sets the weights of a bond, seen from both ends, and of the bonds to its ends' ghosts to 0.
-void silence(Family<2>& family, Index i, Index j) {
-  for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-    const Index end = family.other[bond];
-    const Index source =
-        end < family.point_count ? end : family.ghost_source[end - family.point_count];
-    if (source == j) family.weight[bond] = 0.0;
-  }
-}
-
 double dot(const std::vector<std::pair<int, double>>& mode, const Eigen::VectorXd& x) {
   double sum = 0.0;
   for (const auto& [place, coefficient] : mode) sum += coefficient * x[place];
@@ -79,7 +69,6 @@ void CrackedBody::break_bonds(std::span<const std::pair<Index, Index>> bonds) {
   std::vector<Index> points;
   for (const auto& [i, j] : bonds) {
     silence(*family_, i, j);
-    silence(*family_, j, i);
     points.insert(points.end(), {i, j});
   }
   std::ranges::sort(points);

@@ -2,6 +2,8 @@
 
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
+#include "core/geometry/body.hpp"
+#include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
 
@@ -9,7 +11,13 @@ namespace perifrac {
 KeyTable damage_keys();
 
 /// The fracture energy that the scene's cracks grow at [J/m^2]; infinite without a section
-/// `damage`.
+/// `damage`. Throws InputError for another criterion than energy_release.
 double read_fracture_energy(const Section& scene);
+
+/// The stretch at which bonds of this rock break; infinite without a section `damage`. Throws
+/// InputError for another criterion than critical_stretch.
+template <int D>
+double read_stretch_limit(const Section& scene, const Body<D>& body, const Family<D>& family,
+                          const IsotropicElasticity<D>& law);
 
 }  // namespace perifrac

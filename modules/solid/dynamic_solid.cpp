@@ -12,10 +12,12 @@ template <int D>
 DynamicSolid<D>::DynamicSolid(std::shared_ptr<const Body<D>> body,
                               std::shared_ptr<ElasticOperator<D>> elastic,
                               const SolidBoundary<D>& boundary, double density, double damping,
-                              double safety)
+                              double safety, std::unique_ptr<CriticalStretch<D>> breaking)
     : body_(std::move(body)),
+      breaking_(std::move(breaking)),
       system_(std::make_unique<ElasticDynamics<D>>(*body_, std::move(elastic), boundary, density)),
       verlet_(std::make_unique<VelocityVerlet>(*system_, damping, safety)) {
+  if (breaking_) system_->set_breaking(*breaking_);
   const auto vector = [](const char* name, const char* unit) {
     return Port{name, unit, PortDirection::out, PortKind::intensive, PortRole::field, D};
   };
@@ -39,6 +41,25 @@ DynamicSolid<D>::DynamicSolid(std::shared_ptr<const Body<D>> body,
   for (const auto& plate : boundary.plates(mirror)) {
     ports_.push_back({plate.face + "_plate_displacement", "m", PortDirection::out});
   }
+  if (!breaking_) return;
+  ports_.push_back({"damage", "1", PortDirection::out});
+  ports_.push_back(energy("fracture_energy", PortRole::energy_dissipated));
+}
+
+template <int D>
+PortId DynamicSolid<D>::first_of_breaking() const {
+  return static_cast<PortId>(first_plate + system_->plate_unknowns().size());
+}
+
+template <int D>
+PortView DynamicSolid<D>::breaking_port(PortId id) {
+  if (id == first_of_breaking()) {
+    damage_.resize(body_->points().size());
+    breaking_->damage(damage_);
+    return {&body_->point_set(), damage_};
+  }
+  fracture_energy_ = breaking_->released_energy();
+  return {&whole_body, {&fracture_energy_, 1}};
 }
 
 template <int D>
@@ -71,6 +92,7 @@ PortView DynamicSolid<D>::port(PortId id) {
       system_->effective_stress(effective_stress_);
       return {points, effective_stress_};
     default:
+      if (id >= first_of_breaking()) return breaking_port(id);
       if (id >= first_plate) {
         const Index unknown = system_->plate_unknowns()[id - first_plate];
         return {&whole_body, {&system_->unknowns()[unknown], 1}};
@@ -139,6 +161,9 @@ void DynamicSolid<D>::on_restored(double t) {
   time_ = t;
   motion_.position = system_->position();
   system_->set_interface_force(interface_.force());
+  system_->note_reference();
+  // The stable step is that of the body without broken bonds, which a restart begins with.
+  if (breaking_) verlet_->stable_step(t);
   system_->derive();
 }
 

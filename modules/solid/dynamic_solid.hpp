@@ -21,14 +21,17 @@ namespace perifrac {
 /// `displacement` [m], `velocity` [m/s], `dilatation`, `effective_stress` [Pa] (as
 /// QuasiStaticSolid), `elastic_energy`, `kinetic_energy`, `external_work`, `damped_energy` [J] (per
 /// metre in 2D), `integrator_steps`, and for each rigid plate `<face>_plate_displacement` [m],
-/// along its axis.
+/// along its axis. Where bonds may break, `damage` of the points (paper Eq 16) and
+/// `fracture_energy` [J], what breaking took from the elastic energy.
 template <int D>
 class DynamicSolid final : public PhysicsModule {
  public:
   /// density [kg/m^3]; damping [1/s] of all velocities; a step is at most safety (0 to 1) times the
-  /// stable limit. The operator's mirror condition is the boundary's.
+  /// stable limit. The operator's mirror condition is the boundary's. `breaking` breaks its bonds;
+  /// none: no bond breaks.
   DynamicSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<ElasticOperator<D>> elastic,
-               const SolidBoundary<D>& boundary, double density, double damping, double safety);
+               const SolidBoundary<D>& boundary, double density, double damping, double safety,
+               std::unique_ptr<CriticalStretch<D>> breaking = nullptr);
 
   std::span<const Port> ports() const override;
   PortView port(PortId id) override;
@@ -55,9 +58,12 @@ class DynamicSolid final : public PhysicsModule {
   };
 
   double scalar(PortId id);
+  PortId first_of_breaking() const;
+  PortView breaking_port(PortId id);
 
   std::shared_ptr<const Body<D>> body_;
   std::vector<Port> ports_;
+  std::unique_ptr<CriticalStretch<D>> breaking_;
   std::unique_ptr<ElasticDynamics<D>> system_;
   std::unique_ptr<VelocityVerlet> verlet_;
   double time_ = 0.0;  ///< [s]
@@ -69,6 +75,8 @@ class DynamicSolid final : public PhysicsModule {
   InterfaceForce interface_;
   std::vector<double> velocity_;          ///< of the points; empty until somebody asks
   std::vector<double> effective_stress_;  ///< likewise
+  std::vector<double> damage_;            ///< likewise
+  double fracture_energy_ = 0.0;
   std::array<double, first_plate - elastic_energy> scalars_{};
 };
 

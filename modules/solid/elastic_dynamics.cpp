@@ -240,11 +240,30 @@ void ElasticDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("external_force", external_force_);
   visitor.visit("external_work", external_work_);
   visitor.visit("pore_slope_of_reference", reference_slope_);
+  if (breaking_ != nullptr) breaking_->visit_state(visitor);
+}
+
+template <int D>
+void ElasticDynamics<D>::set_breaking(CriticalStretch<D>& breaking) {
+  breaking_ = &breaking;
+  breaking_->cut_seeds();
+}
+
+/// The step ends with the force of the bonds that it began with, and the next one begins without
+/// those that broke: so no energy is lost but what they held.
+template <int D>
+bool ElasticDynamics<D>::changes() {
+  if (breaking_ == nullptr || !breaking_->break_stretched(unknowns_)) return false;
+  plate_rows_known_ = false;
+  return true;
 }
 
 template <int D>
 void ElasticDynamics<D>::derive() {
-  note_reference();
+  if (breaking_ != nullptr) {
+    breaking_->follow_bonds();
+    plate_rows_known_ = false;
+  }
   apply(unknowns_, {}, inner_, dilatation_);
 }
 

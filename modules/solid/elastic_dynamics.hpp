@@ -10,6 +10,7 @@
 #include "core/state/state_visitor.hpp"
 #include "core/time/scheduled_vector.hpp"
 #include "core/time/second_order_system.hpp"
+#include "modules/solid/critical_stretch.hpp"
 #include "modules/solid/elastic_operator.hpp"
 #include "modules/solid/solid_boundary.hpp"
 
@@ -41,7 +42,13 @@ class ElasticDynamics final : public SecondOrderSystem {
   void force(double t, std::span<const double> y, std::span<double> force) override;
   void stiffness_times(std::span<const double> v, std::span<double> product) override;
   std::uint64_t stiffness_version() const override { return version_; }
-  double stiffness_growth() const override { return growth_; }
+  double stiffness_growth() const override {
+    return breaking_ ? growth_ * breaking_->stiffness_growth() : growth_;
+  }
+  bool changes() override;
+
+  /// Bonds break from now on, in the family of the operator; cuts the seeds. It must stay.
+  void set_breaking(CriticalStretch<D>& breaking);
 
   /// Takes the input of the next window; spans must stay valid while it is integrated. The slope
   /// is part of the stiffness.
@@ -55,7 +62,9 @@ class ElasticDynamics final : public SecondOrderSystem {
   void start();
   /// Displacements, the external force on each of them and the work it did.
   void visit_state(StateVisitor& visitor);
-  /// The state was replaced: finds dilatation anew.
+  /// The state was replaced: takes its stiffness of reference. Before derive().
+  void note_reference();
+  /// Then follows its broken bonds and finds dilatation anew.
   void derive();
 
   /// Displacements of what has a mass, gathered from the state.
@@ -93,10 +102,10 @@ class ElasticDynamics final : public SecondOrderSystem {
   void gather(std::span<const double> all, std::span<double> y) const;
   void find_pore_stress(double t);
   void find_loads(double t);
-  void note_reference();
 
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
+  CriticalStretch<D>* breaking_ = nullptr;
   std::vector<double> initial_force_;  ///< of the initial stress [N]; empty without one
   ScheduledVector prescribed_;
   ScheduledVector loads_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -85,19 +86,27 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
   }
 
   PointStiffness point_stiffness(Index i) const override {
-    for (const ThinPoint& thin : thin_points_) {
-      if (thin.point == i) return thin.stiffness;
-    }
-    return operator_.point_stiffness(i);
+    const auto thin = find_thin(i);
+    return is_at(thin, i) ? thin->stiffness : operator_.point_stiffness(i);
+  }
+
+  double point_energy(Index i, std::span<const double> u) const override {
+    const auto thin = find_thin(i);
+    if (!is_at(thin, i)) return operator_.energy(i);
+    const std::vector<Index>& unknowns = thin->stiffness.unknowns;
+    Eigen::VectorXd own(static_cast<Eigen::Index>(unknowns.size()));
+    for (std::size_t k = 0; k < unknowns.size(); ++k) own[k] = u[unknowns[k]];
+    return 0.5 * own.dot(thin->stiffness.matrix * own);
   }
 
   void update(std::span<const Index> points) override {
     operator_.update(points);
     for (const Index i : points) {
-      std::erase_if(thin_points_, [&](const ThinPoint& thin) { return thin.point == i; });
+      const auto thin = find_thin(i);
+      const auto place = is_at(thin, i) ? thin_points_.erase(thin) : thin;
       if (!is_thin(operator_.family(), i)) continue;
-      thin_points_.push_back(
-          {i, bond_energy_stiffness(operator_.family(), operator_.mirror(), law(i), i)});
+      thin_points_.insert(
+          place, {i, bond_energy_stiffness(operator_.family(), operator_.mirror(), law(i), i)});
     }
   }
 
@@ -108,6 +117,13 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
     Index point;
     PointStiffness stiffness;
   };
+
+  std::vector<ThinPoint>::const_iterator find_thin(Index i) const {
+    return std::ranges::lower_bound(thin_points_, i, {}, &ThinPoint::point);
+  }
+  bool is_at(std::vector<ThinPoint>::const_iterator thin, Index i) const {
+    return thin != thin_points_.end() && thin->point == i;
+  }
 
   void add_initial(Tensor<D, D>& stress) const {
     for (int a = 0; a < D; ++a) stress[a * D + a] += (*initial_stress_)[a];
@@ -139,7 +155,7 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
 
   LinearExactOperator<D, Law> operator_;
   std::optional<Vector<D>> initial_stress_;
-  std::vector<ThinPoint> thin_points_;
+  std::vector<ThinPoint> thin_points_;  ///< in the order of their points
 };
 
 }  // namespace perifrac

@@ -21,7 +21,15 @@ void SolidBoundary<D>::roller(int face, double normal_displacement, double norma
 template <int D>
 void SolidBoundary<D>::fixed(int face, const Vector<D>& displacement, const Vector<D>& velocity,
                              Schedule schedule) {
-  faces_[face] = {Kind::fixed, displacement, velocity, 0.0, std::move(schedule)};
+  faces_[face] = {.kind = Kind::fixed,
+                  .value = displacement,
+                  .velocity = velocity,
+                  .schedule = std::move(schedule)};
+}
+
+template <int D>
+void SolidBoundary<D>::hold_only_in(int face, Region<D> region) {
+  faces_[face].region = std::move(region);
 }
 
 template <int D>
@@ -98,6 +106,8 @@ std::vector<int> SolidBoundary<D>::layer_holders() const {
       for (int a = 0; a < D; ++a) {
         if (!holds(f, a)) continue;
         for (const Index i : body_->layer(f)) {
+          const auto& region = faces_[f].region;
+          if (region && !region->contains(body_->points().at(i))) continue;
           int& holder = holders[a * points + i];
           if (holder < 0) holder = f;
         }

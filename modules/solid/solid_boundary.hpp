@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ class SolidBoundary {
   /// plus velocity [m/s] times t.
   void fixed(int face, const Vector<D>& displacement, const Vector<D>& velocity = {},
              Schedule schedule = {});
+  /// A roller or fixed face holds only those points of its layer that lie in the region; the others
+  /// are free.
+  void hold_only_in(int face, Region<D> region);
   /// A rigid, frictionless plate with one unknown, its normal displacement. The force presses on
   /// the body [N, per metre in 2D].
   void rigid_plate(int face, double force, Schedule schedule = {});
@@ -79,6 +83,7 @@ class SolidBoundary {
     Vector<D> velocity{};  ///< [m/s]
     double pressure = 0.0;
     Schedule schedule{};
+    std::optional<Region<D>> region{};  ///< the part that it holds; none: all of it
     bool loads() const { return kind != Kind::free && !prescribes(); }
     bool prescribes() const { return kind == Kind::roller || kind == Kind::fixed; }
     bool holds() const { return kind == Kind::rigid_plate || prescribes(); }

@@ -48,6 +48,11 @@ KeyTable solid_boundary_keys() {
        .unit = "m/s",
        .when = "type=fixed",
        .meaning = "Times t, it adds to displacement; no schedule multiplies it."},
+      {.path = "boundary.*.region",
+       .type = KeyType::text,
+       .when = "type=roller|fixed",
+       .meaning = "Region of the body; the face is held only where its layer lies in it, and free "
+                  "elsewhere."},
       {.path = "boundary.*.force",
        .unit = "N/m|N",
        .required = true,
@@ -125,6 +130,28 @@ void read_face(const Section& section, const FaceCondition& condition, SolidBoun
   }
 }
 
+/// A part of a face can be held where a layer stands for its ghosts.
+template <int D>
+void read_held_region(const Section& section, const Body<D>& body, const FaceCondition& condition,
+                      SolidBoundary<D>& boundary) {
+  const std::string path = condition.path + ".region";
+  if (condition.type != "roller" && condition.type != "fixed") return;
+  if (!section.has(path)) return;
+  const std::span<const Index> layer = body.layer(condition.face);
+  if (layer.empty()) section.fail(path, "on a face without a layer", "body.boundary: layer there");
+  const std::string name = section.text(path);
+  const auto region = std::ranges::find(body.regions(), name, &Region<D>::name);
+  if (region == body.regions().end()) {
+    std::vector<std::string> known;
+    for (const Region<D>& each : body.regions()) known.push_back(each.name);
+    section.fail_unknown(path, name, known);
+  }
+  if (std::ranges::none_of(layer, [&](Index i) { return region->contains(body.points().at(i)); })) {
+    section.fail(path, "'" + name + "' holds no point of the layer", "a region that does");
+  }
+  boundary.hold_only_in(condition.face, *region);
+}
+
 /// What pressure does on a sphere is known only where the plane faces beside it are mirrored.
 void check_sphere_pressure(const Section& section, const FaceCondition& condition,
                            const std::vector<Face>& faces, FaceSet mirrored) {
@@ -170,6 +197,7 @@ SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body
   const auto conditions = read_face_conditions(section, body.faces(), {"free", "pressure"});
   for (const FaceCondition& condition : conditions) {
     read_face(section, condition, boundary);
+    read_held_region(section, body, condition, boundary);
   }
   for (const FaceCondition& condition : conditions) {
     check_sphere_pressure(section, condition, body.faces(), boundary.mirrored());

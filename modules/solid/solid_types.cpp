@@ -22,6 +22,7 @@ bool has_cracks(const Section& section) {
 std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
                                                std::shared_ptr<const Body<2>> body) {
   const Section scene = section.scene();
+  const double fracture_energy = read_fracture_energy(scene);
   const std::vector<CrackFacet<2>> seeds = read_crack_seeds(scene, body->spacing());
   if (seeds.empty()) {
     scene.fail("damage", "no crack to grow", "a list 'cracks' with one crack or more");
@@ -30,9 +31,9 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   auto elastic =
       read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
-  auto solid = std::make_unique<FracturingSolid>(
-      body, family, std::move(elastic), boundary, read_initial_stress<2>(section), seeds,
-      FracturingSolid::Material{read_fracture_energy(scene)});
+  auto solid = std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
+                                                 read_initial_stress<2>(section), seeds,
+                                                 FracturingSolid::Material{fracture_energy});
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -60,17 +61,50 @@ std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
   return solid;
 }
 
+std::vector<CrackFacet<2>> read_seeds(const Section& scene, const Body<2>& body) {
+  return read_crack_seeds(scene, body.spacing());
+}
+
+std::vector<CrackFacet<3>> read_seeds(const Section& scene, const Body<3>&) {
+  if (scene.count("cracks") > 0) scene.fail("cracks", "cracks in 3D", "dimension: 2");
+  return {};
+}
+
+template <int D>
+std::unique_ptr<CriticalStretch<D>> make_breaking(const Section& section, const Body<D>& body,
+                                                  std::shared_ptr<Family<D>> family,
+                                                  std::shared_ptr<BreakableElasticity<D>> elastic) {
+  const Section scene = section.scene();
+  if (family->curved) {
+    section.fail("boundary", "bonds that break beside a mirrored sphere", "a free sphere");
+  }
+  if (section.has("confining_stress")) {
+    section.fail("confining_stress", "beside bonds that break in a dynamic solid",
+                 "loads on the faces, or type: quasi_static");
+  }
+  std::vector<CrackFacet<D>> seeds = read_seeds(scene, body);
+  const double limit =
+      read_stretch_limit<D>(scene, body, *family, read_isotropic_elasticity<D>(section));
+  return std::make_unique<CriticalStretch<D>>(family, std::move(elastic), body.claim_bond_state(),
+                                              std::move(seeds), limit);
+}
+
 template <int D>
 std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
-  if (has_cracks(section)) {
-    section.fail("type", "cracks in a dynamic solid", "quasi_static beside cracks and damage");
-  }
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
-  std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
-  return std::make_unique<DynamicSolid<D>>(body, std::move(elastic), boundary,
-                                           section.number("density"), section.number("damping"),
-                                           section.number("integrator.safety"));
+  const auto make = [&](std::shared_ptr<ElasticOperator<D>> elastic,
+                        std::unique_ptr<CriticalStretch<D>> breaking) {
+    return std::make_unique<DynamicSolid<D>>(
+        body, std::move(elastic), boundary, section.number("density"), section.number("damping"),
+        section.number("integrator.safety"), std::move(breaking));
+  };
+  if (!has_cracks(section)) return make(read_material<D>(section, *body, boundary), nullptr);
+  auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
+  std::shared_ptr<BreakableElasticity<D>> elastic =
+      read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));
+  auto breaking = make_breaking<D>(section, *body, family, elastic);
+  return make(std::move(elastic), std::move(breaking));
 }
 
 /// Keys of one elastic solid may stand beside another, so that one word swaps them.

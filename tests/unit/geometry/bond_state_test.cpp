@@ -1,0 +1,84 @@
+#include "core/geometry/bond_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/state/snapshot.hpp"
+#include "tests/unit/operators/test_bodies.hpp"
+
+namespace perifrac {
+namespace {
+
+using Bonds = std::vector<std::pair<Index, Index>>;
+
+BondState<2> some_broken() {
+  BondState<2> bonds;
+  bonds.add_facet({{{1.0, 2.0}, {3.0, 2.0}}}, Bonds{{0, 4}, {1, 5}});
+  bonds.break_bonds(Bonds{{2, 3}});
+  return bonds;
+}
+
+TEST(BondState, KeepsFacetsWithWhatTheyCut) {
+  const BondState<2> bonds = some_broken();
+  ASSERT_EQ(bonds.broken().size(), 3u);
+  EXPECT_EQ(bonds.broken()[1].j, 5);
+  EXPECT_EQ(bonds.broken()[1].facet, 0);
+  EXPECT_EQ(bonds.broken()[2].facet, no_facet);
+  EXPECT_EQ(bonds.facet_points().count, 1u);
+  EXPECT_EQ(bonds.facet_points().position[0][0], 2.0);
+  EXPECT_EQ(bonds.facet_points().position[1][0], 2.0);
+}
+
+TEST(BondState, HasAnotherVersionAfterEveryBreakAndRestoredStateOnly) {
+  BondState<2> bonds;
+  Snapshot nothing, some;
+  const StateWalk walk = [&](StateVisitor& visitor) { bonds.visit_state(visitor); };
+  nothing.save(walk);
+  const auto start = bonds.version();
+  bonds = some_broken();
+  const auto broken = bonds.version();
+  EXPECT_NE(broken, start);
+  some.save(walk);
+  some.restore(walk);
+  EXPECT_EQ(bonds.version(), broken) << "the same state";
+  nothing.restore(walk);
+  EXPECT_NE(bonds.version(), broken);
+  EXPECT_TRUE(bonds.broken().empty());
+  EXPECT_EQ(bonds.facet_points().count, 0u);
+  some.restore(walk);
+  EXPECT_EQ(bonds.broken()[2].i, 2);
+  EXPECT_EQ(bonds.facets()[0][1][0], 3.0);
+  EXPECT_EQ(bonds.facet_points().count, 1u);
+}
+
+/// A bond to a ghost breaks with that to the ghost's source, from both ends; nothing else does.
+TEST(BondState, BreaksBondsInAFamilyAndToItsGhosts) {
+  const auto body = test::box_body<2>({8, 8}, 1.0);
+  const Family<2> family = *body->family(face_bit(0) | face_bit(2));
+  BondState<2> bonds;
+  const Bonds broken = {{0, 1}, {9, 18}};
+  bonds.break_bonds(broken);
+  Family<2> silenced = family;
+  for (const auto& [i, j] : broken) silence(silenced, i, j);
+  const Family<2> intact = intact_family(family, bonds);
+  Index ghosts = 0;
+  for (Index i = 0; i < family.point_count; ++i) {
+    Index kept = intact.offset[i];
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const Index end = family.other[bond];
+      const bool ghost = end >= family.point_count;
+      const Index j = ghost ? family.ghost_source[end - family.point_count] : end;
+      const bool is_broken =
+          std::ranges::count(broken, std::pair(std::min(i, j), std::max(i, j))) > 0;
+      ghosts += is_broken && ghost;
+      EXPECT_EQ(silenced.weight[bond], is_broken ? 0.0 : family.weight[bond]);
+      if (is_broken) continue;
+      EXPECT_EQ(intact.other[kept], end);
+      EXPECT_EQ(intact.weight[kept++], family.weight[bond]);
+    }
+    EXPECT_EQ(kept, intact.offset[i + 1]);
+  }
+  EXPECT_GT(ghosts, 0);
+}
+
+}  // namespace
+}  // namespace perifrac

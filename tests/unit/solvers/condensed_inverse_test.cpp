@@ -1,0 +1,66 @@
+#include "core/solvers/condensed_inverse.hpp"
+
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+namespace perifrac {
+namespace {
+
+constexpr int size = 30;
+
+Eigen::MatrixXd random_matrix(int rows, int columns, unsigned seed) {
+  std::mt19937 bits(seed);
+  std::uniform_real_distribution<double> value(-1.0, 1.0);
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return value(bits); });
+}
+
+/// After several additions and changes, in whatever order they come: against the dense inverse.
+TEST(CondensedInverse, IsABlockOfTheInverseOfTheChangedMatrix) {
+  const Eigen::MatrixXd root = random_matrix(size, size, 1);
+  Eigen::MatrixXd a = root * root.transpose() + 5.0 * Eigen::MatrixXd::Identity(size, size);
+  const Eigen::SparseMatrix<double> start = a.sparseView();
+  SparseCholesky factor;
+  factor.factor(start);
+  CondensedInverse inverse(factor, size);
+  const Eigen::VectorXd b = random_matrix(size, 1, 2);
+  const Eigen::VectorXd x0 = Eigen::MatrixXd(start).llt().solve(b);
+
+  const std::vector<std::vector<int>> steps = {{3, 17, 8}, {8, 0, 29}, {5}, {17, 5, 12, 3}};
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    inverse.add(steps[step]);
+    const int count = static_cast<int>(steps[step].size());
+    const Eigen::MatrixXd half = random_matrix(count, count, 10 + step);
+    // A softer and a stiffer matrix in turn; positive definite either way.
+    const Eigen::MatrixXd delta = (step % 2 == 0 ? -1.0 : 3.0) * half * half.transpose();
+    std::vector<int> places;
+    for (const int unknown : steps[step]) places.push_back(inverse.place(unknown));
+    inverse.change(places, delta);
+    for (int r = 0; r < count; ++r) {
+      for (int c = 0; c < count; ++c) a(steps[step][r], steps[step][c]) += delta(r, c);
+    }
+    ASSERT_EQ(a.llt().info(), Eigen::Success);
+
+    const Eigen::MatrixXd exact = a.inverse();
+    const Eigen::VectorXd x = exact * b;
+    const auto named = inverse.unknowns();
+    Eigen::VectorXd part0(named.size()), part(named.size());
+    for (std::size_t r = 0; r < named.size(); ++r) {
+      EXPECT_EQ(inverse.place(named[r]), static_cast<int>(r));
+      part0[r] = x0[named[r]];
+      part[r] = x[named[r]];
+      for (std::size_t c = 0; c < named.size(); ++c) {
+        EXPECT_NEAR(inverse.block()(r, c), exact(named[r], named[c]), 1e-13);
+      }
+    }
+    EXPECT_LE((inverse.correct_block(part0) - part).cwiseAbs().maxCoeff(), 1e-13);
+    const Eigen::VectorXd force = inverse.force_of_changes(part);
+    EXPECT_LE((Eigen::MatrixXd(start) * x + force - b).cwiseAbs().maxCoeff(), 1e-12);
+  }
+  EXPECT_EQ(inverse.unknowns().size(), 7u);
+  EXPECT_EQ(inverse.place(1), -1);
+}
+
+}  // namespace
+}  // namespace perifrac
