@@ -252,6 +252,22 @@ double CrackNetwork::advance(const TimeWindow& window) {
   return window.end;
 }
 
+/// Another place for Newton to begin: facets that are dry are under the largest pressure next to
+/// them, as a new one behind a thin fluid is at once.
+std::vector<double> CrackNetwork::filled_from_neighbours() const {
+  std::vector<double> guess = unknown_;
+  const CrackGraph& graph = lubrication_.graph();
+  for (std::size_t k = 0; k < graph.joint_count(); ++k) {
+    for (const CrackGraph::Branch& a : graph.joint(k)) {
+      if (liquid_.is_full(unknown_[a.facet])) continue;
+      for (const CrackGraph::Branch& b : graph.joint(k)) {
+        guess[a.facet] = std::max(guess[a.facet], unknown_[b.facet]);
+      }
+    }
+  }
+  return guess;
+}
+
 /// Tries one step; false where a shorter one is called for. Throws NumericalError where none is.
 bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
   const LubricationStep step{.time = time,
@@ -261,9 +277,14 @@ bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
                              .leak_off = leak_off_.get()};
   if (leak_off_) leak_off_->begin(time);
   Eigen::VectorXd v = vector_of(time.length() > 0.0 ? unknown_ : settled_);
-  const NewtonReport report = solve(lubrication_, liquid_, step, v);
-  ++steps_;
+  NewtonReport report = solve(lubrication_, liquid_, step, v);
   iterations_ += report.iterations;
+  if (!report.converged && time.length() > 0.0) {
+    v = vector_of(filled_from_neighbours());
+    report = solve(lubrication_, liquid_, step, v);
+    iterations_ += report.iterations;
+  }
+  ++steps_;
   if (report.converged) {
     book(v);
     if (time.length() > 0.0) settled_ = unknown_;

@@ -74,6 +74,7 @@ class CrackNetwork final : public PhysicsModule {
   void add_port(Quantity quantity, Port port);
   void match_facets();
   void fill_at_start(const TimeWindow& window);
+  std::vector<double> filled_from_neighbours() const;
   bool step(const TimeWindow& time, const TimeWindow& window);
   void book(const Eigen::VectorXd& v);
   std::vector<double>& field(Quantity quantity);
