@@ -2,7 +2,7 @@
 .DEFAULT_GOAL := help
 .PHONY: help install configure perifrac build run test test-slow check-style docs paper permeability toughness bench clean
 
-SCENE ?= configs/mandel.yaml
+SCENE ?= configs/hf_storage.yaml
 BUILD := build/release
 PERIFRAC := $(BUILD)/bin/perifrac
 

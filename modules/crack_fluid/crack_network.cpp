@@ -300,17 +300,20 @@ bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
 
 /// What has moved is what counts: mass is kept to rounding whatever Newton left over. Enthalpy is
 /// the mean of begin and end, so that fluid and a linear solid exchange the same work; a facet that
-/// was not full opens only once it is nearly at its last pressure.
+/// was held closed begins to open at the pressure that holds it.
 void CrackNetwork::book(const Eigen::VectorXd& v) {
   const bool is_sink = leak_off_ && leak_off_->is_sink();
   for (std::size_t f = 0; f < mass_.size(); ++f) {
     const double inflow = lubrication_.inflow()[f];
     const double outflow = lubrication_.outflow()[f];
     const double leaked = lubrication_.leaked()[f];
-    const double last = liquid_.enthalpy(liquid_.pressure(v[f]));
-    const double first =
-        liquid_.is_full(unknown_[f]) ? liquid_.enthalpy(liquid_.pressure(unknown_[f])) : last;
-    const double enthalpy = 0.5 * (first + last);
+    const double pressure = liquid_.pressure(v[f]);
+    double first = liquid_.pressure(unknown_[f]);
+    const double answer = opening_slope_[f * (mass_.size() + 1)];
+    if (!liquid_.is_full(unknown_[f]) && answer > 0.0) {
+      first = std::clamp(pressure - lubrication_.raw_opening()[f] / answer, first, pressure);
+    }
+    const double enthalpy = 0.5 * (liquid_.enthalpy(first) + liquid_.enthalpy(pressure));
     mass_[f] += inflow - outflow - leaked;
     injected_.add(inflow);
     leaked_.add(-leaked);

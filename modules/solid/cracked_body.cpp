@@ -202,11 +202,10 @@ void CrackedBody::find_compliance() {
 }
 
 void CrackedBody::set_load(const Eigen::VectorXd& load) {
-  if (intact_move_.size() != load.size() || load != load_) {
-    load_ = load;
-    intact_move_.resize(load.size());
-    factor_.solve(load_, intact_move_);
-  }
+  if (intact_move_.size() == load.size() && load == load_) return;
+  load_ = load;
+  intact_move_.resize(load.size());
+  factor_.solve(load_, intact_move_);
   find_opening();
 }
 
@@ -338,14 +337,36 @@ Eigen::VectorXd CrackedBody::face_force(const Eigen::VectorXd& pressure, bool re
   return force;
 }
 
+/// What would move the body with its first cracks alone as the faces' force moves the present one.
+Eigen::VectorXd CrackedBody::force_on_first_body(const Eigen::VectorXd& force,
+                                                 const Eigen::VectorXd& block) const {
+  Eigen::VectorXd all = -inverse_->force_of_changes(block);
+  for (Eigen::Index k = 0; k < force.size(); ++k) all[inverse_->unknowns()[k]] += force[k];
+  return all;
+}
+
 Eigen::VectorXd CrackedBody::unknowns(const Eigen::VectorXd& pressure) const {
   const Eigen::VectorXd force = block_force(pressure);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
-  Eigen::VectorXd all = -inverse_->force_of_changes(block);
-  for (Eigen::Index k = 0; k < force.size(); ++k) all[inverse_->unknowns()[k]] += force[k];
+  const Eigen::VectorXd all = force_on_first_body(force, block);
   Eigen::VectorXd moved(all.size());
   factor_.solve(all, moved);
   return free_unknowns_ * (intact_move_ + moved);
+}
+
+CrackedBody::Energies CrackedBody::energies(const Eigen::VectorXd& pressure) const {
+  const Eigen::VectorXd force = block_force(pressure);
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  Energies energies{};
+  // The factor's inverse is symmetric, so that load times displacement needs no displacement.
+  energies.load = intact_move_.dot(load_ + force_on_first_body(force, block));
+  energies.elastic = 0.5 * (energies.load + force.dot(block));
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
+    const auto [normal, tangential] = relief(static_cast<Index>(f));
+    energies.relief += jumps_[f].length * (normal * dot(modes_[f].normal, block) +
+                                           tangential * dot(modes_[f].tangent, block));
+  }
+  return energies;
 }
 
 }  // namespace perifrac

@@ -57,6 +57,14 @@ class CrackedBody {
 
   /// All unknowns without what is prescribed, under the load and a pressure on the faces [m].
   Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure) const;
+  /// What the body holds and what its loads would have done, had they been there from the start
+  /// [J/m]; at no back-substitution.
+  struct Energies {
+    double elastic;
+    double load;    ///< load times displacement
+    double relief;  ///< the stress that faces are relieved of, times their jumps
+  };
+  Energies energies(const Eigen::VectorXd& pressure) const;
   /// Force of a pressure on the faces, and of the stress they are relieved of, on all unknowns [N].
   Eigen::VectorXd face_force(const Eigen::VectorXd& pressure, bool relief = true) const;
 
@@ -92,6 +100,8 @@ class CrackedBody {
   void find_compliance();
   void find_opening();
   Eigen::VectorXd block_force(const Eigen::VectorXd& pressure) const;
+  Eigen::VectorXd force_on_first_body(const Eigen::VectorXd& force,
+                                      const Eigen::VectorXd& block) const;
 
   std::shared_ptr<Family<2>> family_;
   Family<2> intact_;

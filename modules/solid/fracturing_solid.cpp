@@ -77,6 +77,8 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
   }
   prescribed_ = boundary.prescribed(mirror);
   load_ = boundary.loads(mirror, elastic->gradient_matrix());
+  loads_are_steady_ =
+      load_.is_constant() && prescribed_.is_constant() && !prescribed_.at(0.0).any();
   for (Index i = 0; i < family->point_count; ++i) {
     slope_.push_back(1.0 / elastic->drained_bulk_modulus(i));
     double sum = 0.0;
@@ -147,7 +149,7 @@ PortView FracturingSolid::port(PortId id) {
     case crack_length:
       return {&whole_body, {&crack_length_, 1}};
     case elastic_energy:
-      derive();
+      if (!is_steady()) derive();
       return {&whole_body, {&elastic_energy_, 1}};
     case external_work:
       return {&whole_body, {&external_work_, 1}};
@@ -166,6 +168,7 @@ void FracturingSolid::initialize(double t) {
   unknowns_.assign(free_unknowns_.rows(), 0.0);
   unknowns_before_ = force_ = unknowns_;
   external_work_ = fracture_energy_ = readiness_before_ = 0.0;
+  load_work_ = relief_work_ = elastic_energy_ = 0.0;
   const auto facets = static_cast<Eigen::Index>(seeds_.size());
   faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
             std::vector<bool>(seeds_.size(), false)};
@@ -262,12 +265,22 @@ void FracturingSolid::derive() {
   std::vector<double> force(unknowns_.size());
   dilatation_.resize(body_->points().size());
   cracked_.elastic().apply(unknowns_, {}, force, dilatation_);
-  elastic_energy_ = 0.5 * view(unknowns_).dot(view(force));
+  if (!is_steady()) elastic_energy_ = 0.5 * view(unknowns_).dot(view(force));
   derived_ = true;
 }
 
 /// Work since the last time; that of the fluid in the cracks is the fluid's, and contact does none.
 void FracturingSolid::book_work() {
+  if (is_steady()) {
+    const CrackedBody::Energies energies = cracked_.energies(faces_.pressure);
+    // Loads that come on suddenly do half of it: a body in equilibrium has no kinetic energy.
+    const double share = load_work_ == 0.0 ? 0.5 : 1.0;
+    external_work_ += share * (energies.load - load_work_) + energies.relief - relief_work_;
+    load_work_ = energies.load;
+    relief_work_ = energies.relief;
+    elastic_energy_ = energies.elastic;
+    return;
+  }
   find_unknowns();
   std::vector<double> force(unknowns_.size()), scratch(body_->points().size());
   cracked_.elastic().apply(unknowns_, {pore_stress_}, force, scratch);
@@ -405,8 +418,14 @@ void FracturingSolid::visit_tips(StateVisitor& visitor) {
 }
 
 void FracturingSolid::visit_state(StateVisitor& visitor) {
-  visitor.visit("displacement", unknowns_before_);
-  visitor.visit("external_force", force_);
+  if (is_steady()) {
+    visitor.visit("load_work", load_work_);
+    visitor.visit("relief_work", relief_work_);
+    visitor.visit("elastic_energy", elastic_energy_);
+  } else {
+    visitor.visit("displacement", unknowns_before_);
+    visitor.visit("external_force", force_);
+  }
   visitor.visit("external_work", external_work_);
   visitor.visit("fracture_energy", fracture_energy_);
   visitor.visit("crack_length", crack_length_);
@@ -427,9 +446,13 @@ void FracturingSolid::visit_state(StateVisitor& visitor) {
 void FracturingSolid::on_restored(double t) {
   window_end_ = t;
   cracked_.follow_bonds();
-  unknowns_ = unknowns_before_;
-  unknowns_are_current_ = true;
   derived_ = false;
+  unknowns_are_current_ = !is_steady();
+  if (is_steady()) {
+    cracked_.set_load(free_unknowns_.transpose() * load_.at(t));
+  } else {
+    unknowns_ = unknowns_before_;
+  }
 }
 
 }  // namespace perifrac

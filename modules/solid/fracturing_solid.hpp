@@ -76,6 +76,10 @@ class FracturingSolid final : public PhysicsModule {
   };
 
   bool wet() const { return !crack_pressure_.empty(); }  ///< fluid may be in the cracks
+  /// Nothing but the faces' pressure changes: then displacements are found only when asked for.
+  bool is_steady() const {
+    return loads_are_steady_ && pore_stress_.empty() && !interface_.is_linked();
+  }
   void find_seed_tips();
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
   double readiness(const Tip& tip, double t);
@@ -100,6 +104,7 @@ class FracturingSolid final : public PhysicsModule {
   std::optional<Vector<2>> initial_stress_;
   ScheduledVector prescribed_{0};
   ScheduledVector load_{0};
+  bool loads_are_steady_ = false;
   std::vector<double> intact_weight_;  ///< sum of a family's weights
 
   BondState<2>& bonds_;
@@ -112,6 +117,7 @@ class FracturingSolid final : public PhysicsModule {
   bool derived_ = false;                 ///< dilatation and energy are those of the unknowns
   std::vector<double> unknowns_before_;  ///< at the beginning of the window
   std::vector<double> force_;  ///< external, on every unknown, the fluid's in cracks apart [N/m]
+  double load_work_ = 0.0, relief_work_ = 0.0;  ///< steady: of the last window (Energies) [J/m]
   double external_work_ = 0.0;
   double fracture_energy_ = 0.0;
   double crack_length_ = 0.0;

@@ -70,7 +70,7 @@ class CommandLine(RunTest):
 
     def test_list(self):
         said = json.loads(perifrac("list", "--json").stdout)
-        self.assertIn({"fluid", "pore_flow", "solid"}, [{module["section"] for module in said["modules"]}])
+        self.assertIn({"fluid", "crack_fluid", "pore_flow", "solid"}, [{module["section"] for module in said["modules"]}])
         text = perifrac("list").stdout
         for module in said["modules"]:
             self.assertIn(f"{module['section']}: {module['type']}", text)

@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from perifrac_runs import FLUIDS, MANDEL, SMALL, VARIANTS, RunTest, checkpoints, perifrac, settings
+from perifrac_runs import CONFIGS, FLUIDS, MANDEL, SMALL, VARIANTS, RunTest, checkpoints, perifrac, settings
 
 SCHEMES = {
     "explicit": {"pore_flow.integrator.type": "explicit"},
@@ -65,6 +65,13 @@ class Restart(RunTest):
                 for end in ("0.2 s", "0.3 s"):
                     self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], "--until", end, scene=scene)
                 self.assert_same_results(whole, parts)
+
+    def test_a_growing_crack_in_parts(self):
+        keys = {"body.spacing": "2.5 mm", "time.end": "20 ms", "output.checkpoint_interval": "0 s"}
+        whole = self.run_scene(keys, "crack/whole", scene=CONFIGS / "hf_storage.yaml")
+        parts = self.run_scene(keys, "crack/parts", "--until", "10 ms", scene=CONFIGS / "hf_storage.yaml")
+        self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], scene=CONFIGS / "hf_storage.yaml")
+        self.assert_same_results(whole, parts)
 
     def test_fluids_in_parts(self):
         for name, scene in FLUIDS.items():

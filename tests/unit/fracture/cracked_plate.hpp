@@ -34,7 +34,8 @@ struct CrackedPlate {
   Vector<2> middle() const { return {0.5 * n, 0.5 * n}; }
 
   CrackedPlate(int count, std::vector<CrackFacet<2>> seeds, double poisson = 0.25,
-               std::shared_ptr<const Body<2>> shape = nullptr)
+               std::shared_ptr<const Body<2>> shape = nullptr,
+               std::optional<Vector<2>> initial_stress = {})
       : n(count),
         poisson_ratio(poisson),
         body(shape ? shape : box_body<2>({n, n}, 1.0)),
@@ -62,7 +63,7 @@ struct CrackedPlate {
     Eigen::SparseMatrix<double> free(2 * points, column);
     free.setFromTriplets(ones.begin(), ones.end());
     free_ = free;
-    cracked = std::make_unique<CrackedBody>(family, 1.0, elastic, free, bonds, std::nullopt,
+    cracked = std::make_unique<CrackedBody>(family, 1.0, elastic, free, bonds, initial_stress,
                                             std::move(seeds));
     cracked->start();
     prescribed = Eigen::VectorXd::Zero(2 * points);

@@ -1,0 +1,140 @@
+#include "modules/solid/cracked_body.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/fracture/cracked_plate.hpp"
+
+namespace perifrac::test {
+namespace {
+
+constexpr double quarter = M_PI / 4.0;
+
+ExactCrack crack_in(const CrackedPlate& plate, double angle, double half_length) {
+  return {plate.middle(),     angle, half_length, 0.0, 0.0, 0.0, 0.0, plate.shear_modulus(),
+          plate.poisson_ratio};
+}
+
+/// A crack that grows is the crack that was there from the start.
+TEST(CrackedBody, GrowsToWhatAFreshBodyIs) {
+  const int n = 40, half = 6;
+  const Vector<2> middle = {0.5 * n, 0.5 * n};
+  const auto all = straight_crack(middle, 0.3, 2 * half);
+  CrackedPlate fresh(n, all);
+  CrackedPlate grown(n, {all.begin(), all.begin() + 5});
+  for (std::size_t f = 5; f < all.size(); ++f) ASSERT_TRUE(grown.cracked->cut(all[f]));
+  ExactCrack exact = crack_in(fresh, 0.3, half);
+  exact.normal = exact.shear = exact.pressure = 1e-3;
+  const Eigen::VectorXd u = fresh.solve(exact), v = grown.solve(exact);
+  EXPECT_LE((u - v).cwiseAbs().maxCoeff(), 1e-10 * u.cwiseAbs().maxCoeff());
+  const Eigen::MatrixXd& c = fresh.cracked->compliance();
+  EXPECT_LE((c - grown.cracked->compliance()).cwiseAbs().maxCoeff(), 1e-9 * c.maxCoeff());
+}
+
+TEST(CrackedBody, HasASymmetricCompliance) {
+  CrackedPlate plate(40, straight_crack({20.0, 20.0}, 0.3, 10));
+  const Eigen::MatrixXd& c = plate.cracked->compliance();
+  for (Eigen::Index f = 0; f < c.rows(); ++f) {
+    for (Eigen::Index g = 0; g < f; ++g) {
+      EXPECT_NEAR(c(f, g) * plate.cracked->jumps()[f].length,
+                  c(g, f) * plate.cracked->jumps()[g].length, 1e-10 * c.maxCoeff());
+    }
+  }
+}
+
+/// Sneddon: w = 4 p / E' sqrt(a^2 - x^2), with 20 points per half length.
+TEST(CrackedBody, OpensUnderPressureAsSneddonSays) {
+  const int half = 20;
+  for (const double angle : {0.0, quarter}) {
+    CrackedPlate plate(2 * half + 40, straight_crack({40.0, 40.0}, angle, 2 * half));
+    ExactCrack exact = crack_in(plate, angle, half);
+    exact.pressure = 1e-3;
+    plate.solve(exact);
+    const auto faces = plate.cracked->faces(plate.pressure);
+    double volume = 0.0;
+    for (int f = 0; f < 2 * half; ++f) {
+      const double x = f + 0.5 - half;
+      const double opening = 4e-3 * std::sqrt(half * half - x * x);
+      if (std::abs(x) < 0.8 * half) EXPECT_NEAR(faces.opening[f], opening, 0.05 * opening) << x;
+      volume += faces.opening[f];
+    }
+    EXPECT_NEAR(volume, 2e-3 * M_PI * half * half, 0.03 * volume) << angle;
+  }
+}
+
+/// A closed crack without friction slides as an open one does, and does not open by that.
+TEST(CrackedBody, SlidesWhereItIsClosed) {
+  const int half = 20;
+  for (const double angle : {0.0, quarter}) {
+    CrackedPlate plate(2 * half + 40, straight_crack({40.0, 40.0}, angle, 2 * half));
+    ExactCrack sheared = crack_in(plate, angle, half);
+    sheared.shear = 1e-3;
+    plate.solve(sheared);
+    const auto faces = plate.cracked->faces(Eigen::VectorXd::Zero(2 * half));
+    const Eigen::VectorXd u = plate.prescribed + plate.cracked->unknowns(faces.pressure);
+    double slip = 0.0;
+    for (int f = 0; f < 2 * half; ++f) {
+      slip += std::abs(plate.cracked->jump(f, {u.data(), static_cast<std::size_t>(u.size())})[1]);
+    }
+    const double middle =
+        std::abs(plate.cracked->jump(half, {u.data(), static_cast<std::size_t>(u.size())})[1]);
+    EXPECT_NEAR(middle, 4e-3 * half, 0.05 * 4e-3 * half) << angle;
+    plate.pressure = faces.pressure;
+    EXPECT_NEAR(std::sqrt(plate.tip_load(sheared, 1, u).energy_release), sheared.mode_two(),
+                0.05 * sheared.mode_two())
+        << angle;
+    EXPECT_LE(faces.opening.sum(), 0.01 * slip) << angle;
+  }
+}
+
+/// At rest under stress the contact bears just that stress, and the body stays where it is.
+TEST(CrackedBody, BearsItsInitialStressWhereItIsClosed) {
+  const double angle = 0.3;
+  CrackedPlate plate(40, straight_crack({20.0, 20.0}, angle, 10), 0.25, nullptr,
+                     Vector<2>{-2e-3, -2e-3});
+  plate.solve(crack_in(plate, angle, 5));
+  const auto faces = plate.cracked->faces(Eigen::VectorXd::Zero(10));
+  EXPECT_EQ(faces.opening.maxCoeff(), 0.0);
+  for (int f = 0; f < 10; ++f) EXPECT_NEAR(faces.pressure[f], 2e-3, 1e-12) << f;
+  EXPECT_TRUE(std::ranges::all_of(faces.closed, std::identity()));
+  EXPECT_EQ(plate.cracked->compliance(faces.closed).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_LE(plate.cracked->unknowns(faces.pressure).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+/// Energies from the condensed unknowns are those of the displacements.
+TEST(CrackedBody, KnowsItsEnergiesWithoutDisplacements) {
+  CrackedPlate plate(40, straight_crack({20.0, 20.0}, 0.3, 6));
+  plate.cracked->cut(straight_crack({20.0, 20.0}, 0.3, 8).back());
+  const Eigen::VectorXd load =
+      Eigen::VectorXd::LinSpaced(plate.prescribed.size() - 2 * std::ssize(plate.told), -1.0, 2.0);
+  plate.cracked->set_load(load);
+  const Eigen::VectorXd pressure =
+      Eigen::VectorXd::Constant(std::ssize(plate.cracked->jumps()), 0.5);
+  const Eigen::VectorXd u = plate.cracked->unknowns(pressure);
+  std::vector<double> force(u.size()), theta(plate.family->point_count);
+  plate.elastic->apply({u.data(), static_cast<std::size_t>(u.size())}, {}, force, theta);
+  const Eigen::Map<const Eigen::VectorXd> inner(force.data(), u.size());
+  const auto energies = plate.cracked->energies(pressure);
+  EXPECT_NEAR(energies.elastic, 0.5 * u.dot(inner), 1e-9 * energies.elastic);
+  EXPECT_NEAR(energies.load, u.dot(inner - plate.cracked->face_force(pressure)),
+              1e-9 * energies.elastic);
+}
+
+/// Mixed load: J is (K_I^2 + K_II^2) / E', and the crack turns to its right under positive K_II.
+TEST(EnergyRelease, HoldsForBothModes) {
+  const int half = 10;
+  CrackedPlate plate(70, straight_crack({35.0, 35.0}, 0.0, 2 * half));
+  ExactCrack exact = crack_in(plate, 0.0, half);
+  exact.normal = 1e-3;
+  exact.shear = 0.3e-3;
+  const Eigen::VectorXd u = plate.solve(exact);
+  const TipLoad load = plate.tip_load(exact, 1, u);
+  const double j = std::pow(exact.mode_one(), 2) + std::pow(exact.mode_two(), 2);
+  EXPECT_NEAR(load.energy_release, j, 0.05 * j);
+  EXPECT_NEAR(kink_angle(load) * 180.0 / M_PI, -29.0, 4.0);
+  EXPECT_NEAR(kink_angle(plate.tip_load(exact, 0, u)) * 180.0 / M_PI, -29.0, 4.0);
+}
+
+}  // namespace
+}  // namespace perifrac::test
