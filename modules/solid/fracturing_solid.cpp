@@ -426,6 +426,8 @@ void FracturingSolid::visit_state(StateVisitor& visitor) {
     visitor.visit("displacement", unknowns_before_);
     visitor.visit("external_force", force_);
   }
+  // A link reads it anew with the opening where facets were added at the end of a window.
+  visitor.visit("crack_pressure", crack_pressure_);
   visitor.visit("external_work", external_work_);
   visitor.visit("fracture_energy", fracture_energy_);
   visitor.visit("crack_length", crack_length_);
