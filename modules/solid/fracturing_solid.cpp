@@ -13,17 +13,8 @@ namespace {
 
 const PointSet whole_body{.name = "solid"};
 
-/// A tip goes on within this of its criterion; beyond it the window is cut.
-constexpr double early = 0.005, late = 0.02;
-
-/// The facet whose opening is held against the tip's asymptote is the last but one. On the lattice
-/// the tip acts as if it lay so much, in spacings, ahead of the end of the last facet: found from
-/// uniform pressure for the part of toughness; for that of viscosity so that the length, which goes
-/// in steps, is right in their mean (configs/kgd_viscosity.yaml, kgd_mixed.yaml at 10 mm).
-constexpr double tip_offset = -0.12, viscous_offset = 0.1;
-
-/// A turn below this is rounding [rad].
-constexpr double straight = 1e-6;
+/// The window is cut where a tip is this far beyond its criterion.
+constexpr double late = 0.02;
 
 Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
@@ -67,7 +58,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
       cracked_(family, body_->spacing(), elastic,
                boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
                seeds_),
-      energy_release_(cracked_, body_->spacing()) {
+      tips_(*body_, cracked_, material.fracture_energy) {
   const auto mirror = boundary.mirror_condition(*family);
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
@@ -164,7 +155,9 @@ PortView FracturingSolid::port(PortId id) {
 void FracturingSolid::initialize(double t) {
   window_end_ = last_growth_ = t;
   cracked_.start();
-  find_seed_tips();
+  tips_.start(seeds_, t);
+  crack_length_ = 0.0;
+  for (const FaceJump& jump : cracked_.jumps()) crack_length_ += jump.length;
   unknowns_.assign(free_unknowns_.rows(), 0.0);
   unknowns_before_ = force_ = unknowns_;
   external_work_ = fracture_energy_ = readiness_before_ = 0.0;
@@ -174,43 +167,6 @@ void FracturingSolid::initialize(double t) {
             std::vector<bool>(seeds_.size(), false)};
   unknowns_are_current_ = true;
   derived_ = false;
-}
-
-/// The ends of the seeds that no other seed touches and that lie in the rock.
-void FracturingSolid::find_seed_tips() {
-  tips_.clear();
-  crack_length_ = 0.0;
-  for (std::size_t f = 0; f < seeds_.size(); ++f) {
-    crack_length_ += cracked_.jumps()[f].length;
-    for (const int end : {0, 1}) {
-      const Vector<2>& place = seeds_[f][end];
-      Index before = no_facet;
-      bool joined = false;
-      for (std::size_t g = 0; g < seeds_.size(); ++g) {
-        if (g == f) continue;
-        joined = joined || seeds_[g][0] == place || seeds_[g][1] == place;
-        if (seeds_[g][0] == seeds_[f][1 - end] || seeds_[g][1] == seeds_[f][1 - end]) {
-          before = static_cast<Index>(g);
-        }
-      }
-      if (joined) continue;
-      const double sign = end == 1 ? 1.0 : -1.0;
-      const Vector<2>& along = cracked_.jumps()[f].tangent;
-      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before},
-              window_end_,
-              true};
-      tip.grows = cracked_.is_intact_along(next_facet(tip.at, 0.0));
-      if (tip.grows) tips_.push_back(tip);
-    }
-  }
-}
-
-CrackFacet<2> FracturingSolid::next_facet(const CrackTip& tip, double turn) const {
-  const double c = std::cos(turn), s = std::sin(turn);
-  const Vector<2> ahead = {c * tip.direction[0] - s * tip.direction[1],
-                           s * tip.direction[0] + c * tip.direction[1]};
-  return {tip.place,
-          {tip.place[0] + body_->spacing() * ahead[0], tip.place[1] + body_->spacing() * ahead[1]}};
 }
 
 double FracturingSolid::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
@@ -291,52 +247,8 @@ void FracturingSolid::book_work() {
   unknowns_before_ = unknowns_;
 }
 
-double FracturingSolid::readiness(const Tip& tip, double t) {
-  const CrackTip& at = tip.at;
-  const IsotropicElasticity<2>& law = cracked_.elastic().law(body_->nearest_point(at.place));
-  const double shear = law.shear_modulus, lame = law.lame_lambda;
-  // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
-  // what counts is the mean of its beginning and end.
-  const double needed = wet() ? 2.0 / (1.0 + tip.relief * tip.relief) : 1.0;
-  const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
-                       needed * material_.fracture_energy};
-  if (!crack_viscosity_.empty() && at.before >= 0 && crack_viscosity_[at.before] > 0.0) {
-    const CrackFacet<2>& facet = bonds_.facets()[at.before];
-    const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
-                                at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
-    const double speed = body_->spacing() / std::max(t - tip.since, 1e-300);
-    return faces_.opening[at.before] / tip_law.opening(s + tip_offset * body_->spacing(),
-                                                       s + viscous_offset * body_->spacing(),
-                                                       crack_viscosity_[at.before], speed);
-  }
-  find_unknowns();
-  const TipLoad load = energy_release_.at(at, unknowns_, faces_.pressure);
-  if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
-  return std::sqrt(load.energy_release / tip_law.fracture_energy);
-}
-
-/// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
-/// changes as it does K_I.
-double FracturingSolid::intensity_at_fixed_volume(Index facet) const {
-  const Eigen::VectorXd opening = cracked_.compliance().rowwise().sum();
-  double volume = 0.0;
-  for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
-    volume += cracked_.jumps()[f].length * opening[f];
-  }
-  return opening[facet] / volume;
-}
-
-double FracturingSolid::find_readiness(double t) {
-  double most = 0.0;
-  for (Tip& tip : tips_) {
-    tip.readiness = tip.grows ? readiness(tip, t) : 0.0;
-    most = std::max(most, tip.readiness);
-  }
-  return most;
-}
-
 double FracturingSolid::conclude(const TimeWindow& window) {
-  double most = find_readiness(window.end);
+  double most = tips_.find_readiness(crack_state());
   // Shorter windows than this, of the time since the last growth, would not tell.
   const bool can_cut = window.length() > 1e-4 * (window.end - last_growth_);
   if (wet() && most > 1.0 + late && can_cut) {
@@ -345,76 +257,25 @@ double FracturingSolid::conclude(const TimeWindow& window) {
   }
   book_work();
   readiness_before_ = most;
-  while (most >= 1.0 - early) {
-    for (std::size_t k = 0; k < tips_.size(); ++k) {
-      if (tips_[k].grows && tips_[k].readiness >= 1.0 - early) grow(tips_[k], window.end);
-    }
+  while (most >= ready) {
+    const double growth = tips_.grow(crack_state());
+    crack_length_ += growth;
+    fracture_energy_ += material_.fracture_energy * growth;
     last_growth_ = window.end;
     readiness_before_ = 0.0;
     solve_faces();
     book_work();
-    if (wet()) break;
-    most = find_readiness(window.end);
+    if (wet() || growth == 0.0) break;
+    most = tips_.find_readiness(crack_state());
   }
   return window.end;
 }
 
-void FracturingSolid::grow(Tip& tip, double t) {
-  find_unknowns();
-  double turn = kink_angle(energy_release_.at(tip.at, unknowns_, faces_.pressure));
-  if (std::abs(turn) < straight) turn = 0.0;
-  CrackFacet<2> facet = next_facet(tip.at, turn);
-  const bool joined = joins(facet, tip.at, facet[1]);
-  const bool known = tip.at.before != no_facet;
-  const double before = known ? intensity_at_fixed_volume(tip.at.before) : 1.0;
-  if (!cracked_.cut(facet)) {
-    tip.grows = false;
-    return;
-  }
-  const FaceJump& jump = cracked_.jumps().back();
-  fracture_energy_ += material_.fracture_energy * jump.length;
-  crack_length_ += jump.length;
-  tip.at = {facet[1], jump.tangent, static_cast<Index>(bonds_.facets().size()) - 1, tip.at.facet};
-  tip.since = t;
-  tip.relief = known ? std::min(1.0, intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
-  tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
-}
-
-bool FracturingSolid::joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const {
-  double nearest = 0.75 * body_->spacing();
-  bool found = false;
-  for (std::size_t f = 0; f < bonds_.facets().size(); ++f) {
-    if (static_cast<Index>(f) == tip.facet || static_cast<Index>(f) == tip.before) continue;
-    for (const Vector<2>& corner : bonds_.facets()[f]) {
-      const double away = std::hypot(corner[0] - facet[1][0], corner[1] - facet[1][1]);
-      if (corner == tip.place || away > nearest) continue;
-      nearest = away;
-      end = corner;
-      found = true;
-    }
-  }
-  return found;
-}
-
-void FracturingSolid::visit_tips(StateVisitor& visitor) {
-  std::vector<double> numbers;
-  std::vector<std::int64_t> indices;
-  for (const Tip& tip : tips_) {
-    numbers.insert(numbers.end(), {tip.at.place[0], tip.at.place[1], tip.at.direction[0],
-                                   tip.at.direction[1], tip.since, tip.relief});
-    indices.insert(indices.end(), {tip.at.facet, tip.at.before, tip.grows});
-  }
-  visitor.visit("tips", numbers);
-  visitor.visit("tip_facets", indices);
-  tips_.resize(indices.size() / 3);
-  for (std::size_t k = 0; k < tips_.size(); ++k) {
-    const double* const n = &numbers[6 * k];
-    const std::int64_t* const i = &indices[3 * k];
-    tips_[k] = {{{n[0], n[1]}, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
-                n[4],
-                i[2] != 0,
-                n[5]};
-  }
+CrackState FracturingSolid::crack_state() {
+  return {window_end_, faces_, crack_viscosity_, [this]() -> std::span<const double> {
+            find_unknowns();
+            return unknowns_;
+          }};
 }
 
 void FracturingSolid::visit_state(StateVisitor& visitor) {
@@ -440,7 +301,7 @@ void FracturingSolid::visit_state(StateVisitor& visitor) {
   visitor.visit("face_pressure", pressure);
   visitor.visit("closed_faces", closed);
   faces_ = {view(opening), view(pressure), std::vector<bool>(closed.begin(), closed.end())};
-  visit_tips(visitor);
+  tips_.visit_state(visitor);
   bonds_.visit_state(visitor);
   interface_.visit_state(visitor);
 }

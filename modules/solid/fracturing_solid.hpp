@@ -7,11 +7,10 @@
 #include "core/geometry/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/time/scheduled_vector.hpp"
+#include "modules/solid/crack_tips.hpp"
 #include "modules/solid/cracked_body.hpp"
-#include "modules/solid/energy_release.hpp"
 #include "modules/solid/interface_force.hpp"
 #include "modules/solid/solid_boundary.hpp"
-#include "modules/solid/tip_law.hpp"
 
 namespace perifrac {
 
@@ -66,34 +65,16 @@ class FracturingSolid final : public PhysicsModule {
     first_plate
   };
 
-  struct Tip {
-    CrackTip at;
-    double since;  ///< when it came there [s]
-    bool grows;    ///< some bond lies ahead
-    /// K_I under fluid of fixed volume, over that before the last step: falls as the crack grows.
-    double relief = 1.0;
-    double readiness = 0.0;  ///< how close it is to growth: 1 at it
-  };
-
   bool wet() const { return !crack_pressure_.empty(); }  ///< fluid may be in the cracks
   /// Nothing but the faces' pressure changes: then displacements are found only when asked for.
   bool is_steady() const {
     return loads_are_steady_ && pore_stress_.empty() && !interface_.is_linked();
   }
-  void find_seed_tips();
-  CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
-  double readiness(const Tip& tip, double t);
-  double intensity_at_fixed_volume(Index facet) const;
-  /// Of all tips; returns the largest.
-  double find_readiness(double t);
-  void grow(Tip& tip, double t);
-  /// The end of a new facet: where it would meet another crack, the nearest end of a facet of that.
-  bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
+  CrackState crack_state();
   void solve_faces();
   void find_unknowns();
   void derive();
   void book_work();
-  void visit_tips(StateVisitor& visitor);
 
   std::shared_ptr<const Body<2>> body_;
   std::vector<CrackFacet<2>> seeds_;
@@ -109,8 +90,7 @@ class FracturingSolid final : public PhysicsModule {
 
   BondState<2>& bonds_;
   CrackedBody cracked_;
-  EnergyRelease energy_release_;
-  std::vector<Tip> tips_;
+  CrackTips tips_;
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   bool unknowns_are_current_ = false;

@@ -1,0 +1,178 @@
+#include "modules/solid/crack_tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/solid/tip_law.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// The facet whose opening is held against the tip's asymptote is the last but one. On the lattice
+/// the tip acts as if it lay so much, in spacings, ahead of the end of the last facet: found from
+/// uniform pressure for the part of toughness; for that of viscosity so that the length, which goes
+/// in steps, is right in their mean (configs/kgd_viscosity.yaml, kgd_mixed.yaml at 10 mm).
+constexpr double tip_offset = -0.12, viscous_offset = 0.1;
+
+/// A turn below this is rounding [rad].
+constexpr double straight = 1e-6;
+
+}  // namespace
+
+CrackTips::CrackTips(const Body<2>& body, CrackedBody& cracked, double fracture_energy)
+    : body_(body),
+      cracked_(cracked),
+      fracture_energy_(fracture_energy),
+      energy_release_(cracked, body.spacing()) {}
+
+void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
+  tips_.clear();
+  for (std::size_t f = 0; f < seeds.size(); ++f) {
+    for (const int end : {0, 1}) {
+      const Vector<2>& place = seeds[f][end];
+      Index before = no_facet;
+      bool joined = false;
+      for (std::size_t g = 0; g < seeds.size(); ++g) {
+        if (g == f) continue;
+        joined = joined || seeds[g][0] == place || seeds[g][1] == place;
+        if (seeds[g][0] == seeds[f][1 - end] || seeds[g][1] == seeds[f][1 - end]) {
+          before = static_cast<Index>(g);
+        }
+      }
+      if (joined) continue;
+      const double sign = end == 1 ? 1.0 : -1.0;
+      const Vector<2>& along = cracked_.jumps()[f].tangent;
+      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before}, t, true};
+      tip.grows = cracked_.is_intact_along(next_facet(tip.at, 0.0));
+      if (tip.grows) tips_.push_back(tip);
+    }
+  }
+}
+
+CrackFacet<2> CrackTips::next_facet(const CrackTip& tip, double turn) const {
+  const double c = std::cos(turn), s = std::sin(turn);
+  const Vector<2> ahead = {c * tip.direction[0] - s * tip.direction[1],
+                           s * tip.direction[0] + c * tip.direction[1]};
+  return {tip.place,
+          {tip.place[0] + body_.spacing() * ahead[0], tip.place[1] + body_.spacing() * ahead[1]}};
+}
+
+double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
+  const CrackTip& at = tip.at;
+  const IsotropicElasticity<2>& law = cracked_.elastic().law(body_.nearest_point(at.place));
+  const double shear = law.shear_modulus, lame = law.lame_lambda;
+  // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
+  // what counts is the mean of its beginning and end.
+  const double needed = state.has_fluid() ? 2.0 / (1.0 + tip.relief * tip.relief) : 1.0;
+  const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
+                       needed * fracture_energy_};
+  if (state.has_fluid() && at.before != no_facet && state.viscosity[at.before] > 0.0) {
+    const CrackFacet<2>& facet = cracked_.facets()[at.before];
+    const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
+                                at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
+    const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
+    return state.faces.opening[at.before] / tip_law.opening(s + tip_offset * body_.spacing(),
+                                                            s + viscous_offset * body_.spacing(),
+                                                            state.viscosity[at.before], speed);
+  }
+  const TipLoad load = energy_release_.at(at, state.unknowns(), state.faces.pressure);
+  if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
+  return std::sqrt(load.energy_release / tip_law.fracture_energy);
+}
+
+/// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
+/// changes as it does K_I.
+double CrackTips::intensity_at_fixed_volume(Index facet) const {
+  const Eigen::VectorXd opening = cracked_.compliance().rowwise().sum();
+  double volume = 0.0;
+  for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
+    volume += cracked_.jumps()[f].length * opening[f];
+  }
+  return opening[facet] / volume;
+}
+
+double CrackTips::find_readiness(const CrackState& state) {
+  double most = 0.0;
+  for (Tip& tip : tips_) {
+    tip.readiness = tip.grows ? readiness(tip, state) : 0.0;
+    most = std::max(most, tip.readiness);
+  }
+  return most;
+}
+
+double CrackTips::grow(const CrackState& state) {
+  // Where to is asked before the first facet makes the displacements old.
+  std::vector<double> turns;
+  for (const Tip& tip : tips_) {
+    double turn = 0.0;
+    if (tip.grows && tip.readiness >= ready) {
+      turn = kink_angle(energy_release_.at(tip.at, state.unknowns(), state.faces.pressure));
+    }
+    turns.push_back(std::abs(turn) < straight ? 0.0 : turn);
+  }
+  double length = 0.0;
+  for (std::size_t k = 0; k < tips_.size(); ++k) {
+    if (tips_[k].grows && tips_[k].readiness >= ready) {
+      length += advance(tips_[k], turns[k], state.t);
+    }
+  }
+  return length;
+}
+
+double CrackTips::advance(Tip& tip, double turn, double t) {
+  CrackFacet<2> facet = next_facet(tip.at, turn);
+  const bool joined = joins(facet, tip.at, facet[1]);
+  const bool known = tip.at.before != no_facet;
+  const double before = known ? intensity_at_fixed_volume(tip.at.before) : 1.0;
+  if (!cracked_.cut(facet)) {
+    tip.grows = false;
+    return 0.0;
+  }
+  const FaceJump& jump = cracked_.jumps().back();
+  tip.at = {facet[1], jump.tangent, static_cast<Index>(cracked_.facets().size()) - 1, tip.at.facet};
+  tip.since = t;
+  tip.relief = known ? std::min(1.0, intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
+  tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
+  return jump.length;
+}
+
+/// The facet would come close to an end of another crack's, where it is to end.
+bool CrackTips::joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const {
+  double nearest = 0.75 * body_.spacing();
+  bool found = false;
+  for (std::size_t f = 0; f < cracked_.facets().size(); ++f) {
+    if (static_cast<Index>(f) == tip.facet || static_cast<Index>(f) == tip.before) continue;
+    for (const Vector<2>& corner : cracked_.facets()[f]) {
+      const double away = std::hypot(corner[0] - facet[1][0], corner[1] - facet[1][1]);
+      if (corner == tip.place || away > nearest) continue;
+      nearest = away;
+      end = corner;
+      found = true;
+    }
+  }
+  return found;
+}
+
+void CrackTips::visit_state(StateVisitor& visitor) {
+  std::vector<double> numbers;
+  std::vector<std::int64_t> indices;
+  for (const Tip& tip : tips_) {
+    numbers.insert(numbers.end(), {tip.at.place[0], tip.at.place[1], tip.at.direction[0],
+                                   tip.at.direction[1], tip.since, tip.relief});
+    indices.insert(indices.end(), {tip.at.facet, tip.at.before, tip.grows});
+  }
+  visitor.visit("tips", numbers);
+  visitor.visit("tip_facets", indices);
+  tips_.resize(indices.size() / 3);
+  for (std::size_t k = 0; k < tips_.size(); ++k) {
+    const double* const n = &numbers[6 * k];
+    const std::int64_t* const i = &indices[3 * k];
+    tips_[k] = {{{n[0], n[1]}, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
+                n[4],
+                i[2] != 0,
+                n[5]};
+  }
+}
+
+}  // namespace perifrac
