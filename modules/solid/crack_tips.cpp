@@ -103,11 +103,12 @@ double CrackTips::find_readiness(const CrackState& state) {
 
 double CrackTips::grow(const CrackState& state) {
   // Where to is asked before the first facet makes the displacements old.
+  const std::vector<Vector<2>> jumps = cracked_.jumps_under(state.faces.pressure);
   std::vector<double> turns;
   for (const Tip& tip : tips_) {
     double turn = 0.0;
     if (tip.grows && tip.readiness >= ready) {
-      turn = kink_angle(energy_release_.at(tip.at, state.unknowns(), state.faces.pressure));
+      turn = kink_angle(energy_release_.jump(tip.at, jumps));
     }
     turns.push_back(std::abs(turn) < straight ? 0.0 : turn);
   }

@@ -354,6 +354,14 @@ Eigen::VectorXd CrackedBody::unknowns(const Eigen::VectorXd& pressure) const {
   return free_unknowns_ * (intact_move_ + moved);
 }
 
+std::vector<Vector<2>> CrackedBody::jumps_under(const Eigen::VectorXd& pressure) const {
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure);
+  std::vector<Vector<2>> jumps;
+  for (const Mode& mode : modes_)
+    jumps.push_back({dot(mode.normal, block), dot(mode.tangent, block)});
+  return jumps;
+}
+
 CrackedBody::Energies CrackedBody::energies(const Eigen::VectorXd& pressure) const {
   const Eigen::VectorXd force = block_force(pressure);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;

@@ -55,6 +55,9 @@ class CrackedBody {
   /// The same with these faces closed.
   Eigen::MatrixXd compliance(const std::vector<bool>& closed) const;
 
+  /// Mean jumps across all facets along their normal and tangent under a pressure on the faces [m].
+  std::vector<Vector<2>> jumps_under(const Eigen::VectorXd& pressure) const;
+
   /// All unknowns without what is prescribed, under the load and a pressure on the faces [m].
   Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure) const;
   /// What the body holds and what its loads would have done, had they been there from the start

@@ -43,10 +43,17 @@ constexpr double largest_kink = 70.0 * M_PI / 180.0;
 
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
                           const Eigen::VectorXd& pressure) const {
-  TipLoad load{domain_integral(tip, unknowns, pressure), 0.0, 0.0};
-  // Facets behind the tip, back along the crack: those whose centres lie near its line.
-  int count = 0;
+  std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
+    jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
+  }
+  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure)};
+}
+
+TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
+  TipJump mean{0.0, 0.0};
+  int count = 0;
+  for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
     const Vector<2> back = {tip.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
                             tip.place[1] - 0.5 * (facet[0][1] + facet[1][1])};
@@ -54,23 +61,22 @@ TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
     const double aside = back[0] * tip.direction[1] - back[1] * tip.direction[0];
     if (behind < first_jump * spacing_ || behind > last_jump * spacing_) continue;
     if (std::abs(aside) > spacing_) continue;
-    const Vector<2> jump = body_.jump(static_cast<Index>(f), unknowns);
     const FaceJump& face = body_.jumps()[f];
     // In the frame of the tip: x ahead, y to the left. The jump is from the lower face to the
     // upper.
-    const Vector<2> d = {jump[0] * face.normal[0] + jump[1] * face.tangent[0],
-                         jump[0] * face.normal[1] + jump[1] * face.tangent[1]};
+    const Vector<2> d = {jumps[f][0] * face.normal[0] + jumps[f][1] * face.tangent[0],
+                         jumps[f][0] * face.normal[1] + jumps[f][1] * face.tangent[1]};
     const double up = -tip.direction[1] * face.normal[0] + tip.direction[0] * face.normal[1];
     const double sign = up > 0.0 ? 1.0 : -1.0;
-    load.opening += sign * (-tip.direction[1] * d[0] + tip.direction[0] * d[1]);
-    load.sliding += sign * (tip.direction[0] * d[0] + tip.direction[1] * d[1]);
+    mean.opening += sign * (-tip.direction[1] * d[0] + tip.direction[0] * d[1]);
+    mean.sliding += sign * (tip.direction[0] * d[0] + tip.direction[1] * d[1]);
     ++count;
   }
   if (count > 0) {
-    load.opening /= count;
-    load.sliding /= count;
+    mean.opening /= count;
+    mean.sliding /= count;
   }
-  return load;
+  return mean;
 }
 
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
@@ -116,10 +122,10 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
   return sum;
 }
 
-double kink_angle(const TipLoad& load) {
-  if (load.sliding == 0.0) return 0.0;
-  if (!(load.opening > 0.0)) return load.sliding > 0.0 ? -largest_kink : largest_kink;
-  const double ratio = mode_ratio * load.sliding / load.opening;
+double kink_angle(const TipJump& jump) {
+  if (jump.sliding == 0.0) return 0.0;
+  if (!(jump.opening > 0.0)) return jump.sliding > 0.0 ? -largest_kink : largest_kink;
+  const double ratio = mode_ratio * jump.sliding / jump.opening;
   const double angle =
       2.0 * std::atan((1.0 - std::sqrt(1.0 + 8.0 * ratio * ratio)) / (4.0 * ratio));
   return std::clamp(angle, -largest_kink, largest_kink);

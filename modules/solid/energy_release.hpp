@@ -14,11 +14,15 @@ struct CrackTip {
   Index before;         ///< the one behind that; no_facet: none
 };
 
+/// Mean jumps of the faces one to three spacings behind a tip, in its frame.
+struct TipJump {
+  double opening;  ///< [m]
+  double sliding;  ///< positive turns the crack to its right [m]
+};
+
 /// What a crack has at a tip, per length of its front.
-struct TipLoad {
+struct TipLoad : TipJump {
   double energy_release;  ///< J, what growth straight ahead would set free [J/m^2]
-  double opening;         ///< mean normal jump one to three spacings behind [m]
-  double sliding;         ///< mean tangential jump there; positive turns the crack to its right [m]
 };
 
 /// J as an integral over the points around the tip (Li, Shih & Needleman 1985), from the remaining
@@ -33,6 +37,8 @@ class EnergyRelease {
 
   TipLoad at(const CrackTip& tip, std::span<const double> unknowns,
              const Eigen::VectorXd& pressure) const;
+  /// The jumps alone, from those of all facets along their normal and tangent.
+  TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
 
  private:
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
@@ -44,6 +50,6 @@ class EnergyRelease {
 
 /// The angle by which a crack turns, to the left positive, in the direction of largest hoop stress
 /// (Erdogan & Sih 1963) for K_II / K_I from the jumps near the tip; at most 70 degrees.
-double kink_angle(const TipLoad& load);
+double kink_angle(const TipJump& jump);
 
 }  // namespace perifrac
