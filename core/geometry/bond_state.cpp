@@ -1,6 +1,6 @@
 #include "core/geometry/bond_state.hpp"
 
-#include <algorithm>
+#include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
 
@@ -63,33 +63,6 @@ void BondState<D>::place_facets() {
 }
 
 template <int D>
-Family<D> intact_family(const Family<D>& family, const BondState<D>& bonds) {
-  std::vector<std::pair<Index, Index>> broken;
-  broken.reserve(2 * bonds.broken().size());
-  for (const BrokenBond& bond : bonds.broken()) {
-    broken.emplace_back(bond.i, bond.j);
-    broken.emplace_back(bond.j, bond.i);
-  }
-  std::ranges::sort(broken);
-  Family<D> intact = family;
-  Index kept = 0;
-  for (Index i = 0; i < family.point_count; ++i) {
-    intact.offset[i] = kept;
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const Index j = family.other[bond];
-      const Index source = j < family.point_count ? j : family.ghost_source[j - family.point_count];
-      if (std::ranges::binary_search(broken, std::pair(i, source))) continue;
-      intact.other[kept] = j;
-      intact.weight[kept++] = family.weight[bond];
-    }
-  }
-  intact.offset[family.point_count] = kept;
-  intact.other.resize(kept);
-  intact.weight.resize(kept);
-  return intact;
-}
-
-template <int D>
 void silence(Family<D>& family, Index i, Index j) {
   for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)}) {
     for (Index bond = family.offset[from]; bond < family.offset[from + 1]; ++bond) {
@@ -101,10 +74,23 @@ void silence(Family<D>& family, Index i, Index j) {
   }
 }
 
+template <int D>
+void find_damage(const Family<D>& family, std::span<double> damage) {
+  for_each_point(family.point_count, [&](Index i) {
+    double whole = 0.0, lost = 0.0;
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const double volume = family.volume[family.other[bond]];
+      whole += volume;
+      if (family.weight[bond] == 0.0) lost += volume;
+    }
+    damage[i] = whole > 0.0 ? lost / whole : 0.0;
+  });
+}
+
 template class BondState<2>;
 template class BondState<3>;
-template Family<2> intact_family<2>(const Family<2>&, const BondState<2>&);
-template Family<3> intact_family<3>(const Family<3>&, const BondState<3>&);
+template void find_damage<2>(const Family<2>&, std::span<double>);
+template void find_damage<3>(const Family<3>&, std::span<double>);
 template void silence<2>(Family<2>&, Index, Index);
 template void silence<3>(Family<3>&, Index, Index);
 

@@ -60,12 +60,13 @@ class BondState {
   PointSet facet_points_{.name = "crack", .dimension = D, .count = 0};
 };
 
-/// The family without the bonds that are broken; a bond to a ghost breaks with that to its source.
-template <int D>
-Family<D> intact_family(const Family<D>& family, const BondState<D>& bonds);
-
-/// Sets the weight of a bond to 0 from both of its ends, and with it the bonds to the ends' ghosts.
+/// Sets the weight of a bond to 0 from both of its ends, and with it the bonds to the ends' ghosts:
+/// a bond to a ghost breaks with that to its source.
 template <int D>
 void silence(Family<D>& family, Index i, Index j);
+
+/// The part of every point's family, by volume, that is beyond silenced bonds (paper Eq 16).
+template <int D>
+void find_damage(const Family<D>& family, std::span<double> damage);
 
 }  // namespace perifrac

@@ -60,7 +60,6 @@ std::vector<std::pair<Index, Index>> bonds_cut_by(const CrackFacet<D>& facet,
                                                   const Family<D>& family) {
   const Vector<D> normal = normal_of(facet);
   const double rounding = edge_tolerance * dot<D>(normal, normal);
-  // A cut bond has both ends within its length of the facet; families say how long that may be.
   std::vector<std::pair<Index, Index>> cut;
   const auto place = [&](Index i) {
     Vector<D> x;

@@ -64,7 +64,8 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
   const double shear = law.shear_modulus, lame = law.lame_lambda;
   // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
   // what counts is the mean of its beginning and end.
-  const double needed = state.has_fluid() ? 2.0 / (1.0 + tip.relief * tip.relief) : 1.0;
+  const double needed =
+      state.has_fluid() ? 2.0 / (1.0 + tip.intensity_ratio * tip.intensity_ratio) : 1.0;
   const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
                        needed * fracture_energy_};
   if (state.has_fluid() && at.before != no_facet && state.viscosity[at.before] > 0.0) {
@@ -133,7 +134,8 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   const FaceJump& jump = cracked_.jumps().back();
   tip.at = {facet[1], jump.tangent, static_cast<Index>(cracked_.facets().size()) - 1, tip.at.facet};
   tip.since = t;
-  tip.relief = known ? std::min(1.0, intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
+  tip.intensity_ratio =
+      known ? std::min(1.0, intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
   tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
   return jump.length;
 }
@@ -160,7 +162,7 @@ void CrackTips::visit_state(StateVisitor& visitor) {
   std::vector<std::int64_t> indices;
   for (const Tip& tip : tips_) {
     numbers.insert(numbers.end(), {tip.at.place[0], tip.at.place[1], tip.at.direction[0],
-                                   tip.at.direction[1], tip.since, tip.relief});
+                                   tip.at.direction[1], tip.since, tip.intensity_ratio});
     indices.insert(indices.end(), {tip.at.facet, tip.at.before, tip.grows});
   }
   visitor.visit("tips", numbers);

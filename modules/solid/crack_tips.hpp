@@ -48,7 +48,7 @@ class CrackTips {
     double since;  ///< when it came there [s]
     bool grows;    ///< some bond lies ahead
     /// K_I under fluid of fixed volume, over that before the last step: falls as the crack grows.
-    double relief = 1.0;
+    double intensity_ratio = 1.0;
     double readiness = 0.0;
   };
 

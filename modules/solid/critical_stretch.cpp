@@ -146,19 +146,6 @@ void CriticalStretch<D>::find_growth(std::span<const Index> points) {
 }
 
 template <int D>
-void CriticalStretch<D>::damage(std::span<double> result) const {
-  for_each_point(family_->point_count, [&](Index i) {
-    double whole = 0.0, lost = 0.0;
-    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
-      const double volume = family_->volume[family_->other[bond]];
-      whole += volume;
-      if (family_->weight[bond] == 0.0) lost += volume;
-    }
-    result[i] = whole > 0.0 ? lost / whole : 0.0;
-  });
-}
-
-template <int D>
 void CriticalStretch<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("fracture_energy", released_energy_);
   bonds_.visit_state(visitor);

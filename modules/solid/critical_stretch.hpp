@@ -34,7 +34,7 @@ class CriticalStretch {
   /// What breaking took from the elastic energy, seeds apart [J].
   double released_energy() const { return released_energy_; }
   /// Part of the volume of a point's family that is beyond broken bonds (paper Eq 16).
-  void damage(std::span<double> result) const;
+  void damage(std::span<double> result) const { find_damage(*family_, result); }
 
   /// Broken bonds and the energy; follow_bonds() makes the body that they belong to.
   void visit_state(StateVisitor& visitor);

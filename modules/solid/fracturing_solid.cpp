@@ -31,10 +31,10 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
                                  std::shared_ptr<BreakableElasticity<2>> elastic,
                                  const SolidBoundary<2>& boundary,
                                  std::optional<Vector<2>> initial_stress,
-                                 std::vector<CrackFacet<2>> seeds, const Material& material)
+                                 std::vector<CrackFacet<2>> seeds, double fracture_energy)
     : body_(std::move(body)),
       seeds_(std::move(seeds)),
-      material_(material),
+      fracture_energy_(fracture_energy),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
           InterfaceForce::port(2),
@@ -58,7 +58,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
       cracked_(family, body_->spacing(), elastic,
                boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
                seeds_),
-      tips_(*body_, cracked_, material.fracture_energy) {
+      tips_(*body_, cracked_, fracture_energy) {
   const auto mirror = boundary.mirror_condition(*family);
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
@@ -68,15 +68,10 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
   }
   prescribed_ = boundary.prescribed(mirror);
   load_ = boundary.loads(mirror, elastic->gradient_matrix());
-  loads_are_steady_ =
-      load_.is_constant() && prescribed_.is_constant() && !prescribed_.at(0.0).any();
+  prescribes_ = !prescribed_.is_constant() || prescribed_.at(0.0).any();
+  loads_are_steady_ = load_.is_constant() && !prescribes_;
   for (Index i = 0; i < family->point_count; ++i) {
     slope_.push_back(1.0 / elastic->drained_bulk_modulus(i));
-    double sum = 0.0;
-    for (Index bond = family->offset[i]; bond < family->offset[i + 1]; ++bond) {
-      sum += family->weight[bond];
-    }
-    intact_weight_.push_back(sum);
   }
 }
 
@@ -118,14 +113,7 @@ PortView FracturingSolid::port(PortId id) {
       return {points, effective_stress_};
     case damage:
       damage_.resize(body_->points().size());
-      for (Index i = 0; i < body_->points().size(); ++i) {
-        const Family<2>& family = cracked_.family();
-        double left = 0.0;
-        for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-          left += family.weight[bond];
-        }
-        damage_[i] = intact_weight_[i] > 0.0 ? 1.0 - left / intact_weight_[i] : 0.0;
-      }
+      find_damage(cracked_.family(), damage_);
       return {points, damage_};
     case crack_opening: {
       const Eigen::MatrixXd slope = cracked_.compliance(faces_.closed);
@@ -138,6 +126,8 @@ PortView FracturingSolid::port(PortId id) {
               opening_slope_};
     }
     case crack_length:
+      crack_length_ = 0.0;
+      for (const FaceJump& jump : cracked_.jumps()) crack_length_ += jump.length;
       return {&whole_body, {&crack_length_, 1}};
     case elastic_energy:
       if (!is_steady()) derive();
@@ -145,7 +135,7 @@ PortView FracturingSolid::port(PortId id) {
     case external_work:
       return {&whole_body, {&external_work_, 1}};
     case fracture_energy:
-      return {&whole_body, {&fracture_energy_, 1}};
+      return {&whole_body, {&spent_energy_, 1}};
     default:
       find_unknowns();
       return {&whole_body, {&unknowns_[plate_unknowns_[id - first_plate]], 1}};
@@ -156,11 +146,10 @@ void FracturingSolid::initialize(double t) {
   window_end_ = last_growth_ = t;
   cracked_.start();
   tips_.start(seeds_, t);
-  crack_length_ = 0.0;
-  for (const FaceJump& jump : cracked_.jumps()) crack_length_ += jump.length;
+  if (is_steady()) cracked_.set_load(find_load());
   unknowns_.assign(free_unknowns_.rows(), 0.0);
   unknowns_before_ = force_ = unknowns_;
-  external_work_ = fracture_energy_ = readiness_before_ = 0.0;
+  external_work_ = spent_energy_ = readiness_before_ = 0.0;
   load_work_ = relief_work_ = elastic_energy_ = 0.0;
   const auto facets = static_cast<Eigen::Index>(seeds_.size());
   faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
@@ -178,10 +167,10 @@ double FracturingSolid::advance(const TimeWindow& window) {
   return window.end;
 }
 
-/// Loads at the window's end, and what they and the pressure in them do to the cracks' faces.
-void FracturingSolid::solve_faces() {
+/// What presses and pulls at the window's end on all that is solved for, the cracks' faces apart.
+Eigen::VectorXd FracturingSolid::find_load() {
   Eigen::VectorXd all = load_.at(window_end_);
-  if (!prescribed_.is_constant() || prescribed_.at(0.0).any()) {
+  if (prescribes_) {
     const Eigen::VectorXd prescribed = prescribed_.at(window_end_);
     Eigen::VectorXd force(all.size());
     std::vector<double> scratch(body_->points().size());
@@ -198,7 +187,12 @@ void FracturingSolid::solve_faces() {
     cracked_.elastic().apply(rest, {pore_stress_}, force, scratch);
     all -= view(force);
   }
-  cracked_.set_load(free_unknowns_.transpose() * all);
+  return free_unknowns_.transpose() * all;
+}
+
+/// What the loads, and the pressure in them, do to the cracks' faces.
+void FracturingSolid::solve_faces() {
+  if (!is_steady()) cracked_.set_load(find_load());
   Eigen::VectorXd pressure = Eigen::VectorXd::Zero(bonds_.facet_points().count);
   if (!crack_pressure_.empty()) {
     crack_pressure_.resize(pressure.size(), 0.0);  // a new facet is dry
@@ -259,8 +253,7 @@ double FracturingSolid::conclude(const TimeWindow& window) {
   readiness_before_ = most;
   while (most >= ready) {
     const double growth = tips_.grow(crack_state());
-    crack_length_ += growth;
-    fracture_energy_ += material_.fracture_energy * growth;
+    spent_energy_ += fracture_energy_ * growth;
     last_growth_ = window.end;
     readiness_before_ = 0.0;
     solve_faces();
@@ -290,8 +283,7 @@ void FracturingSolid::visit_state(StateVisitor& visitor) {
   // A link reads it anew with the opening where facets were added at the end of a window.
   visitor.visit("crack_pressure", crack_pressure_);
   visitor.visit("external_work", external_work_);
-  visitor.visit("fracture_energy", fracture_energy_);
-  visitor.visit("crack_length", crack_length_);
+  visitor.visit("fracture_energy", spent_energy_);
   visitor.visit("readiness", readiness_before_);
   visitor.visit("last_growth", last_growth_);
   std::vector<double> opening(faces_.opening.begin(), faces_.opening.end());
@@ -312,7 +304,7 @@ void FracturingSolid::on_restored(double t) {
   derived_ = false;
   unknowns_are_current_ = !is_steady();
   if (is_steady()) {
-    cracked_.set_load(free_unknowns_.transpose() * load_.at(t));
+    cracked_.set_load(find_load());
   } else {
     unknowns_ = unknowns_before_;
   }

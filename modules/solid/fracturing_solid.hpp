@@ -26,14 +26,11 @@ namespace perifrac {
 /// points (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
  public:
-  struct Material {
-    double fracture_energy;  ///< Gc [J/m^2]
-  };
-
+  /// `fracture_energy`: Gc [J/m^2]; infinite: no crack grows.
   FracturingSolid(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
                   std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
                   std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
-                  const Material& material);
+                  double fracture_energy);
 
   /// As QuasiStaticSolid's.
   std::string free_motion() const;
@@ -71,6 +68,7 @@ class FracturingSolid final : public PhysicsModule {
     return loads_are_steady_ && pore_stress_.empty() && !interface_.is_linked();
   }
   CrackState crack_state();
+  Eigen::VectorXd find_load();
   void solve_faces();
   void find_unknowns();
   void derive();
@@ -78,15 +76,15 @@ class FracturingSolid final : public PhysicsModule {
 
   std::shared_ptr<const Body<2>> body_;
   std::vector<CrackFacet<2>> seeds_;
-  Material material_;
+  double fracture_energy_;  ///< Gc [J/m^2]
   std::vector<Port> ports_;
   std::vector<Index> plate_unknowns_;
   Eigen::SparseMatrix<double> free_unknowns_;
   std::optional<Vector<2>> initial_stress_;
   ScheduledVector prescribed_{0};
   ScheduledVector load_{0};
+  bool prescribes_ = false;  ///< some displacement other than 0
   bool loads_are_steady_ = false;
-  std::vector<double> intact_weight_;  ///< sum of a family's weights
 
   BondState<2>& bonds_;
   CrackedBody cracked_;
@@ -99,8 +97,8 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<double> force_;  ///< external, on every unknown, the fluid's in cracks apart [N/m]
   double load_work_ = 0.0, relief_work_ = 0.0;  ///< steady: of the last window (Energies) [J/m]
   double external_work_ = 0.0;
-  double fracture_energy_ = 0.0;
-  double crack_length_ = 0.0;
+  double spent_energy_ = 0.0;      ///< on new faces [J/m]
+  double crack_length_ = 0.0;      ///< made when it is asked for
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
   double last_growth_ = 0.0;       ///< [s]
 

@@ -31,9 +31,9 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   auto elastic =
       read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
-  auto solid = std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
-                                                 read_initial_stress<2>(section), seeds,
-                                                 FracturingSolid::Material{fracture_energy});
+  auto solid =
+      std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
+                                        read_initial_stress<2>(section), seeds, fracture_energy);
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
