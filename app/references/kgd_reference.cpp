@@ -21,7 +21,7 @@ KgdSolution read_solution(const Section& scene) {
   require_word(scene, problem, "solid.boundary.left.type", {"roller"});
   require_word(scene, problem, "crack_fluid.leak_off", {"none"});
   require_word(scene, problem, "crack_fluid.counts", {"both"});
-  require_absent(scene, problem, {"pore_flow", "solid.regions", "gravity"});
+  require_absent(scene, problem, {"pore_flow", "solid.regions", "damage.regions", "gravity"});
   if (!writes(scene, "damage") || scene.count("crack_fluid.inlets") != 1 ||
       !scene.has("crack_fluid.inlets[0].rate")) {
     scene.fail("reference.type", "this scene is not " + problem,

@@ -31,10 +31,10 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
                                  std::shared_ptr<BreakableElasticity<2>> elastic,
                                  const SolidBoundary<2>& boundary,
                                  std::optional<Vector<2>> initial_stress,
-                                 std::vector<CrackFacet<2>> seeds, double fracture_energy)
+                                 std::vector<CrackFacet<2>> seeds,
+                                 FractureEnergy<2> fracture_energy)
     : body_(std::move(body)),
       seeds_(std::move(seeds)),
-      fracture_energy_(fracture_energy),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
           InterfaceForce::port(2),
@@ -59,7 +59,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
       cracked_(family, body_->spacing(), elastic,
                boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
                seeds_),
-      tips_(*body_, cracked_, fracture_energy) {
+      tips_(*body_, cracked_, std::move(fracture_energy)) {
   const auto mirror = boundary.mirror_condition(*family);
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
@@ -258,13 +258,13 @@ double FracturingSolid::conclude(const TimeWindow& window) {
   book_work();
   readiness_before_ = most;
   while (most >= ready) {
-    const double growth = tips_.grow(crack_state());
-    spent_energy_ += fracture_energy_ * growth;
+    const double spent = tips_.grow(crack_state());
+    spent_energy_ += spent;
     last_growth_ = window.end;
     readiness_before_ = 0.0;
     solve_faces();
     book_work();
-    if (wet() || growth == 0.0) break;
+    if (wet() || spent == 0.0) break;
     most = tips_.find_readiness(crack_state());
   }
   return window.end;

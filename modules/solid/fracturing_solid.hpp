@@ -28,11 +28,11 @@ namespace perifrac {
 /// `fracture_energy` [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
  public:
-  /// `fracture_energy`: Gc [J/m^2]; infinite: no crack grows.
+  /// `fracture_energy` infinite: no crack grows.
   FracturingSolid(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
                   std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
                   std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
-                  double fracture_energy);
+                  FractureEnergy<2> fracture_energy);
 
   /// As QuasiStaticSolid's.
   std::string free_motion() const;
@@ -80,7 +80,6 @@ class FracturingSolid final : public PhysicsModule {
 
   std::shared_ptr<const Body<2>> body_;
   std::vector<CrackFacet<2>> seeds_;
-  double fracture_energy_;  ///< Gc [J/m^2]
   std::vector<Port> ports_;
   std::vector<Index> plate_unknowns_;
   Eigen::SparseMatrix<double> free_unknowns_;

@@ -22,7 +22,7 @@ bool has_cracks(const Section& section) {
 std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
                                                std::shared_ptr<const Body<2>> body) {
   const Section scene = section.scene();
-  const double fracture_energy = read_fracture_energy(scene);
+  FractureEnergy<2> fracture_energy = read_fracture_energy(scene, *body);
   const std::vector<CrackFacet<2>> seeds = read_crack_seeds(scene, body->spacing());
   if (seeds.empty()) {
     scene.fail("damage", "no crack to grow", "a list 'cracks' with one crack or more");
@@ -31,9 +31,9 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   auto elastic =
       read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
-  auto solid =
-      std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
-                                        read_initial_stress<2>(section), seeds, fracture_energy);
+  auto solid = std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
+                                                 read_initial_stress<2>(section), seeds,
+                                                 std::move(fracture_energy));
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
