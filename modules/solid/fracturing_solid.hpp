@@ -23,7 +23,8 @@ namespace perifrac {
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
 /// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
 /// `crack_opening` [m] with its slope d(opening)/d(crack_pressure), a matrix. `damage` of the
-/// points (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what new faces took.
+/// points (paper Eq 16), `crack_length` [m], of it `open_crack_length` where faces are apart, and
+/// `fracture_energy` [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
  public:
   /// `fracture_energy`: Gc [J/m^2]; infinite: no crack grows.
@@ -56,6 +57,7 @@ class FracturingSolid final : public PhysicsModule {
     damage,
     crack_opening,
     crack_length,
+    open_crack_length,
     elastic_energy,
     external_work,
     fracture_energy,
@@ -99,6 +101,7 @@ class FracturingSolid final : public PhysicsModule {
   double external_work_ = 0.0;
   double spent_energy_ = 0.0;      ///< on new faces [J/m]
   double crack_length_ = 0.0;      ///< made when it is asked for
+  double open_length_ = 0.0;       ///< likewise
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
   double last_growth_ = 0.0;       ///< [s]
 
