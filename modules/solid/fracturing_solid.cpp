@@ -47,6 +47,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
           {"crack_opening", "m", PortDirection::out},
           {"free_crack_opening", "m", PortDirection::out, PortKind::intensive, PortRole::property},
           {"crack_length", "m", PortDirection::out},
+          {"open_crack_length", "m", PortDirection::out},
           {"elastic_energy", "J/m", PortDirection::out, PortKind::extensive,
            PortRole::energy_stored},
           {"external_work", "J/m", PortDirection::out, PortKind::extensive,
@@ -133,6 +134,12 @@ PortView FracturingSolid::port(PortId id) {
       crack_length_ = 0.0;
       for (const FaceJump& jump : cracked_.jumps()) crack_length_ += jump.length;
       return {&whole_body, {&crack_length_, 1}};
+    case open_crack_length:
+      open_length_ = 0.0;
+      for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
+        if (faces_.opening[f] > 0.0) open_length_ += cracked_.jumps()[f].length;
+      }
+      return {&whole_body, {&open_length_, 1}};
     case elastic_energy:
       if (!is_steady()) derive();
       return {&whole_body, {&elastic_energy_, 1}};

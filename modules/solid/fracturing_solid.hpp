@@ -24,7 +24,8 @@ namespace perifrac {
 /// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
 /// `crack_opening` [m], and the property `free_crack_opening` [m], what it would be if closed faces
 /// did not press on each other (negative: they pass through one another), with its slope against
-/// crack_pressure, a matrix. `damage` of the points (paper Eq 16), `crack_length` [m] and
+/// crack_pressure, a matrix. `damage` of the points (paper Eq 16), `crack_length` [m], of it
+/// `open_crack_length` where faces are apart, and
 /// `fracture_energy` [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
  public:
@@ -59,6 +60,7 @@ class FracturingSolid final : public PhysicsModule {
     crack_opening,
     free_crack_opening,
     crack_length,
+    open_crack_length,
     elastic_energy,
     external_work,
     fracture_energy,
@@ -102,6 +104,7 @@ class FracturingSolid final : public PhysicsModule {
   double external_work_ = 0.0;
   double spent_energy_ = 0.0;      ///< on new faces [J/m]
   double crack_length_ = 0.0;      ///< made when it is asked for
+  double open_length_ = 0.0;       ///< likewise
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
   double last_growth_ = 0.0;       ///< [s]
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/geometry/crack_seeds.hpp"
 #include "modules/solid/damage_keys.hpp"
 #include "modules/solid/dynamic_solid.hpp"
 #include "modules/solid/fracturing_solid.hpp"
 #include "modules/solid/material.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
+#include "modules/solid/rigid_slits.hpp"
 #include "modules/solid/rigid_solid.hpp"
 #include "modules/solid/solid_boundary_keys.hpp"
 
@@ -107,6 +110,21 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
   return make(std::move(elastic), std::move(breaking));
 }
 
+std::unique_ptr<PhysicsModule> make_rigid(const Section& section, const AnyBody& any) {
+  const Section scene = section.scene();
+  if (scene.count("cracks") == 0) return std::make_unique<RigidSolid>();
+  const auto* const body = std::get_if<std::shared_ptr<const Body<2>>>(&any);
+  if (body == nullptr) scene.fail("cracks", "cracks in 3D", "dimension: 2");
+  std::vector<CrackFacet<2>> facets;
+  std::vector<double> opening;
+  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
+    const std::vector<CrackFacet<2>> crack = read_crack(scene, k, (*body)->spacing());
+    facets.insert(facets.end(), crack.begin(), crack.end());
+    opening.resize(facets.size(), scene.number(fmt::format("cracks[{}].opening", k)));
+  }
+  return std::make_unique<RigidSlits>(*body, facets, std::move(opening));
+}
+
 /// Keys of one elastic solid may stand beside another, so that one word swaps them.
 KeyTable elastic_keys() {
   KeyTable keys = material_keys();
@@ -168,9 +186,7 @@ ModuleType rigid_solid_type() {
           .name = "rigid",
           .meaning = "Solid that does not deform: no unknowns, no cost.",
           .keys = rigid_keys(),
-          .make = [](const Section&, const AnyBody&) -> std::unique_ptr<PhysicsModule> {
-            return std::make_unique<RigidSolid>();
-          }};
+          .make = make_rigid};
 }
 
 }  // namespace perifrac
