@@ -18,7 +18,8 @@ bool takes_slope(const Link& link) {
 }
 
 bool is_property(const Link& link) {
-  return link.source().module->ports()[link.source().port].role == PortRole::property;
+  return !carries_slope(link) &&
+         link.source().module->ports()[link.source().port].role == PortRole::property;
 }
 
 bool are_opposite(const Link& a, const Link& b) {

@@ -31,7 +31,7 @@ class PhysicsModule {
 
   /// This window is about to be tried, from where the module stands: what its outputs foretell
   /// (PortView::forecast) is of it.
-  virtual void prepare(const TimeWindow& window) {}
+  virtual void prepare([[maybe_unused]] const TimeWindow& window) {}
 
   /// Advances over the window with steps of its own; returns the time reached [s]. Less than
   /// window.end means an event: the manager takes every module back and ends the window there.

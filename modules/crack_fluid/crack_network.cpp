@@ -36,7 +36,7 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
   using enum PortDirection;
   using enum PortKind;
   using enum PortRole;
-  add_port(Quantity::opening, {"crack_opening", "m", in});
+  add_port(Quantity::opening, {"free_crack_opening", "m", in, intensive, property});
   add_port(Quantity::pressure, {"crack_pressure", "Pa", out});
   add_port(Quantity::mass, {"crack_fluid_mass", "kg/m", out, extensive});
   add_port(Quantity::wetted_fraction, {"crack_wetted_fraction", "1", out});
@@ -311,7 +311,7 @@ void CrackNetwork::book(const Eigen::VectorXd& v) {
     double first = liquid_.pressure(unknown_[f]);
     const double answer = opening_slope_[f * (mass_.size() + 1)];
     if (!liquid_.is_full(unknown_[f]) && answer > 0.0) {
-      first = std::clamp(pressure - lubrication_.raw_opening()[f] / answer, first, pressure);
+      first = std::clamp(pressure - lubrication_.opening()[f] / answer, first, pressure);
     }
     const double enthalpy = 0.5 * (liquid_.enthalpy(first) + liquid_.enthalpy(pressure));
     mass_[f] += inflow - outflow - leaked;

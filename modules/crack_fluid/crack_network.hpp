@@ -23,8 +23,8 @@ struct CrackFilling {
 /// Fluid in the cracks of a 2D body, one unknown a facet, implicit: one backward Euler step a
 /// window, together with what the facets' opening answers to it. Facets that are added are dry.
 ///
-/// Ports, on the facets ("crack"): in `crack_opening` [m], takes rate and a slope of count * count
-/// values against `crack_pressure`; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
+/// Ports, on the facets ("crack"): in `free_crack_opening` [m], takes rate and a slope of count *
+/// count values against `crack_pressure`; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
 /// `crack_wetted_fraction`, `crack_flow_rate` [m^2/s] from a facet's first end to its second, the
 /// property `crack_viscosity` [Pa s], 0 where less than half a facet is wet. On its own:
 /// `wetted_length` [m], `crack_volume` [m^2], `inlet_<name>_pressure` [Pa]; for the ledger

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "core/solvers/complementarity.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -24,7 +26,13 @@ Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph)
 void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v) {
   by_pressure_.clear();
   by_aperture_.clear();
-  store(step, v);
+  const Index count = graph_.facet_count();
+  for (Index f = 0; f < count; ++f) {
+    pressure_[f] = liquid_.pressure(v[f]);
+    fill_[f] = liquid_.fill(v[f]);
+  }
+  open(step);
+  store(step);
   if (step.leak_off != nullptr) leak(*step.leak_off);
   outflow_.setZero();
   if (step.time.length() > 0.0) flow(step.time.length());
@@ -32,16 +40,23 @@ void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v
   let_in(step, v);
 }
 
-void Lubrication::store(const LubricationStep& step, const Eigen::VectorXd& v) {
-  const Index count = graph_.facet_count();
+void Lubrication::open(const LubricationStep& step) {
   const CrackOpening& given = step.opening;
-  for (Index f = 0; f < count; ++f) {
-    pressure_[f] = liquid_.pressure(v[f]);
-    fill_[f] = liquid_.fill(v[f]);
-  }
   opening_.noalias() = given.slope * pressure_;
-  for (Index f = 0; f < count; ++f) {
+  double largest = 0.0;
+  for (Index f = 0; f < graph_.facet_count(); ++f) {
+    largest = std::max(largest, std::abs(opening_[f]));
     opening_[f] += given.value[f] + given.rate[f] * (step.time.end - given.end);
+  }
+  opening_slope_ = given.slope;
+  if (opening_.minCoeff() >= 0.0) return;
+  const Complementarity contact = solve_complementarity(opening_slope_, opening_, 1e-14 * largest);
+  opening_ = contact.y;
+  opening_slope_ = response_with_held(opening_slope_, contact.held);
+}
+
+void Lubrication::store(const LubricationStep& step) {
+  for (Index f = 0; f < graph_.facet_count(); ++f) {
     aperture_[f] = std::max(opening_[f], liquid_.residual_aperture);
     capacity_[f] = liquid_.density * graph_.length(f) * aperture_[f];
     const double compression = 1.0 + pressure_[f] / liquid_.bulk_modulus;
@@ -143,7 +158,7 @@ void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) 
   }
 }
 
-Eigen::MatrixXd Lubrication::jacobian(const LubricationStep& step, const Eigen::VectorXd& v) const {
+Eigen::MatrixXd Lubrication::jacobian(const Eigen::VectorXd& v) const {
   const Index count = graph_.facet_count();
   Eigen::SparseMatrix<double, Eigen::RowMajor> by_pressure(count, count);
   Eigen::SparseMatrix<double, Eigen::RowMajor> by_aperture(count, count);
@@ -153,7 +168,7 @@ Eigen::MatrixXd Lubrication::jacobian(const LubricationStep& step, const Eigen::
   for (Index f = 0; f < count; ++f) {
     is_open[f] = opening_[f] > liquid_.residual_aperture ? 1.0 : 0.0;
   }
-  Eigen::MatrixXd jacobian = (by_aperture * is_open.asDiagonal()) * step.opening.slope;
+  Eigen::MatrixXd jacobian = (by_aperture * is_open.asDiagonal()) * opening_slope_;
   jacobian += by_pressure;
   for (Index f = 0; f < count; ++f) {
     if (liquid_.is_full(v[f])) continue;

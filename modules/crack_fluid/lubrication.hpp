@@ -13,8 +13,9 @@
 
 namespace perifrac {
 
-/// How wide the facets are: value + rate (t - end) + slope p at time t under the fluid's pressures
-/// p, of all facets.
+/// How wide the facets would be if closed faces did not press on each other:
+/// value + rate (t - end) + slope p at time t under the fluid's pressures p, of all facets. Where
+/// that is negative, faces close: contact adds to p there what keeps them from overlapping.
 struct CrackOpening {
   using Slope = Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>;
 
@@ -67,16 +68,18 @@ class Lubrication {
   /// Evaluates all of the below.
   void evaluate(const LubricationStep& step, const Eigen::VectorXd& v);
 
-  const Eigen::VectorXd& residual() const { return residual_; }    ///< [kg/m]
-  const Eigen::VectorXd& rounding() const { return rounding_; }    ///< of the residual, a bound
-  const Eigen::VectorXd& aperture() const { return aperture_; }    ///< [m]
-  const Eigen::VectorXd& raw_opening() const { return opening_; }  ///< may be below the residual
-  const Eigen::VectorXd& capacity() const { return capacity_; }    ///< rho_0 length aperture
-  const Eigen::VectorXd& leaked() const { return leaked_.mass; }   ///< over the step [kg/m]
-  const Eigen::VectorXd& inflow() const { return inflow_; }        ///< by inlets [kg/m]
+  const Eigen::VectorXd& residual() const { return residual_; }  ///< [kg/m]
+  const Eigen::VectorXd& rounding() const { return rounding_; }  ///< of the residual, a bound
+  const Eigen::VectorXd& aperture() const { return aperture_; }  ///< [m]
+  const Eigen::VectorXd& opening() const { return opening_; }    ///< may be below the residual
+  /// d(opening) / d(pressure), with the faces closed that are closed [m/Pa].
+  const Eigen::MatrixXd& opening_slope() const { return opening_slope_; }
+  const Eigen::VectorXd& capacity() const { return capacity_; }   ///< rho_0 length aperture
+  const Eigen::VectorXd& leaked() const { return leaked_.mass; }  ///< over the step [kg/m]
+  const Eigen::VectorXd& inflow() const { return inflow_; }       ///< by inlets [kg/m]
   /// What flows and leaks out over the step, inlets apart [kg/m].
   const Eigen::VectorXd& outflow() const { return outflow_; }
-  Eigen::MatrixXd jacobian(const LubricationStep& step, const Eigen::VectorXd& v) const;
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& v) const;
 
   /// Calls use(a, b, flux) for every pair of branches that meet, flux [kg/(m s)] from a to b.
   template <class Use>
@@ -99,7 +102,8 @@ class Lubrication {
  private:
   void find_conductances(std::span<const CrackGraph::Branch> joint,
                          std::span<const double> aperture);
-  void store(const LubricationStep& step, const Eigen::VectorXd& v);
+  void store(const LubricationStep& step);
+  void open(const LubricationStep& step);
   void leak(LeakOff& leak_off);
   void flow(double dt);
   void differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt);
@@ -109,6 +113,7 @@ class Lubrication {
   CrackGraph graph_;
 
   Eigen::VectorXd pressure_, fill_, opening_, aperture_, capacity_;
+  Eigen::MatrixXd opening_slope_;
   Eigen::VectorXd residual_, rounding_, outflow_, inflow_;
   LeakedFluid leaked_;                               ///< its by_pressure is part of by_pressure_
   Eigen::VectorXd by_fill_;                          ///< of the residual, diagonal

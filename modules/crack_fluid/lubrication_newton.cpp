@@ -32,7 +32,7 @@ double part_allowed(const Lubrication& lubrication, const CrackLiquid& liquid,
                     const Eigen::VectorXd& change) {
   double part = 1.0;
   for (Index f = 0; f < lubrication.graph().facet_count(); ++f) {
-    const double opening = lubrication.raw_opening()[f];
+    const double opening = lubrication.opening()[f];
     const double aperture = lubrication.aperture()[f];
     const double highest = widening * aperture;
     const double lowest = std::max(narrowing * aperture, liquid.residual_aperture);
@@ -74,12 +74,13 @@ NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const Lu
     report.converged = is_balanced(lubrication, report.worst);
     if (report.converged) break;
     const Eigen::VectorXd change =
-        solved(lubrication.jacobian(step, v), lubrication.graph().order(), -lubrication.residual());
+        solved(lubrication.jacobian(v), lubrication.graph().order(), -lubrication.residual());
     if (!change.allFinite()) break;
     for (Index f = 0; f < count; ++f) {
       pressure_change[f] = liquid.is_full(v[f]) ? change[f] : 0.0;
     }
-    const double part = part_allowed(lubrication, liquid, step.opening.slope * pressure_change);
+    const double part =
+        part_allowed(lubrication, liquid, lubrication.opening_slope() * pressure_change);
     for (Index f = 0; f < count; ++f) v[f] = moved(liquid, v[f], part * change[f]);
   }
   return report;

@@ -5,6 +5,7 @@
 
 #include "modules/pore_flow/bond_flow.hpp"
 #include "modules/pore_flow/conservative_flow.hpp"
+#include "modules/pore_flow/darcy_law.hpp"
 #include "modules/pore_flow/nested_flow.hpp"
 
 namespace perifrac {
@@ -23,5 +24,13 @@ std::unique_ptr<FlowOperator<D>> make_flow(FlowScheme scheme, LinearExactOperato
       return std::make_unique<ConservativeFlow<D, Law>>(std::move(op));
   }
 }
+
+// Compiled once, in make_flow.cpp.
+extern template class LinearExactOperator<2, DarcyLaw<2>>;
+extern template class LinearExactOperator<3, DarcyLaw<3>>;
+extern template std::unique_ptr<FlowOperator<2>> make_flow(FlowScheme,
+                                                           LinearExactOperator<2, DarcyLaw<2>>);
+extern template std::unique_ptr<FlowOperator<3>> make_flow(FlowScheme,
+                                                           LinearExactOperator<3, DarcyLaw<3>>);
 
 }  // namespace perifrac

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/geometry/crack_cut.hpp"
+#include "core/solvers/complementarity.hpp"
 
 namespace perifrac {
 
@@ -17,24 +18,21 @@ CrackDynamics::CrackDynamics(std::shared_ptr<Family<2>> family, double spacing,
               std::move(seeds)),
       release_(release) {}
 
-void CrackDynamics::set_motion(ElasticDynamics<2>& system, double longest_step, double safety) {
+void CrackDynamics::set_motion(ElasticDynamics<2>& system) {
   system_ = &system;
-  longest_step_ = longest_step;
-  safety_ = safety;
   terms_.clear();
-  jumps_.resize(std::min(jumps_.size(), facets().size()));
-  for (std::size_t f = 0; f < facets().size(); ++f) add_facet(facets()[f]);
+  for (const CrackFacet<2>& facet : facets()) add_facet(facet);
   find_answers();
 }
 
 void CrackDynamics::start(double t) {
   t_ = t;
   held_.clear();
-  relief_work_ = spent_energy_ = 0.0;
-  for (Eigen::VectorXd* field : {&opening_, &sliding_, &fluid_pressure_, &face_pressure_}) {
+  relief_work_ = spent_energy_ = contact_loss_ = 0.0;
+  for (Eigen::VectorXd* field : {&opening_, &sliding_, &pressure_}) {
     field->setZero(static_cast<Eigen::Index>(facets().size()));
   }
-  fluid_force_.assign(2 * static_cast<std::size_t>(family_->point_count), 0.0);
+  face_force_.assign(2 * static_cast<std::size_t>(family_->point_count), 0.0);
 }
 
 /// What the motion needs to know of the facet; its jump once.
@@ -73,15 +71,7 @@ void CrackDynamics::find_answers() {
     }
   }
   answers_.clear();
-  double largest = 0.0;
-  for (const auto& row : answers) {
-    answers_.emplace_back(row.begin(), row.end());
-    double sum = 0.0;
-    for (const auto& [facet, answer] : row) sum += std::abs(answer);
-    largest = std::max(largest, sum);
-  }
-  // Half of what the step's length leaves below the stable limit.
-  contact_stiffness_ = 2.0 * (1.0 - safety_ * safety_) / (longest_step_ * longest_step_ * largest);
+  for (const auto& row : answers) answers_.emplace_back(row.begin(), row.end());
   slope_step_ = -1.0;
   foretell(0.0, 1.0, {}, {});
 }
@@ -96,7 +86,6 @@ void CrackDynamics::read_jump(Index f, std::span<const double> u) {
 
 void CrackDynamics::add(double t, std::span<const double> u, std::span<double> inner) {
   t_ = t;
-  gripped_.assign(terms_.size(), 0.0);
   hold(t, u, inner);
   add_faces(u, inner);
 }
@@ -112,7 +101,7 @@ void CrackDynamics::hold(double t, std::span<const double> u, std::span<double> 
       inner[unknown] -= share * held.force[k];
     }
     spent_energy_ -= 0.5 * (held.share + share) * work;
-    held.share = gripped_[held.facet] = share;
+    held.share = share;
   }
   std::erase_if(held_, [](const Held& held) { return held.share == 0.0; });
 }
@@ -125,31 +114,8 @@ void CrackDynamics::add_faces(std::span<const double> u, std::span<double> inner
     read_jump(static_cast<Index>(f), u);
     relief_work_ +=
         length * (normal * (opening_[f] - opening) + tangential * (sliding_[f] - sliding));
-    find_face_pressure(static_cast<Index>(f), normal);
-    const double push = normal + face_pressure_[f] - fluid_pressure_[f];
     for (const Term& term : terms_[f]) {
-      inner[term.unknown] -= length * (push * term.normal + tangential * term.tangent);
-    }
-  }
-}
-
-void CrackDynamics::find_face_pressure(Index f, double relief) {
-  const double closed = -(1.0 - gripped_[f]) * relief - contact_stiffness_ * opening_[f];
-  face_pressure_[f] = std::max(fluid_pressure_[f], closed);
-}
-
-void CrackDynamics::press(std::span<const double> pressure, double step,
-                          std::span<double> velocity) {
-  for (std::size_t f = 0; f < terms_.size(); ++f) {
-    for (const Term& term : terms_[f]) fluid_force_[term.unknown] = 0.0;
-  }
-  const std::span<const double> mass = system_->mass();
-  for (std::size_t f = 0; f < terms_.size(); ++f) {
-    fluid_pressure_[f] = pressure[f];
-    const double total = jumps_[f].length * pressure[f];
-    for (const Term& term : terms_[f]) {
-      fluid_force_[term.unknown] += total * term.normal;
-      if (term.moved >= 0) velocity[term.moved] += step * total * term.normal / mass[term.moved];
+      inner[term.unknown] -= length * (normal * term.normal + tangential * term.tangent);
     }
   }
 }
@@ -157,6 +123,7 @@ void CrackDynamics::press(std::span<const double> pressure, double step,
 void CrackDynamics::foretell(double step, double decay, std::span<const double> velocity,
                              std::span<const double> acceleration) {
   const std::size_t count = terms_.size();
+  step_ = step;
   forecast_.assign(opening_.begin(), opening_.end());
   for (std::size_t f = 0; f < count && step > 0.0; ++f) {
     double change = 0.0;
@@ -175,6 +142,45 @@ void CrackDynamics::foretell(double step, double decay, std::span<const double> 
     for (const auto& [g, answer] : answers_[f]) {
       slope_[f * count + g] = decay * step * step * answer;
     }
+  }
+}
+
+double CrackDynamics::opening_rate(std::size_t f, std::span<const double> velocity) const {
+  double rate = 0.0;
+  for (const Term& term : terms_[f]) {
+    if (term.moved >= 0) rate += term.normal * velocity[term.moved];
+  }
+  return rate;
+}
+
+void CrackDynamics::press(std::span<const double> pressure, std::span<double> velocity) {
+  const auto count = static_cast<Eigen::Index>(terms_.size());
+  pressure_ = Eigen::Map<const Eigen::VectorXd>(pressure.data(), count);
+  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(slope_.data(), count,
+                                                                               count);
+  Eigen::VectorXd contact = Eigen::VectorXd::Zero(count);
+  if (step_ > 0.0) {
+    const Eigen::VectorXd free =
+        Eigen::Map<const Eigen::VectorXd>(forecast_.data(), count) + slope * pressure_;
+    if (free.minCoeff() < 0.0) {
+      contact = solve_complementarity(slope, free, 1e-14 * spacing_).x;
+      pressure_ += contact;
+    }
+  }
+  for (const auto& terms : terms_) {
+    for (const Term& term : terms) face_force_[term.unknown] = 0.0;
+  }
+  const std::span<const double> mass = system_->mass();
+  for (std::size_t f = 0; f < terms_.size(); ++f) {
+    const double total = jumps_[f].length * pressure_[f];
+    const double closing = contact[f] == 0.0 ? 0.0 : opening_rate(f, velocity);
+    for (const Term& term : terms_[f]) {
+      face_force_[term.unknown] += total * term.normal;
+      if (term.moved >= 0) velocity[term.moved] += step_ * total * term.normal / mass[term.moved];
+    }
+    if (contact[f] == 0.0) continue;
+    contact_loss_ -=
+        0.5 * step_ * jumps_[f].length * contact[f] * (closing + opening_rate(f, velocity));
   }
 }
 
@@ -221,7 +227,7 @@ bool CrackDynamics::cut(const CrackFacet<2>& facet) {
   system_->find_bond_force(after);
 
   const Index f = static_cast<Index>(terms_.size()) - 1;
-  for (Eigen::VectorXd* field : {&opening_, &sliding_, &fluid_pressure_, &face_pressure_}) {
+  for (Eigen::VectorXd* field : {&opening_, &sliding_, &pressure_}) {
     field->conservativeResize(f + 1);
     (*field)[f] = 0.0;
   }
@@ -245,21 +251,10 @@ bool CrackDynamics::cut(const CrackFacet<2>& facet) {
   return true;
 }
 
-double CrackDynamics::contact_energy() const {
-  double sum = 0.0;
-  for (std::size_t f = 0; f < terms_.size(); ++f) {
-    const double contact = face_pressure_[f] - fluid_pressure_[f];
-    sum += 0.5 * jumps_[f].length * contact * contact / contact_stiffness_;
-  }
-  return sum;
-}
-
 void CrackDynamics::visit_state(StateVisitor& visitor) {
   visitor.visit("relief_work", relief_work_);
   visitor.visit("fracture_energy", spent_energy_);
-  std::vector<double> pressure(fluid_pressure_.begin(), fluid_pressure_.end());
-  visitor.visit("crack_pressure", pressure);
-  fluid_pressure_ = Eigen::Map<Eigen::VectorXd>(pressure.data(), std::ssize(pressure));
+  visitor.visit("contact_loss", contact_loss_);
   std::vector<std::int64_t> unknowns;
   std::vector<double> numbers;
   for (const Held& held : held_) {
@@ -308,13 +303,8 @@ bool CrackDynamics::follow_bonds() {
 void CrackDynamics::follow(double t, std::span<const double> u) {
   t_ = t;
   const auto count = static_cast<Eigen::Index>(terms_.size());
-  for (Eigen::VectorXd* field : {&opening_, &sliding_, &face_pressure_}) field->resize(count);
-  gripped_.assign(terms_.size(), 0.0);
-  for (const Held& held : held_) gripped_[held.facet] = held.share;
-  for (Index f = 0; f < count; ++f) {
-    read_jump(f, u);
-    find_face_pressure(f, relief(f)[0]);
-  }
+  for (Eigen::VectorXd* field : {&opening_, &sliding_, &pressure_}) field->setZero(count);
+  for (Index f = 0; f < count; ++f) read_jump(f, u);
 }
 
 }  // namespace perifrac

@@ -17,8 +17,8 @@ namespace perifrac {
 /// displacements to openings), and a pressure that keeps an opening as it is has no memory of the
 /// last one, as it would if it were split between the step's ends.
 ///
-/// Faces carry at least the pressure -relief - k w of contact, w their normal jump: a crack that is
-/// closed at rest stays as it is under its initial stress. k takes up what the time step leaves.
+/// Faces that would overlap at the step's end carry the pressure beside it that leaves them closed,
+/// without friction.
 ///
 /// The bonds that a facet cuts let go gradually: the force that they had acts on over `release`
 /// and fades. The work that faces do against it is what growth takes, to tiny vibrations.
@@ -30,33 +30,33 @@ class CrackDynamics final : public CutBody, public AddedForce {
                 std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
                 double release);
 
-  /// The motion that the cracks are part of, and its longest step [s] with the factor that it is
-  /// shorter than the stable one. It must stay. Again where one of them changed.
-  void set_motion(ElasticDynamics<2>& system, double longest_step, double safety);
+  /// The motion that the cracks are part of, which must stay. Again after facets were added.
+  void set_motion(ElasticDynamics<2>& system);
   void start(double t);
 
   bool cut(const CrackFacet<2>& facet) override;
   double intensity_at_fixed_volume(Index facet) const override;
   void add(double t, std::span<const double> u, std::span<double> inner) override;
 
-  /// Gives velocities the impulse of a pressure in the facets over `step` [s].
-  void press(std::span<const double> pressure, double step, std::span<double> velocity);
-  /// Opening of every facet after a step with these velocities and accelerations, and its answer to
-  /// the pressure within it, a matrix; velocities fall by `decay` first.
+  /// Where every facet opens to in a step from these velocities and accelerations, and how that
+  /// answers to a pressure, a matrix; velocities fall by `decay` first.
   void foretell(double step, double decay, std::span<const double> velocity,
                 std::span<const double> acceleration);
+  /// Gives velocities the impulse of a pressure in the facets, and of contact, over the step that
+  /// was foretold.
+  void press(std::span<const double> pressure, std::span<double> velocity);
 
-  std::span<double> forecast() { return forecast_; }
-  std::span<double> slope() { return slope_; }
-  Eigen::VectorXd& opening() { return opening_; }                          ///< [m]
-  const Eigen::VectorXd& face_pressure() const { return face_pressure_; }  ///< with contact [Pa]
+  std::span<double> forecast() { return forecast_; }             ///< without contact [m]
+  std::span<double> slope() { return slope_; }                   ///< [m/Pa]
+  Eigen::VectorXd& opening() { return opening_; }                ///< [m]
+  const Eigen::VectorXd& pressure() const { return pressure_; }  ///< with contact [Pa]
   std::vector<Vector<2>> jumps_at(std::span<const double> unknowns) const;
-  /// What the fluid's pressure does to every unknown [N].
-  std::span<const double> fluid_force() const { return fluid_force_; }
+  /// What the pressure on the faces does to every unknown [N].
+  std::span<const double> face_force() const { return face_force_; }
 
-  double release() const { return release_; }  ///< [s]
-  double contact_energy() const;               ///< [J/m]
-  double relief_work() const { return relief_work_; }
+  double release() const { return release_; }            ///< [s]
+  double relief_work() const { return relief_work_; }    ///< [J/m]
+  double contact_loss() const { return contact_loss_; }  ///< where faces met [J/m]
   double spent_energy() const { return spent_energy_; }  ///< on new faces [J/m]
 
   void visit_state(StateVisitor& visitor);
@@ -85,28 +85,26 @@ class CrackDynamics final : public CutBody, public AddedForce {
 
   void add_facet(const CrackFacet<2>& facet);
   void find_answers();
+  double opening_rate(std::size_t f, std::span<const double> velocity) const;
   void read_jump(Index f, std::span<const double> u);
-  void find_face_pressure(Index f, double relief);
   void hold(double t, std::span<const double> u, std::span<double> inner);
   void add_faces(std::span<const double> u, std::span<double> inner);
 
   double release_;
   ElasticDynamics<2>* system_ = nullptr;
-  double longest_step_ = 0.0, safety_ = 0.0;
   double t_ = 0.0;  ///< of the last force
 
   std::vector<std::vector<Term>> terms_;  ///< by facet
   /// D M^-1 D^T by facet: opening per impulse of pressure [m^2/(N s) m].
   std::vector<std::vector<std::pair<Index, double>>> answers_;
-  double contact_stiffness_ = 0.0;                  ///< k [Pa/m]
-  Eigen::VectorXd opening_, sliding_;               ///< [m]
-  Eigen::VectorXd fluid_pressure_, face_pressure_;  ///< [Pa]
-  std::vector<double> gripped_;  ///< by facet: share of its bonds' force that acts on
-  std::vector<double> fluid_force_;
+  Eigen::VectorXd opening_, sliding_;  ///< [m]
+  Eigen::VectorXd pressure_;           ///< [Pa]
+  std::vector<double> face_force_;
   std::vector<double> forecast_, slope_;
+  double step_ = 0.0;                             ///< that forecast_ is of [s]
   double slope_step_ = -1.0, slope_decay_ = 0.0;  ///< that slope_ is of
   std::vector<Held> held_;
-  double relief_work_ = 0.0, spent_energy_ = 0.0;
+  double relief_work_ = 0.0, spent_energy_ = 0.0, contact_loss_ = 0.0;
 };
 
 }  // namespace perifrac

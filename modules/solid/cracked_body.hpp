@@ -44,10 +44,10 @@ class CrackedBody final : public CutBody {
     std::vector<bool> closed;
   };
   Faces faces(const Eigen::VectorXd& pressure) const;
-  /// d(opening)/d(pressure) with all faces open [m/Pa].
+  /// The mean normal jumps of faces that may pass through one another [m].
+  Eigen::VectorXd free_opening(const Eigen::VectorXd& pressure) const;
+  /// d(free_opening)/d(pressure) [m/Pa].
   const Eigen::MatrixXd& compliance() const { return compliance_; }
-  /// The same with these faces closed.
-  Eigen::MatrixXd compliance(const std::vector<bool>& closed) const;
   double intensity_at_fixed_volume(Index facet) const override;
 
   /// Mean jumps across all facets along their normal and tangent under a pressure on the faces [m].
@@ -91,7 +91,7 @@ class CrackedBody final : public CutBody {
   SparseCholesky factor_;
   std::unique_ptr<CondensedInverse> inverse_;
   std::vector<Mode> modes_;
-  Eigen::MatrixXd compliance_;  ///< all faces open
+  Eigen::MatrixXd compliance_;
 
   Eigen::VectorXd load_;         ///< of those solved for
   Eigen::VectorXd intact_move_;  ///< what it does to the body with its first cracks

@@ -20,11 +20,16 @@ double release_time(const Body<2>& body, const BreakableElasticity<2>& elastic, 
   return spacings_of_release * body.spacing() / speed;
 }
 
+std::span<double> view(Eigen::VectorXd& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
 enum CrackPort : PortId {
   crack_pressure,
   crack_viscosity,
   damage,
   crack_opening,
+  free_crack_opening,
   crack_length,
   fracture_energy
 };
@@ -39,7 +44,6 @@ DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
                                  std::vector<CrackFacet<2>> seeds, double fracture_energy)
     : DynamicSolid<2>(body, elastic, boundary, density, damping, safety),
       damping_(damping),
-      safety_(safety),
       seeds_(seeds),
       bonds_(body->claim_bond_state()),
       cracks_(family, body->spacing(), elastic, bonds_, initial_stress, std::move(seeds),
@@ -53,6 +57,7 @@ DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
            {"crack_viscosity", "Pa s", in, PortKind::intensive, PortRole::property},
            {"damage", "1", out},
            {"crack_opening", "m", out},
+           {"free_crack_opening", "m", out, PortKind::intensive, PortRole::property},
            {"crack_length", "m", out},
            {"fracture_energy", "J/m", out, PortKind::extensive, PortRole::energy_dissipated}}) {
     ports_.push_back(port);
@@ -72,14 +77,10 @@ PortView DynamicFracture::port(PortId id) {
       damage_.resize(body_->points().size());
       find_damage(cracks_.family(), damage_);
       return {&body_->point_set(), damage_};
-    case crack_opening: {
-      Eigen::VectorXd& opening = cracks_.opening();
-      return {facets,
-              {opening.data(), static_cast<std::size_t>(opening.size())},
-              {},
-              cracks_.slope(),
-              cracks_.forecast()};
-    }
+    case crack_opening:
+      return {facets, view(cracks_.opening())};
+    case free_crack_opening:
+      return {facets, view(cracks_.opening()), {}, cracks_.slope(), cracks_.forecast()};
     case crack_length:
       crack_length_ = 0.0;
       for (const FaceJump& jump : cracks_.jumps()) crack_length_ += jump.length;
@@ -94,25 +95,22 @@ PortView DynamicFracture::port(PortId id) {
 
 double DynamicFracture::scalar(PortId id) {
   const double own = DynamicSolid<2>::scalar(id);
-  if (id == elastic_energy) return own + cracks_.contact_energy();
   if (id == external_work) return own + cracks_.relief_work();
+  if (id == damped_energy) return own + cracks_.contact_loss();
   return own;
-}
-
-void DynamicFracture::take_motion() {
-  cracks_.set_motion(*system_, verlet_->longest_step(time_), safety_);
 }
 
 void DynamicFracture::initialize(double t) {
   DynamicSolid<2>::initialize(t);
   cracks_.start(t);
-  take_motion();
+  cracks_.set_motion(*system_);
   tips_.start(seeds_, t);
 }
 
-void DynamicFracture::prepare(const TimeWindow& window) {
-  if (motion_.acceleration.empty()) verlet_->evaluate(window.begin, motion_);
-  const double step = window.length();
+void DynamicFracture::prepare(const TimeWindow& window) { foretell(window.begin, window.length()); }
+
+void DynamicFracture::foretell(double t, double step) {
+  if (motion_.acceleration.empty()) verlet_->evaluate(t, motion_);
   cracks_.foretell(step, std::exp(-0.5 * damping_ * step), motion_.velocity, motion_.acceleration);
 }
 
@@ -123,7 +121,8 @@ double DynamicFracture::advance(const TimeWindow& window) {
   for (std::int64_t n = 1; n <= steps; ++n) {
     const double part = static_cast<double>(n) / static_cast<double>(steps);
     const double end = n == steps ? window.end : window.begin + part * window.length();
-    cracks_.press(crack_pressure_, end - begin, motion_.velocity);
+    foretell(begin, end - begin);
+    cracks_.press(crack_pressure_, motion_.velocity);
     DynamicSolid<2>::advance({begin, end});
     begin = end;
   }
@@ -134,27 +133,28 @@ double DynamicFracture::conclude(const TimeWindow& window) {
   if (!(window.length() > 0.0) || tips_.find_readiness(crack_state()) < ready) return window.end;
   if (tips_.grow(crack_state()) == 0.0) return window.end;
   system_->note_stiffness();
-  take_motion();
+  cracks_.set_motion(*system_);
   verlet_->evaluate(time_, motion_);
   return window.end;
 }
 
 CrackState DynamicFracture::crack_state() {
-  const std::span<const double> fluid = cracks_.fluid_force();
+  const std::span<const double> on_faces = cracks_.face_force();
   return {.t = time_,
           .opening = cracks_.opening(),
-          .pressure = cracks_.face_pressure(),
+          .pressure = cracks_.pressure(),
           .viscosity = crack_viscosity_,
           .unknowns = [this]() -> std::span<const double> { return system_->unknowns(); },
           .jumps = [this] { return cracks_.jumps_at(system_->unknowns()); },
           .inertia =
-              [this, fluid](Index i) {
+              [this, on_faces](Index i) {
                 Vector<2> force{};
                 for (int a = 0; a < 2; ++a) {
                   const Index unknown = a * body_->points().size() + i;
                   const Index moved = system_->moved_by(unknown);
                   if (moved < 0) continue;
-                  force[a] = system_->mass()[moved] * motion_.acceleration[moved] + fluid[unknown];
+                  force[a] =
+                      system_->mass()[moved] * motion_.acceleration[moved] + on_faces[unknown];
                 }
                 return force;
               },
@@ -171,7 +171,7 @@ void DynamicFracture::on_restored(double t) {
   const bool is_another = cracks_.follow_bonds();
   if (is_another) system_->note_stiffness();
   DynamicSolid<2>::on_restored(t);
-  if (is_another) take_motion();
+  if (is_another) cracks_.set_motion(*system_);
   cracks_.follow(t, system_->unknowns());
 }
 

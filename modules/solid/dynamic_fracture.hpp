@@ -36,10 +36,9 @@ class DynamicFracture final : public DynamicSolid<2> {
  private:
   double scalar(PortId id) override;
   CrackState crack_state();
-  void take_motion();
+  void foretell(double t, double step);
 
   double damping_;
-  double safety_;
   std::vector<CrackFacet<2>> seeds_;
   BondState<2>& bonds_;
   CrackDynamics cracks_;

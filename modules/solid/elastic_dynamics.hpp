@@ -160,7 +160,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   double growth_ = 1.0;
   std::vector<double> no_pore_stress_;
 
-  Eigen::VectorXd prescribed_now_, load_now_;             // workspace
+  Eigen::VectorXd prescribed_now_, load_now_;                          // workspace
   std::vector<double> before_, trial_, inner_, scratch_, block_sums_;  // workspace
 };
 

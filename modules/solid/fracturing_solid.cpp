@@ -45,6 +45,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
           {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, 4},
           {"damage", "1", PortDirection::out},
           {"crack_opening", "m", PortDirection::out},
+          {"free_crack_opening", "m", PortDirection::out, PortKind::intensive, PortRole::property},
           {"crack_length", "m", PortDirection::out},
           {"elastic_energy", "J/m", PortDirection::out, PortKind::extensive,
            PortRole::energy_stored},
@@ -115,13 +116,16 @@ PortView FracturingSolid::port(PortId id) {
       damage_.resize(body_->points().size());
       find_damage(cracked_.family(), damage_);
       return {points, damage_};
-    case crack_opening: {
-      const Eigen::MatrixXd slope = cracked_.compliance(faces_.closed);
+    case crack_opening:
+      return {facets, {faces_.opening.data(), static_cast<std::size_t>(faces_.opening.size())}};
+    case free_crack_opening: {
+      free_opening_ = cracked_.free_opening(in_cracks());
+      const Eigen::MatrixXd& slope = cracked_.compliance();
       opening_slope_.resize(slope.size());
       Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
           opening_slope_.data(), slope.rows(), slope.cols()) = slope;
       return {facets,
-              {faces_.opening.data(), static_cast<std::size_t>(faces_.opening.size())},
+              {free_opening_.data(), static_cast<std::size_t>(free_opening_.size())},
               {},
               opening_slope_};
     }
@@ -190,15 +194,17 @@ Eigen::VectorXd FracturingSolid::find_load() {
   return free_unknowns_.transpose() * all;
 }
 
-/// What the loads, and the pressure in them, do to the cracks' faces.
+/// The pressure of what is in the cracks; a new facet is dry.
+Eigen::VectorXd FracturingSolid::in_cracks() {
+  const auto count = static_cast<Eigen::Index>(bonds_.facet_points().count);
+  if (crack_pressure_.empty()) return Eigen::VectorXd::Zero(count);
+  crack_pressure_.resize(count, 0.0);
+  return view(crack_pressure_);
+}
+
 void FracturingSolid::solve_faces() {
   if (!is_steady()) cracked_.set_load(find_load());
-  Eigen::VectorXd pressure = Eigen::VectorXd::Zero(bonds_.facet_points().count);
-  if (!crack_pressure_.empty()) {
-    crack_pressure_.resize(pressure.size(), 0.0);  // a new facet is dry
-    pressure = view(crack_pressure_);
-  }
-  faces_ = cracked_.faces(pressure);
+  faces_ = cracked_.faces(in_cracks());
   unknowns_are_current_ = false;
 }
 

@@ -22,8 +22,10 @@ namespace perifrac {
 ///
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
 /// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
-/// `crack_opening` [m] with its slope d(opening)/d(crack_pressure), a matrix. `damage` of the
-/// points (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what new faces took.
+/// `crack_opening` [m], and the property `free_crack_opening` [m], what it would be if closed faces
+/// did not press on each other (negative: they pass through one another), with its slope against
+/// crack_pressure, a matrix. `damage` of the points (paper Eq 16), `crack_length` [m] and
+/// `fracture_energy` [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
  public:
   /// `fracture_energy`: Gc [J/m^2]; infinite: no crack grows.
@@ -55,6 +57,7 @@ class FracturingSolid final : public PhysicsModule {
     effective_stress,
     damage,
     crack_opening,
+    free_crack_opening,
     crack_length,
     elastic_energy,
     external_work,
@@ -69,6 +72,7 @@ class FracturingSolid final : public PhysicsModule {
   }
   CrackState crack_state();
   Eigen::VectorXd find_load();
+  Eigen::VectorXd in_cracks();
   void solve_faces();
   void find_unknowns();
   void derive();
@@ -107,6 +111,7 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<double> crack_viscosity_;
   InterfaceForce interface_;
   CrackedBody::Faces faces_;
+  Eigen::VectorXd free_opening_;
   std::vector<double> opening_slope_;
   std::vector<double> dilatation_;
   std::vector<double> slope_;

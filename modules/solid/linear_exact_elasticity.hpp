@@ -162,4 +162,12 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
   std::vector<ThinPoint> thin_points_;  ///< in the order of their points
 };
 
+// Compiled once, in linear_exact_elasticity.cpp.
+extern template class LinearExactOperator<2, IsotropicElasticity<2>>;
+extern template class LinearExactOperator<3, IsotropicElasticity<3>>;
+extern template class LinearExactElasticity<2, IsotropicElasticity<2>>;
+extern template class LinearExactElasticity<3, IsotropicElasticity<3>>;
+extern template class LinearExactElasticity<2, LawByRegion<IsotropicElasticity<2>>>;
+extern template class LinearExactElasticity<3, LawByRegion<IsotropicElasticity<3>>>;
+
 }  // namespace perifrac

@@ -56,7 +56,7 @@ Variant variant(std::string name, std::string type, std::string text,
                                      {"pore_mobility", 1e-9},
                                      {"interface_impulse", 1e3},
                                      {"exchanged_mass", 0.1},
-                                     {"crack_opening", 1e-4}}};
+                                     {"free_crack_opening", 1e-4}}};
   return {std::move(type), std::move(contract)};
 }
 

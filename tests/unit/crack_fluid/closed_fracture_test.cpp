@@ -26,7 +26,10 @@ class ConfinedCrack {
     }
   }
 
-  /// Finds which facets are open under the pressures, and how the openings answer to those.
+  /// What the fluid module is told: how facets would open that may overlap.
+  Eigen::MatrixXd compliance() const { return stiffness_.inverse(); }
+
+  /// Finds which facets are open under the pressures, and how wide they are.
   void solve(std::span<const double> pressure) {
     const int n = static_cast<int>(is_open_.size());
     for (int pass = 0; pass < 100; ++pass) {
@@ -36,13 +39,9 @@ class ConfinedCrack {
         load[i] = is_open_[i] ? pressure[i] - confining_ : 0.0;
         if (is_open_[i]) continue;
         matrix.row(i).setZero();
-        matrix(i, i) = 1.0;
+        matrix(i, i) = stiffness_(i, i);
       }
-      slope = matrix.inverse();
-      for (int i = 0; i < n; ++i) {
-        if (!is_open_[i]) slope.col(i).setZero();
-      }
-      opening = slope * load;
+      opening = matrix.partialPivLu().solve(load);
       const Eigen::VectorXd carried = stiffness_ * opening;
       bool changed = false;
       for (int i = 0; i < n; ++i) {
@@ -56,7 +55,6 @@ class ConfinedCrack {
   }
 
   Eigen::VectorXd opening;
-  Eigen::MatrixXd slope;
 
  private:
   Eigen::MatrixXd stiffness_;
@@ -64,14 +62,14 @@ class ConfinedCrack {
   double confining_;
 };
 
-/// Fluid and rock in turns, as a coupling would, until they agree.
 struct ConfinedRun {
   static constexpr int n = 81;
   static constexpr double confining = 3e6;
 
   CrackRun run;
   ConfinedCrack rock{n, 4e9, confining};
-  std::vector<double> pressure = std::vector<double>(n, 0.0);
+  Eigen::MatrixXd slope = rock.compliance();
+  std::vector<double> pressure;
 
   explicit ConfinedRun(std::vector<CrackInlet> inlets) : run(liquid(), std::move(inlets)) {
     run.add_line(straight_line({0.0, 0.0}, 0.0, dx, n));
@@ -82,45 +80,32 @@ struct ConfinedRun {
     return liquid;
   }
 
-  /// Returns how many turns it took.
-  int advance(const TimeWindow& window) {
-    const auto walk = [&](StateVisitor& visitor) { run.module().visit_state(visitor); };
-    Snapshot before;
-    before.save(walk);
-    for (int turn = 1; turn <= 20; ++turn) {
-      before.restore(walk);
-      run.module().on_restored(window.begin);
-      rock.solve(pressure);
-      const PortView view = run.port("crack_opening");
-      const Eigen::VectorXd value =
-          rock.opening - rock.slope * Eigen::Map<Eigen::VectorXd>(pressure.data(), n);
-      std::copy_n(value.data(), n, view.value.begin());
-      Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(view.slope.data(), n, n) =
-          rock.slope;
-      run.module().advance(window);
-      const auto answer = run.values("crack_pressure");
-      double change = 0.0;
-      for (int f = 0; f < n; ++f) change = std::max(change, std::abs(answer[f] - pressure[f]));
-      pressure = answer;
-      if (change <= 1e-9 * *std::ranges::max_element(answer)) return turn;
-    }
-    ADD_FAILURE() << "no agreement at " << window.end;
-    return 0;
+  void advance(const TimeWindow& window) {
+    const PortView view = run.port("free_crack_opening");
+    const Eigen::VectorXd value = slope * Eigen::VectorXd::Constant(n, -confining);
+    std::copy_n(value.data(), n, view.value.begin());
+    Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(view.slope.data(), n, n) = slope;
+    run.module().advance(window);
+    pressure = run.values("crack_pressure");
   }
 };
 
 /// Stiff fluid pushes a closed crack open, front and opening ahead of each other by turns; then it
-/// comes to rest.
-TEST(ClosedFracture, OpensInFewTurnsOfFluidAndRock) {
+/// comes to rest. Its facets are as wide as the rock says that they are.
+TEST(ClosedFracture, OpensAsFarAsContactLetsIt) {
   const double rate = 1e-4, pumped = 0.02, window = 5e-4;
   ConfinedRun both({rate_inlet({0.5 * ConfinedRun::n * dx, 0.0}, rate,
                                Schedule::table({pumped, pumped + 1e-9}, {1.0, 0.0}))});
   double wetted = 0.0;
   for (int k = 0; k < 40; ++k) {
-    EXPECT_LE(both.advance({k * window, (k + 1) * window}), k == 0 ? 8 : 5) << k;
+    both.advance({k * window, (k + 1) * window});
     EXPECT_LT(both.run.mass_error(), 1e-14);
     EXPECT_GE(both.run.scalar("wetted_length"), wetted);
     wetted = both.run.scalar("wetted_length");
+    both.rock.solve(both.pressure);
+    const double least = ConfinedRun::liquid().residual_aperture;
+    const double volume = dx * both.rock.opening.cwiseMax(least).sum();
+    EXPECT_NEAR(both.run.scalar("crack_volume"), volume, 1e-9 * volume) << k;
   }
   EXPECT_GT(both.pressure[ConfinedRun::n / 2], ConfinedRun::confining);
   for (int k = 0; k < 10; ++k) {
@@ -130,7 +115,7 @@ TEST(ClosedFracture, OpensInFewTurnsOfFluidAndRock) {
   const CrackLiquid liquid = ConfinedRun::liquid();
   const double p = both.pressure[0];
   EXPECT_NEAR(both.pressure[ConfinedRun::n / 2], p, 1e-6 * p);
-  const double volume = both.rock.slope.sum() * (p - ConfinedRun::confining) * dx;
+  const double volume = both.slope.sum() * (p - ConfinedRun::confining) * dx;
   EXPECT_NEAR(liquid.density_at(p) * volume, liquid.density * (rate * pumped + 0.5e-9 * rate),
               1e-5 * liquid.density * rate * pumped);
 }

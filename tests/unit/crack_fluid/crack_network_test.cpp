@@ -40,7 +40,7 @@ CrackRun elastic_crack(int facets, std::vector<CrackInlet> inlets, double residu
   CrackRun run(liquid, std::move(inlets));
   run.add_line(straight_line({-0.5 * facets * dx, 0.0}, 0.0, dx, facets));
   const Eigen::MatrixXd compliance = elastic_compliance(facets, 4e9);
-  const PortView view = run.port("crack_opening");
+  const PortView view = run.port("free_crack_opening");
   for (int i = 0; i < facets; ++i) {
     for (int j = 0; j < facets; ++j) view.slope[i * facets + j] = compliance(i, j);
   }
@@ -151,12 +151,12 @@ TEST(CrackNetwork, StorageAnswersAtOnce) {
   const double mass = run.scalar("crack_fluid_stored_mass");
   EXPECT_NEAR(mass, water.density_at(1e5) * w * 3.0 * dx, 1e-14 * mass);
   EXPECT_EQ(run.scalar("injected_crack_fluid_mass"), mass);
-  run.port("crack_opening").value[1] = w * (1.0 - 1e-3);
+  run.port("free_crack_opening").value[1] = w * (1.0 - 1e-3);
   run.advance(0.0);
   const double squeezed = water.bulk_modulus * ((1.0 + 1e5 / water.bulk_modulus) / 0.999 - 1.0);
   EXPECT_NEAR(run.values("crack_pressure")[1], squeezed, 1e-9 * squeezed);
   EXPECT_NEAR(run.values("crack_pressure")[0], 1e5, 1e-2);
-  run.port("crack_opening").value[1] = 2.0 * w;
+  run.port("free_crack_opening").value[1] = 2.0 * w;
   run.advance(0.0);
   EXPECT_EQ(run.values("crack_pressure")[1], 0.0);
   EXPECT_NEAR(run.values("crack_wetted_fraction")[1], 0.5, 1e-4);

@@ -62,7 +62,7 @@ class CrackRun {
 
   /// The same at all facets; every facet answers to its own pressure.
   void open(double value, double compliance = 0.0) {
-    const PortView view = port("crack_opening");
+    const PortView view = port("free_crack_opening");
     const std::size_t count = view.value.size();
     std::ranges::fill(view.value, value);
     for (std::size_t f = 0; f < count; ++f) view.slope[f * count + f] = compliance;

@@ -98,7 +98,7 @@ TEST(SlitFlow, DividesAtAJunctionAsResistancesDo) {
 TEST(SlitFlow, PassesAClosedBranchAsIfItWereNotThere) {
   Fork fork(low);
   fork.run.open(w);
-  const PortView opening = fork.run.port("crack_opening");
+  const PortView opening = fork.run.port("free_crack_opening");
   for (int f = 10; f < 15; ++f) opening.value[f] = 0.0;
   fork.run.advance(1.0, 3);
   const double expected = cubic_law(9.0 * dx);
