@@ -30,7 +30,7 @@ class GrowthWatch {
 };
 
 /// With the full tangent a pass is a step of Newton's method already.
-bool is_accelerated(const Link& link) { return link.lagged() && !link.sends_tangent(); }
+bool is_accelerated(const Link& link) { return link.predicts() && !link.sends_tangent(); }
 
 /// An event that moves back this often in one window is no event that a window can end at.
 constexpr int most_redos = 50;
@@ -46,7 +46,8 @@ WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
 
 double WindowSolver::solve(const TimeWindow& window, const Iterations& iterations) {
   const bool alone = modules_.size() == 1;
-  if (!alone) begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
+  if (may_go_back(iterations))
+    begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
 
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
@@ -66,6 +67,13 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   return reached;
 }
 
+bool WindowSolver::may_go_back(const Iterations& iterations) const {
+  if (modules_.size() == 1) return false;
+  return (iterations.max > 1 && std::ranges::any_of(links_, &Link::predicts)) ||
+         std::ranges::any_of(modules_,
+                             [](const ModuleSlot& slot) { return slot.module->may_end_windows(); });
+}
+
 double WindowSolver::conclude(const TimeWindow& window, double reached) {
   for (ModuleSlot& slot : modules_) {
     if (reached < window.end) return reached;
@@ -76,6 +84,7 @@ double WindowSolver::conclude(const TimeWindow& window, double reached) {
 }
 
 double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterations) {
+  for (ModuleSlot& slot : modules_) slot.module->prepare(window);
   for (Link& link : links_) link.predict(window.length());
   acceleration_->reset();
   GrowthWatch watch;
@@ -127,7 +136,7 @@ void WindowSolver::go_back(double t) {
 
 bool WindowSolver::has_converged(double tolerance) const {
   for (const Link& link : links_) {
-    if (link.lagged() && !(link.mismatch().relative() <= tolerance)) return false;
+    if (link.predicts() && !(link.mismatch().relative() <= tolerance)) return false;
   }
   return true;
 }
@@ -135,7 +144,7 @@ bool WindowSolver::has_converged(double tolerance) const {
 void WindowSolver::watch(double length) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
-    if (link.lagged() && watches_[i].finds_growth(link.mismatch(), length)) unstable_ = &link;
+    if (link.predicts() && watches_[i].finds_growth(link.mismatch(), length)) unstable_ = &link;
   }
 }
 
@@ -151,7 +160,7 @@ double WindowSolver::weighted_mismatch() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const double mismatch = weights_[i] * links_[i].mismatch().absolute;
-    if (links_[i].lagged()) sum += mismatch * mismatch;
+    if (links_[i].predicts()) sum += mismatch * mismatch;
   }
   return std::sqrt(sum);
 }
@@ -188,7 +197,7 @@ void WindowSolver::accelerate(double length) {
 void WindowSolver::fail(double t, int passes, const char* problem) const {
   const Link* worst = nullptr;
   for (const Link& link : links_) {
-    if (!link.lagged()) continue;
+    if (!link.predicts()) continue;
     if (!worst || !(link.mismatch().relative() <= worst->mismatch().relative())) worst = &link;
   }
   std::string strength;

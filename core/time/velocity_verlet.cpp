@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/operators/block_sum.hpp"
 #include "core/operators/bond_traversal.hpp"
+#include "core/state/all_finite.hpp"
 #include "core/time/equal_steps.hpp"
 #include "core/time/spectral_radius.hpp"
 
@@ -33,12 +35,11 @@ void VelocityVerlet::advance(double begin, double end, Motion& motion) {
       ++steps_;
     }
   }
+  if (all_finite(motion.position)) return;
   const auto bad =
       std::ranges::find_if_not(motion.position, [](double x) { return std::isfinite(x); });
-  if (bad != motion.position.end()) {
-    throw NumericalError(std::string(system_.name()), system_.place(bad - motion.position.begin()),
-                         end, "a value is not finite");
-  }
+  throw NumericalError(std::string(system_.name()), system_.place(bad - motion.position.begin()),
+                       end, "a value is not finite");
 }
 
 /// One step of `length` that ends at t.
@@ -56,11 +57,17 @@ void VelocityVerlet::step(double t, double length, Motion& motion) {
   if (system_.changes()) evaluate(t, motion);
 }
 
-void VelocityVerlet::damp(double factor, Motion& motion) const {
+void VelocityVerlet::damp(double factor, Motion& motion) {
   if (damping_ == 0.0) return;
-  const double before = kinetic_energy(system_.mass(), motion.velocity);
+  const double* const mass = system_.mass().data();
+  double* const v = motion.velocity.data();
+  const double before =
+      block_sum(static_cast<Index>(motion.velocity.size()), block_sums_, [=](Index i) {
+        const double energy = 0.5 * mass[i] * v[i] * v[i];
+        v[i] *= factor;
+        return energy;
+      });
   motion.damped_energy += (1.0 - factor * factor) * before;
-  for (double& v : motion.velocity) v *= factor;
 }
 
 void VelocityVerlet::kick(double length, Motion& motion) const {

@@ -29,10 +29,15 @@ class CrackGraph {
   std::span<const Branch> joint(std::size_t k) const {
     return std::span(branches_).subspan(offset_[k], offset_[k + 1] - offset_[k]);
   }
+  /// All facets, those that meet near each other (Cuthill & McKee).
+  std::span<const Index> order() const { return order_; }
 
  private:
+  void find_order();
+
   std::vector<double> length_;
   std::vector<Index> crack_;
+  std::vector<Index> order_;
   std::vector<std::size_t> offset_{0};
   std::vector<Branch> branches_;
 };

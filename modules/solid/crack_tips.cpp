@@ -20,7 +20,7 @@ constexpr double straight = 1e-6;
 
 }  // namespace
 
-CrackTips::CrackTips(const Body<2>& body, CrackedBody& cracked, FractureEnergy<2> fracture_energy)
+CrackTips::CrackTips(const Body<2>& body, CutBody& cracked, FractureEnergy<2> fracture_energy)
     : body_(body),
       cracked_(cracked),
       fracture_energy_(std::move(fracture_energy)),
@@ -43,7 +43,10 @@ void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
       if (joined) continue;
       const double sign = end == 1 ? 1.0 : -1.0;
       const Vector<2>& along = cracked_.jumps()[f].tangent;
-      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before}, t, true};
+      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before},
+              t,
+              true,
+              body_.nearest_point(place)};
       tip.grows = cracked_.is_intact_along(next_facet(tip.at, 0.0));
       if (tip.grows) tips_.push_back(tip);
     }
@@ -66,7 +69,7 @@ double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
 
 double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
   const CrackTip& at = tip.at;
-  const IsotropicElasticity<2>& law = cracked_.elastic().law(body_.nearest_point(at.place));
+  const IsotropicElasticity<2>& law = cracked_.elastic().law(tip.nearest);
   const double shear = law.shear_modulus, lame = law.lame_lambda;
   // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
   // what counts is the mean of its beginning and end.
@@ -79,30 +82,20 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
     const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
                                 at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
     const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
-    return state.faces.opening[at.before] / tip_law.opening(s + tip_offset * body_.spacing(),
-                                                            s + viscous_offset * body_.spacing(),
-                                                            state.viscosity[at.before], speed);
+    return state.opening[at.before] / tip_law.opening(s + tip_offset * body_.spacing(),
+                                                      s + viscous_offset * body_.spacing(),
+                                                      state.viscosity[at.before], speed);
   }
-  const TipLoad load = energy_release_.at(at, state.unknowns(), state.faces.pressure);
+  const TipLoad load = energy_release_.at(at, state.unknowns(), state.pressure, state.inertia);
   if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
   return std::sqrt(load.energy_release / tip_law.fracture_energy);
-}
-
-/// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
-/// changes as it does K_I.
-double CrackTips::intensity_at_fixed_volume(Index facet) const {
-  const Eigen::VectorXd opening = cracked_.compliance().rowwise().sum();
-  double volume = 0.0;
-  for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
-    volume += cracked_.jumps()[f].length * opening[f];
-  }
-  return opening[facet] / volume;
 }
 
 double CrackTips::find_readiness(const CrackState& state) {
   double most = 0.0;
   for (Tip& tip : tips_) {
-    tip.readiness = tip.grows ? readiness(tip, state) : 0.0;
+    const bool may_go = tip.grows && state.t >= tip.since + state.pause;
+    tip.readiness = may_go ? readiness(tip, state) : 0.0;
     most = std::max(most, tip.readiness);
   }
   return most;
@@ -110,7 +103,7 @@ double CrackTips::find_readiness(const CrackState& state) {
 
 double CrackTips::grow(const CrackState& state) {
   // Where to is asked before the first facet makes the displacements old.
-  const std::vector<Vector<2>> jumps = cracked_.jumps_under(state.faces.pressure);
+  const std::vector<Vector<2>> jumps = state.jumps();
   std::vector<double> turns;
   for (const Tip& tip : tips_) {
     double turn = 0.0;
@@ -132,7 +125,7 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   CrackFacet<2> facet = next_facet(tip.at, turn);
   const bool joined = joins(facet, tip.at, facet[1]);
   const bool known = tip.at.before != no_facet;
-  const double before = known ? intensity_at_fixed_volume(tip.at.before) : 1.0;
+  const double before = known ? cracked_.intensity_at_fixed_volume(tip.at.before) : 1.0;
   if (!cracked_.cut(facet)) {
     tip.grows = false;
     return 0.0;
@@ -140,8 +133,9 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   const FaceJump& jump = cracked_.jumps().back();
   tip.at = {facet[1], jump.tangent, static_cast<Index>(cracked_.facets().size()) - 1, tip.at.facet};
   tip.since = t;
+  tip.nearest = body_.nearest_point(tip.at.place);
   tip.intensity_ratio =
-      known ? std::min(1.0, intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
+      known ? std::min(1.0, cracked_.intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
   tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
   return jump.length * energy_to_cut(facet);
 }
@@ -177,9 +171,13 @@ void CrackTips::visit_state(StateVisitor& visitor) {
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     const double* const n = &numbers[6 * k];
     const std::int64_t* const i = &indices[3 * k];
-    tips_[k] = {{{n[0], n[1]}, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
+    const Vector<2> place = {n[0], n[1]};
+    const bool is_known = tips_[k].nearest >= 0 && tips_[k].at.place == place;
+    const Index nearest = is_known ? tips_[k].nearest : body_.nearest_point(place);
+    tips_[k] = {{place, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
                 n[4],
                 i[2] != 0,
+                nearest,
                 n[5]};
   }
 }

@@ -13,7 +13,7 @@ KeyTable damage_keys() {
        .type = KeyType::word,
        .required = true,
        .words = {"energy_release", "critical_stretch"},
-       .meaning = "energy_release (quasi_static solid): a crack goes on where the energy that "
+       .meaning = "energy_release (2D): a crack goes on where the energy that "
                   "growth sets free, J at its tracked tip, reaches the fracture energy; "
                   "critical_stretch (dynamic solid): a bond breaks where it is stretched too far. "
                   "docs/fracture.md compares them."},
@@ -44,12 +44,6 @@ KeyTable damage_keys() {
 
 namespace {
 
-void require_criterion(const Section& scene, const char* criterion, const char* solid) {
-  const std::string found = scene.word("damage.type");
-  if (found == criterion) return;
-  scene.fail("damage.type", "'" + found + "' in a " + solid + " solid", criterion);
-}
-
 double required_fracture_energy(const Section& scene) {
   if (!scene.has("damage.fracture_energy")) {
     scene.fail("damage", "missing key 'fracture_energy'", "a number in J/m^2");
@@ -59,9 +53,15 @@ double required_fracture_energy(const Section& scene) {
 
 }  // namespace
 
+bool names_critical_stretch(const Section& scene) {
+  return scene.has("damage") && scene.word("damage.type") == "critical_stretch";
+}
+
 FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body) {
   if (!scene.has("damage")) return {std::numeric_limits<double>::infinity()};
-  require_criterion(scene, "energy_release", "quasi_static");
+  if (names_critical_stretch(scene)) {
+    scene.fail("damage.type", "'critical_stretch' in a quasi_static solid", "energy_release");
+  }
   FractureEnergy<2> energy{required_fracture_energy(scene)};
   energy.scatter = read_scatter<2>(scene, "damage.scatter");
   if (!scene.has("damage.regions")) return energy;
@@ -84,8 +84,6 @@ FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body
 template <int D>
 double read_stretch_limit(const Section& scene, const Body<D>& body, const Family<D>& family,
                           const IsotropicElasticity<D>& law) {
-  if (!scene.has("damage")) return std::numeric_limits<double>::infinity();
-  require_criterion(scene, "critical_stretch", "dynamic");
   for (const char* key : {"damage.regions", "damage.scatter"}) {
     if (scene.has(key)) scene.fail(key, "with critical_stretch", "energy_release");
   }

@@ -11,12 +11,14 @@ namespace perifrac {
 /// The keys of the section `damage`.
 KeyTable damage_keys();
 
+/// The scene's bonds break by critical_stretch.
+bool names_critical_stretch(const Section& scene);
+
 /// What the scene's cracks grow at; infinite without a section `damage`. Throws InputError for
 /// another criterion than energy_release.
 FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body);
 
-/// The stretch at which bonds of this rock break; infinite without a section `damage`. Throws
-/// InputError for another criterion than critical_stretch.
+/// The stretch at which bonds of this rock break by critical_stretch. Throws InputError.
 template <int D>
 double read_stretch_limit(const Section& scene, const Body<D>& body, const Family<D>& family,
                           const IsotropicElasticity<D>& law);

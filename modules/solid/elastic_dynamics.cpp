@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "core/errors.hpp"
+#include "core/operators/block_sum.hpp"
 #include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
@@ -107,17 +108,18 @@ void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<do
   unknowns_.resize(owner_.size());
   expand(y, view(prescribed_now_), unknowns_);
   place_plates(view(load_now_), pore_stress_, unknowns_);
-  apply(unknowns_, {pore_stress_, pore_slope_}, inner_, dilatation_);
+  const bool answers = !pore_.value.empty();
+  apply(unknowns_, {pore_stress_, pore_slope_}, inner_,
+        answers ? std::span(dilatation_) : std::span<double>());
+  if (added_ != nullptr) added_->add(t, unknowns_, inner_);
   // Trapezoidal in time: the work that this scheme's energy answers to.
-  double work = 0.0;
-  for (std::size_t k = 0; k < owner_.size(); ++k) {
+  external_work_ += block_sum(static_cast<Index>(owner_.size()), block_sums_, [&](Index k) {
     const double now = owner_[k] == none ? inner_[k] : load_now_[k];
-    work += 0.5 * (external_force_[k] + now) * (unknowns_[k] - before_[k]);
+    const double work = 0.5 * (external_force_[k] + now) * (unknowns_[k] - before_[k]);
     external_force_[k] = now;
-  }
-  external_work_ += work;
-  for_each_point(static_cast<Index>(owner_.size()),
-                 [&](Index k) { inner_[k] = load_now_[k] - inner_[k]; });
+    inner_[k] = load_now_[k] - inner_[k];
+    return work;
+  });
   gather(inner_, force);
 }
 
@@ -275,8 +277,14 @@ std::vector<double> ElasticDynamics<D>::position() const {
 }
 
 template <int D>
+std::span<double> ElasticDynamics<D>::dilatation() {
+  if (pore_.value.empty()) apply(unknowns_, {}, inner_, dilatation_);
+  return dilatation_;
+}
+
+template <int D>
 double ElasticDynamics<D>::elastic_energy() {
-  apply(unknowns_, {}, inner_, scratch_);
+  apply(unknowns_, {}, inner_, {});
   double sum = 0.0;
   for (std::size_t k = 0; k < unknowns_.size(); ++k) sum += 0.5 * unknowns_[k] * inner_[k];
   return sum;

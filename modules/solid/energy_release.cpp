@@ -21,6 +21,10 @@ struct Cutoff {
     return 0.5 * (1.0 + std::cos(M_PI * (distance - inner) / (outer - inner)));
   }
 
+  bool reaches(const Vector<2>& x) const {
+    return std::abs(x[0] - centre[0]) < outer && std::abs(x[1] - centre[1]) < outer;
+  }
+
   Vector<2> gradient(const Vector<2>& x) const {
     const Vector<2> r = {x[0] - centre[0], x[1] - centre[1]};
     const double distance = std::hypot(r[0], r[1]);
@@ -42,12 +46,12 @@ constexpr double largest_kink = 70.0 * M_PI / 180.0;
 }  // namespace
 
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
-                          const Eigen::VectorXd& pressure) const {
+                          const Eigen::VectorXd& pressure, const PointInertia& inertia) const {
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
   }
-  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure)};
+  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, inertia)};
 }
 
 TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
@@ -80,21 +84,30 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
 }
 
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
-                                      const Eigen::VectorXd& pressure) const {
+                                      const Eigen::VectorXd& pressure,
+                                      const PointInertia& inertia) const {
   const Family<2>& family = body_.family();
   const Index points = family.point_count;
   // Near a boundary the ring is drawn in, so as to lie within the body.
   const double radius = (body_.reaches(tip.place, 4.5 * spacing_) ? 4.5 : 3.0) * spacing_;
   const Cutoff cutoff{tip.place, spacing_, radius};
-  const std::span<const double> gradient = body_.gradient(unknowns);
+  BreakableElasticity<2>& elastic = body_.elastic();
+  elastic.look_at(unknowns);
   double sum = 0.0;
   for (Index i = 0; i < points; ++i) {
-    const Vector<2> slope = cutoff.gradient({family.position[0][i], family.position[1][i]});
+    const Vector<2> x = {family.position[0][i], family.position[1][i]};
+    if (!cutoff.reaches(x)) continue;
+    const Vector<2> slope = cutoff.gradient(x);
+    const Tensor<2, 2> g = elastic.gradient_at(i);
+    if (inertia) {
+      const Vector<2> force = inertia(i);
+      for (int a = 0; a < 2; ++a) {
+        const double along = g[a * 2] * tip.direction[0] + g[a * 2 + 1] * tip.direction[1];
+        sum += cutoff.at(x) * force[a] * along;
+      }
+    }
     if (slope == Vector<2>{}) continue;
-    Tensor<2, 2> g;
-    for (int k = 0; k < 4; ++k) g[k] = gradient[static_cast<std::size_t>(k) * points + i];
-    const Tensor<2, 2> stress = body_.elastic().law(i).stress(g);
-    const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
+    const Tensor<2, 2> stress = elastic.law(i).stress(g);
     double work = 0.0;  // d . (grad u^T sigma) . grad q
     for (int a = 0; a < 2; ++a) {
       for (int b = 0; b < 2; ++b) {
@@ -103,10 +116,8 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
         }
       }
     }
-    const PointStiffness own = body_.elastic().point_stiffness(i);
-    Eigen::VectorXd u(own.matrix.rows());
-    for (Eigen::Index k = 0; k < u.size(); ++k) u[k] = unknowns[own.unknowns[k]];
-    sum += family.volume[i] * work - 0.5 * u.dot(own.matrix * u) * along;
+    const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
+    sum += family.volume[i] * work - elastic.point_energy(i, unknowns) * along;
   }
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];

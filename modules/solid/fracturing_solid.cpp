@@ -278,10 +278,15 @@ double FracturingSolid::conclude(const TimeWindow& window) {
 }
 
 CrackState FracturingSolid::crack_state() {
-  return {window_end_, faces_, crack_viscosity_, [this]() -> std::span<const double> {
+  return {.t = window_end_,
+          .opening = faces_.opening,
+          .pressure = faces_.pressure,
+          .viscosity = crack_viscosity_,
+          .unknowns = [this]() -> std::span<const double> {
             find_unknowns();
             return unknowns_;
-          }};
+          },
+          .jumps = [this] { return cracked_.jumps_under(faces_.pressure); }};
 }
 
 void FracturingSolid::visit_state(StateVisitor& visitor) {
