@@ -17,6 +17,8 @@ struct CrackState {
   const CrackedBody::Faces& faces;
   /// Of the fluid at every facet, 0 where it is dry [Pa s]; empty where no fluid is simulated.
   std::span<const double> viscosity;
+  std::span<const double>
+      pore_stress;  ///< of all points [Pa]; empty where no pore flow is simulated
   /// Displacements, found when they are asked for.
   std::function<std::span<const double>()> unknowns;
 

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/operators/bond_traversal.hpp"
+#include "core/operators/shape_tensor.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -31,6 +34,21 @@ struct Cutoff {
   }
 };
 
+/// d . grad a at point i, from the bonds that are left.
+double rise_along(const Vector<2>& d, std::span<const double> a, const Family<2>& family, Index i) {
+  if (is_thin(family, i)) return 0.0;
+  const auto moment = sum_over_bonds<2>(family, i, [&](Index j, const Vector<2>& xi, double w) {
+    const Index end = j < family.point_count ? j : family.ghost_source[j - family.point_count];
+    const double difference = w * (a[end] - a[i]);
+    return std::array{difference * xi[0], difference * xi[1]};
+  });
+  const auto shape = shape_tensor_at(family, i);
+  const double determinant = shape[0] * shape[3] - shape[1] * shape[2];
+  const Vector<2> gradient = {(shape[3] * moment[0] - shape[1] * moment[1]) / determinant,
+                              (shape[0] * moment[1] - shape[2] * moment[0]) / determinant};
+  return gradient[0] * d[0] + gradient[1] * d[1];
+}
+
 /// The jump that turns a straight crack least reliably is the last one.
 constexpr double first_jump = 1.0, last_jump = 3.0;  // spacings behind the tip
 
@@ -42,12 +60,13 @@ constexpr double largest_kink = 70.0 * M_PI / 180.0;
 }  // namespace
 
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
-                          const Eigen::VectorXd& pressure) const {
+                          const Eigen::VectorXd& pressure,
+                          std::span<const double> pore_stress) const {
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
   }
-  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure)};
+  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, pore_stress)};
 }
 
 TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
@@ -80,7 +99,8 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
 }
 
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
-                                      const Eigen::VectorXd& pressure) const {
+                                      const Eigen::VectorXd& pressure,
+                                      std::span<const double> pore_stress) const {
   const Family<2>& family = body_.family();
   const Index points = family.point_count;
   // Near a boundary the ring is drawn in, so as to lie within the body.
@@ -89,12 +109,21 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
   const std::span<const double> gradient = body_.gradient(unknowns);
   double sum = 0.0;
   for (Index i = 0; i < points; ++i) {
-    const Vector<2> slope = cutoff.gradient({family.position[0][i], family.position[1][i]});
-    if (slope == Vector<2>{}) continue;
+    const Vector<2> x = {family.position[0][i], family.position[1][i]};
+    const double q = cutoff.at(x);
+    if (q == 0.0) continue;
     Tensor<2, 2> g;
     for (int k = 0; k < 4; ++k) g[k] = gradient[static_cast<std::size_t>(k) * points + i];
-    const Tensor<2, 2> stress = body_.elastic().law(i).stress(g);
+    Tensor<2, 2> stress = body_.elastic().law(i).stress(g);
+    const Vector<2> slope = cutoff.gradient(x);
     const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
+    if (!pore_stress.empty()) {
+      const double dilatation = g[0] + g[3];
+      for (const int k : {0, 3}) stress[k] -= pore_stress[i];
+      sum += family.volume[i] * dilatation *
+             (pore_stress[i] * along + q * rise_along(tip.direction, pore_stress, family, i));
+    }
+    if (slope == Vector<2>{}) continue;
     double work = 0.0;  // d . (grad u^T sigma) . grad q
     for (int a = 0; a < 2; ++a) {
       for (int b = 0; b < 2; ++b) {

@@ -30,19 +30,23 @@ struct TipLoad : TipJump {
 ///   J = sum V [(grad u^T sigma) grad q . d - W d . grad q] + int (p w + tau s) d . grad q ds,
 /// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry. Of
 /// displacements from the state at rest, so that an initial stress counts as what faces are
-/// relieved of. `unknowns` and `pressure` as CrackedBody has them.
+/// relieved of. With a pore stress a, sigma is the total stress, W is less a theta, and there is
+///   + sum V theta (d . grad a) q,
+/// for a field that is held while the crack grows makes the rock another along the crack.
+/// `unknowns` and `pressure` as CrackedBody has them; `pore_stress` of all points, or empty.
 class EnergyRelease {
  public:
   EnergyRelease(CrackedBody& body, double spacing) : body_(body), spacing_(spacing) {}
 
-  TipLoad at(const CrackTip& tip, std::span<const double> unknowns,
-             const Eigen::VectorXd& pressure) const;
+  TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
+             std::span<const double> pore_stress = {}) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
   TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
 
  private:
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
-                         const Eigen::VectorXd& pressure) const;
+                         const Eigen::VectorXd& pressure,
+                         std::span<const double> pore_stress) const;
 
   CrackedBody& body_;
   double spacing_;

@@ -271,7 +271,7 @@ double FracturingSolid::conclude(const TimeWindow& window) {
 }
 
 CrackState FracturingSolid::crack_state() {
-  return {window_end_, faces_, crack_viscosity_, [this]() -> std::span<const double> {
+  return {window_end_, faces_, crack_viscosity_, pore_stress_, [this]() -> std::span<const double> {
             find_unknowns();
             return unknowns_;
           }};
