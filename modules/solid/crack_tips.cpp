@@ -86,7 +86,8 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
                                                       s + viscous_offset * body_.spacing(),
                                                       state.viscosity[at.before], speed);
   }
-  const TipLoad load = energy_release_.at(at, state.unknowns(), state.pressure, state.inertia);
+  const TipLoad load =
+      energy_release_.at(at, state.unknowns(), state.pressure, state.pore_stress, state.inertia);
   if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
   return std::sqrt(load.energy_release / tip_law.fracture_energy);
 }

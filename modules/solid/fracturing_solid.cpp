@@ -282,6 +282,7 @@ CrackState FracturingSolid::crack_state() {
           .opening = faces_.opening,
           .pressure = faces_.pressure,
           .viscosity = crack_viscosity_,
+          .pore_stress = pore_stress_,
           .unknowns = [this]() -> std::span<const double> {
             find_unknowns();
             return unknowns_;
