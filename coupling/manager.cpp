@@ -23,7 +23,10 @@ CouplingManager::CouplingManager(std::vector<ModuleSlot> modules, const Coupling
                 options.largest_window) {}
 
 void CouplingManager::initialize(double t) {
-  for (ModuleSlot& slot : modules_) slot.module->initialize(t);
+  for (ModuleSlot& slot : modules_) {
+    const ModuleTime counted(slot);
+    slot.module->initialize(t);
+  }
   links_ = connect(modules_, options_.split);
   for (Link& link : links_) link.start();
   if (std::ranges::any_of(links_, &Link::is_foretold)) {

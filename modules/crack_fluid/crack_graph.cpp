@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace perifrac {
 
@@ -14,11 +15,21 @@ CrackGraph::CrackGraph(std::span<const CrackFacet<2>> facets) {
       at[facets[f][end]].push_back({static_cast<Index>(f), end});
     }
   }
+  crack_.resize(length_.size());
+  std::iota(crack_.begin(), crack_.end(), 0);
+  const auto first_of = [&](Index facet) {
+    while (crack_[facet] != facet) facet = crack_[facet];
+    return facet;
+  };
   for (const auto& [place, branches] : at) {
     if (branches.size() < 2) continue;
     branches_.insert(branches_.end(), branches.begin(), branches.end());
     offset_.push_back(branches_.size());
+    for (const Branch& branch : branches) {
+      crack_[first_of(branch.facet)] = first_of(branches.front().facet);
+    }
   }
+  for (Index& crack : crack_) crack = first_of(crack);
   find_order();
 }
 

@@ -20,10 +20,10 @@ constexpr double straight = 1e-6;
 
 }  // namespace
 
-CrackTips::CrackTips(const Body<2>& body, CutBody& cracked, double fracture_energy)
+CrackTips::CrackTips(const Body<2>& body, CutBody& cracked, FractureEnergy<2> fracture_energy)
     : body_(body),
       cracked_(cracked),
-      fracture_energy_(fracture_energy),
+      fracture_energy_(std::move(fracture_energy)),
       energy_release_(cracked, body.spacing()) {}
 
 void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
@@ -61,6 +61,12 @@ CrackFacet<2> CrackTips::next_facet(const CrackTip& tip, double turn) const {
           {tip.place[0] + body_.spacing() * ahead[0], tip.place[1] + body_.spacing() * ahead[1]}};
 }
 
+/// Per length of it [J/m^2].
+double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
+  return fracture_energy_.at(
+      {0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
+}
+
 double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
   const CrackTip& at = tip.at;
   const IsotropicElasticity<2>& law = cracked_.elastic().law(tip.nearest);
@@ -70,7 +76,7 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
   const double needed =
       state.has_fluid() ? 2.0 / (1.0 + tip.intensity_ratio * tip.intensity_ratio) : 1.0;
   const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
-                       needed * fracture_energy_};
+                       needed * energy_to_cut(next_facet(at, 0.0))};
   if (state.has_fluid() && at.before != no_facet && state.viscosity[at.before] > 0.0) {
     const CrackFacet<2>& facet = cracked_.facets()[at.before];
     const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
@@ -106,13 +112,13 @@ double CrackTips::grow(const CrackState& state) {
     }
     turns.push_back(std::abs(turn) < straight ? 0.0 : turn);
   }
-  double length = 0.0;
+  double energy = 0.0;
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     if (tips_[k].grows && tips_[k].readiness >= ready) {
-      length += advance(tips_[k], turns[k], state.t);
+      energy += advance(tips_[k], turns[k], state.t);
     }
   }
-  return length;
+  return energy;
 }
 
 double CrackTips::advance(Tip& tip, double turn, double t) {
@@ -131,7 +137,7 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   tip.intensity_ratio =
       known ? std::min(1.0, cracked_.intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
   tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
-  return jump.length;
+  return jump.length * energy_to_cut(facet);
 }
 
 /// The facet would come close to an end of another crack's, where it is to end.

@@ -8,6 +8,7 @@
 #include "core/state/state_visitor.hpp"
 #include "modules/solid/cut_body.hpp"
 #include "modules/solid/energy_release.hpp"
+#include "modules/solid/fracture_energy.hpp"
 
 namespace perifrac {
 
@@ -34,15 +35,14 @@ struct CrackState {
 /// Where the facet would come close to the end of another it ends there, and so does the tip.
 class CrackTips {
  public:
-  /// `fracture_energy`: Gc [J/m^2].
-  CrackTips(const Body<2>& body, CutBody& cracked, double fracture_energy);
+  CrackTips(const Body<2>& body, CutBody& cracked, FractureEnergy<2> fracture_energy);
 
   /// Takes the ends of the seeds that no other seed touches and that lie in the rock.
   void start(std::span<const CrackFacet<2>> seeds, double t);
 
   /// How close the tips are to growth, the largest: 1 at it.
   double find_readiness(const CrackState& state);
-  /// Those that were found ready go on; returns the length of the new facets [m].
+  /// Those that were found ready go on; returns the energy that the new facets take [J/m].
   double grow(const CrackState& state);
 
   void visit_state(StateVisitor& visitor);
@@ -58,6 +58,7 @@ class CrackTips {
     double readiness = 0.0;
   };
 
+  double energy_to_cut(const CrackFacet<2>& facet) const;
   double readiness(const Tip& tip, const CrackState& state) const;
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
   bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
@@ -65,7 +66,7 @@ class CrackTips {
 
   const Body<2>& body_;
   CutBody& cracked_;
-  double fracture_energy_;
+  FractureEnergy<2> fracture_energy_;
   EnergyRelease energy_release_;
   std::vector<Tip> tips_;
 };

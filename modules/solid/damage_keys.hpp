@@ -3,6 +3,7 @@
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/geometry/body.hpp"
+#include "modules/solid/fracture_energy.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -13,9 +14,9 @@ KeyTable damage_keys();
 /// The scene's bonds break by critical_stretch.
 bool names_critical_stretch(const Section& scene);
 
-/// The fracture energy that the scene's cracks grow at [J/m^2]; infinite without a section
-/// `damage`. Throws InputError for another criterion than energy_release.
-double read_fracture_energy(const Section& scene);
+/// What the scene's cracks grow at; infinite without a section `damage`. Throws InputError for
+/// another criterion than energy_release.
+FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body);
 
 /// The stretch at which bonds of this rock break by critical_stretch. Throws InputError.
 template <int D>

@@ -41,14 +41,15 @@ DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
                                  std::shared_ptr<BreakableElasticity<2>> elastic,
                                  const SolidBoundary<2>& boundary, double density, double damping,
                                  double safety, std::optional<Vector<2>> initial_stress,
-                                 std::vector<CrackFacet<2>> seeds, double fracture_energy)
+                                 std::vector<CrackFacet<2>> seeds,
+                                 FractureEnergy<2> fracture_energy)
     : DynamicSolid<2>(body, elastic, boundary, density, damping, safety),
       damping_(damping),
       seeds_(seeds),
       bonds_(body->claim_bond_state()),
       cracks_(family, body->spacing(), elastic, bonds_, initial_stress, std::move(seeds),
               release_time(*body, *elastic, density)),
-      tips_(*body, cracks_, fracture_energy),
+      tips_(*body, cracks_, std::move(fracture_energy)),
       first_port_(static_cast<PortId>(ports_.size())) {
   system_->set_added_force(cracks_);
   using enum PortDirection;

@@ -18,12 +18,12 @@ namespace perifrac {
 /// (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what growth took.
 class DynamicFracture final : public DynamicSolid<2> {
  public:
-  /// As DynamicSolid and CutBody. `fracture_energy`: Gc [J/m^2]; infinite: no crack grows.
+  /// As DynamicSolid and CutBody. `fracture_energy` infinite: no crack grows.
   DynamicFracture(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
                   std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
                   double density, double damping, double safety,
                   std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
-                  double fracture_energy);
+                  FractureEnergy<2> fracture_energy);
 
   PortView port(PortId id) override;
   void initialize(double t) override;

@@ -31,10 +31,10 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
                                  std::shared_ptr<BreakableElasticity<2>> elastic,
                                  const SolidBoundary<2>& boundary,
                                  std::optional<Vector<2>> initial_stress,
-                                 std::vector<CrackFacet<2>> seeds, double fracture_energy)
+                                 std::vector<CrackFacet<2>> seeds,
+                                 FractureEnergy<2> fracture_energy)
     : body_(std::move(body)),
       seeds_(std::move(seeds)),
-      fracture_energy_(fracture_energy),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
           InterfaceForce::port(2),
@@ -47,6 +47,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
           {"crack_opening", "m", PortDirection::out},
           {"free_crack_opening", "m", PortDirection::out, PortKind::intensive, PortRole::property},
           {"crack_length", "m", PortDirection::out},
+          {"open_crack_length", "m", PortDirection::out},
           {"elastic_energy", "J/m", PortDirection::out, PortKind::extensive,
            PortRole::energy_stored},
           {"external_work", "J/m", PortDirection::out, PortKind::extensive,
@@ -59,7 +60,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
       cracked_(family, body_->spacing(), elastic,
                boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
                seeds_),
-      tips_(*body_, cracked_, fracture_energy) {
+      tips_(*body_, cracked_, std::move(fracture_energy)) {
   const auto mirror = boundary.mirror_condition(*family);
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
@@ -133,6 +134,12 @@ PortView FracturingSolid::port(PortId id) {
       crack_length_ = 0.0;
       for (const FaceJump& jump : cracked_.jumps()) crack_length_ += jump.length;
       return {&whole_body, {&crack_length_, 1}};
+    case open_crack_length:
+      open_length_ = 0.0;
+      for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
+        if (faces_.opening[f] > 0.0) open_length_ += cracked_.jumps()[f].length;
+      }
+      return {&whole_body, {&open_length_, 1}};
     case elastic_energy:
       if (!is_steady()) derive();
       return {&whole_body, {&elastic_energy_, 1}};
@@ -258,13 +265,13 @@ double FracturingSolid::conclude(const TimeWindow& window) {
   book_work();
   readiness_before_ = most;
   while (most >= ready) {
-    const double growth = tips_.grow(crack_state());
-    spent_energy_ += fracture_energy_ * growth;
+    const double spent = tips_.grow(crack_state());
+    spent_energy_ += spent;
     last_growth_ = window.end;
     readiness_before_ = 0.0;
     solve_faces();
     book_work();
-    if (wet() || growth == 0.0) break;
+    if (wet() || spent == 0.0) break;
     most = tips_.find_readiness(crack_state());
   }
   return window.end;

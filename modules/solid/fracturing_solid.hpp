@@ -24,15 +24,16 @@ namespace perifrac {
 /// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
 /// `crack_opening` [m], and the property `free_crack_opening` [m], what it would be if closed faces
 /// did not press on each other (negative: they pass through one another), with its slope against
-/// crack_pressure, a matrix. `damage` of the points (paper Eq 16), `crack_length` [m] and
+/// crack_pressure, a matrix. `damage` of the points (paper Eq 16), `crack_length` [m], of it
+/// `open_crack_length` where faces are apart, and
 /// `fracture_energy` [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
  public:
-  /// `fracture_energy`: Gc [J/m^2]; infinite: no crack grows.
+  /// `fracture_energy` infinite: no crack grows.
   FracturingSolid(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
                   std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
                   std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
-                  double fracture_energy);
+                  FractureEnergy<2> fracture_energy);
 
   /// As QuasiStaticSolid's.
   std::string free_motion() const;
@@ -59,6 +60,7 @@ class FracturingSolid final : public PhysicsModule {
     crack_opening,
     free_crack_opening,
     crack_length,
+    open_crack_length,
     elastic_energy,
     external_work,
     fracture_energy,
@@ -80,7 +82,6 @@ class FracturingSolid final : public PhysicsModule {
 
   std::shared_ptr<const Body<2>> body_;
   std::vector<CrackFacet<2>> seeds_;
-  double fracture_energy_;  ///< Gc [J/m^2]
   std::vector<Port> ports_;
   std::vector<Index> plate_unknowns_;
   Eigen::SparseMatrix<double> free_unknowns_;
@@ -103,6 +104,7 @@ class FracturingSolid final : public PhysicsModule {
   double external_work_ = 0.0;
   double spent_energy_ = 0.0;      ///< on new faces [J/m]
   double crack_length_ = 0.0;      ///< made when it is asked for
+  double open_length_ = 0.0;       ///< likewise
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
   double last_growth_ = 0.0;       ///< [s]
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/geometry/crack_seeds.hpp"
 #include "modules/solid/damage_keys.hpp"
 #include "modules/solid/dynamic_fracture.hpp"
@@ -9,6 +11,7 @@
 #include "modules/solid/fracturing_solid.hpp"
 #include "modules/solid/material.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
+#include "modules/solid/rigid_slits.hpp"
 #include "modules/solid/rigid_solid.hpp"
 #include "modules/solid/solid_boundary_keys.hpp"
 
@@ -23,13 +26,13 @@ bool has_cracks(const Section& section) {
 /// What a scene's cracks that facets make are.
 struct Cracks {
   std::vector<CrackFacet<2>> seeds;
-  double fracture_energy;
+  FractureEnergy<2> fracture_energy;
 };
 
 Cracks read_cracks(const Section& section, const Body<2>& body) {
   const Section scene = section.scene();
   Cracks cracks{.seeds = read_crack_seeds(scene, body.spacing()),
-                .fracture_energy = read_fracture_energy(scene)};
+                .fracture_energy = read_fracture_energy(scene, body)};
   if (cracks.seeds.empty()) {
     scene.fail("damage", "no crack to grow", "a list 'cracks' with one crack or more");
   }
@@ -146,6 +149,21 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
   return make(std::move(elastic), std::move(breaking));
 }
 
+std::unique_ptr<PhysicsModule> make_rigid(const Section& section, const AnyBody& any) {
+  const Section scene = section.scene();
+  if (scene.count("cracks") == 0) return std::make_unique<RigidSolid>();
+  const auto* const body = std::get_if<std::shared_ptr<const Body<2>>>(&any);
+  if (body == nullptr) scene.fail("cracks", "cracks in 3D", "dimension: 2");
+  std::vector<CrackFacet<2>> facets;
+  std::vector<double> opening;
+  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
+    const std::vector<CrackFacet<2>> crack = read_crack(scene, k, (*body)->spacing());
+    facets.insert(facets.end(), crack.begin(), crack.end());
+    opening.resize(facets.size(), scene.number(fmt::format("cracks[{}].opening", k)));
+  }
+  return std::make_unique<RigidSlits>(*body, facets, std::move(opening));
+}
+
 /// Keys of one elastic solid may stand beside another, so that one word swaps them.
 KeyTable elastic_keys() {
   KeyTable keys = material_keys();
@@ -207,9 +225,7 @@ ModuleType rigid_solid_type() {
           .name = "rigid",
           .meaning = "Solid that does not deform: no unknowns, no cost.",
           .keys = rigid_keys(),
-          .make = [](const Section&, const AnyBody&) -> std::unique_ptr<PhysicsModule> {
-            return std::make_unique<RigidSolid>();
-          }};
+          .make = make_rigid};
 }
 
 }  // namespace perifrac

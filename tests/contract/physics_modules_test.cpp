@@ -86,6 +86,8 @@ const std::vector<Variant>& variants() {
                "damage={type: critical_stretch, fracture_energy: 1 kJ/m^2}"}),
       variant("dynamic_3d", "solid/dynamic", box_3d + dynamic_3d),
       variant("rigid", "solid/rigid", box_2d + rigid),
+      variant("rigid_slits", "solid/rigid", box_2d + rigid,
+              {"cracks=[{name: slit, path: [2 m, 4 m, 6 m, 5 m], opening: 1 mm}]"}),
       variant("darcy_cvode_2d", "pore_flow/darcy", box_2d + darcy),
       variant("darcy_cvode_3d", "pore_flow/darcy", box_3d + darcy),
       variant("darcy_krylov", "pore_flow/darcy", box_2d + darcy,

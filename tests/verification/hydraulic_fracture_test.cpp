@@ -38,5 +38,36 @@ TEST(HfStorage, TurnsFromASlopedNotch) {
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
 }
 
+double ledger(const SceneRun& run, const char* entry) {
+  return run.summary["ledger"][entry]["value"];
+}
+
+/// A crack runs 20 mm up to a layer that is too tough for it, and 80 mm to the far side without.
+TEST(Griffith, StopsAtATougherLayer) {
+  EXPECT_NEAR(ledger(run_config("griffith"), "energy_dissipated"), 50.0 * 0.080, 1e-6);
+  const SceneRun run =
+      run_config("griffith", {"body.regions={outer: {from: [40 mm, 0 mm]}}",
+                              "damage.regions={outer: {fracture_energy: 5 kJ/m^2}}"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NEAR(ledger(run, "energy_dissipated"), 50.0 * 0.020, 1e-6);
+}
+
+/// Stiffness and toughness that scatter: another rock by another seed. Loads that grow until the
+/// crack has gone some way, not to the end.
+TEST(Griffith, GrowsInARockThatScatters) {
+  const auto run = [](int seed) {
+    const std::string scatter =
+        "{coefficient_of_variation: 0.3, correlation_length: 10 mm, seed: " + std::to_string(seed) +
+        "}";
+    return run_config("griffith", {"solid.material.scatter=" + scatter, "damage.scatter=" + scatter,
+                                   "solid.boundary.top.normal_displacement=0.4 mm"});
+  };
+  const SceneRun one = run(1), same = run(1), other = run(2);
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_GT(ledger(one, "energy_dissipated"), 0.0);
+  EXPECT_EQ(ledger(one, "energy_dissipated"), ledger(same, "energy_dissipated"));
+  EXPECT_NE(ledger(one, "energy_dissipated"), ledger(other, "energy_dissipated"));
+}
+
 }  // namespace
 }  // namespace perifrac::test
