@@ -46,6 +46,7 @@ void VelocityVerlet::advance(double begin, double end, Motion& motion) {
 void VelocityVerlet::step(double t, double length, Motion& motion) {
   const double factor = std::exp(-0.5 * damping_ * length);
   damp(factor, motion);
+  system_.begin_step(length, motion.velocity);
   kick(0.5 * length, motion);
   const double* const v = motion.velocity.data();
   double* const y = motion.position.data();
@@ -53,6 +54,7 @@ void VelocityVerlet::step(double t, double length, Motion& motion) {
                  [=](Index i) { y[i] += length * v[i]; });
   evaluate(t, motion);
   kick(0.5 * length, motion);
+  system_.end_step(length, motion.velocity);
   damp(factor, motion);
   if (system_.changes()) evaluate(t, motion);
 }

@@ -7,6 +7,7 @@
 
 #include "core/geometry/crack_cut.hpp"
 #include "core/solvers/complementarity.hpp"
+#include "modules/solid/stiffness_bound.hpp"
 
 namespace perifrac {
 
@@ -18,21 +19,30 @@ CrackDynamics::CrackDynamics(std::shared_ptr<Family<2>> family, double spacing,
               std::move(seeds)),
       release_(release) {}
 
-void CrackDynamics::set_motion(ElasticDynamics<2>& system) {
+void CrackDynamics::start(ElasticDynamics<2>& system, double t) {
   system_ = &system;
-  terms_.clear();
-  for (const CrackFacet<2>& facet : facets()) add_facet(facet);
-  find_answers();
-}
-
-void CrackDynamics::start(double t) {
   t_ = t;
   held_.clear();
   relief_work_ = spent_energy_ = contact_loss_ = 0.0;
-  for (Eigen::VectorXd* field : {&opening_, &sliding_, &pressure_}) {
+  for (Eigen::VectorXd* field :
+       {&opening_, &sliding_, &pressure_, &contact_, &given_, &given_by_contact_}) {
     field->setZero(static_cast<Eigen::Index>(facets().size()));
   }
   face_force_.assign(2 * static_cast<std::size_t>(family_->point_count), 0.0);
+  terms_.clear();
+  for (const CrackFacet<2>& facet : facets()) add_facet(facet);
+  find_answers();
+  stiffest_at_start_ = 0.0;
+  for (Index i = 0; i < family_->point_count; ++i) {
+    stiffest_at_start_ =
+        std::max(stiffest_at_start_, stiffness_bound(*family_, elastic_->law(i), i));
+  }
+}
+
+/// Faces, tips and corners are among the stiffest points from the start; a crack that goes on
+/// straight makes no stiffer ones.
+void CrackDynamics::note_stiffness(Index i) {
+  growth_ = std::max(growth_, stiffness_bound(*family_, elastic_->law(i), i) / stiffest_at_start_);
 }
 
 /// What the motion needs to know of the facet; its jump once.
@@ -72,8 +82,9 @@ void CrackDynamics::find_answers() {
   }
   answers_.clear();
   for (const auto& row : answers) answers_.emplace_back(row.begin(), row.end());
+  forecast_.assign(terms_.size(), 0.0);
+  slope_.assign(terms_.size() * terms_.size(), 0.0);
   slope_step_ = -1.0;
-  foretell(0.0, 1.0, {}, {});
 }
 
 void CrackDynamics::read_jump(Index f, std::span<const double> u) {
@@ -123,7 +134,6 @@ void CrackDynamics::add_faces(std::span<const double> u, std::span<double> inner
 void CrackDynamics::foretell(double step, double decay, std::span<const double> velocity,
                              std::span<const double> acceleration) {
   const std::size_t count = terms_.size();
-  step_ = step;
   forecast_.assign(opening_.begin(), opening_.end());
   for (std::size_t f = 0; f < count && step > 0.0; ++f) {
     double change = 0.0;
@@ -132,16 +142,14 @@ void CrackDynamics::foretell(double step, double decay, std::span<const double> 
       change +=
           term.normal * (decay * velocity[term.moved] + 0.5 * step * acceleration[term.moved]);
     }
+    for (const auto& [g, answer] : answers_[f]) change -= answer * given_[g];
     forecast_[f] += step * change;
   }
-  if (slope_step_ == step && slope_decay_ == decay) return;
+  if (slope_step_ == step) return;
   slope_step_ = step;
-  slope_decay_ = decay;
   slope_.assign(count * count, 0.0);
   for (std::size_t f = 0; f < count; ++f) {
-    for (const auto& [g, answer] : answers_[f]) {
-      slope_[f * count + g] = decay * step * step * answer;
-    }
+    for (const auto& [g, answer] : answers_[f]) slope_[f * count + g] = step * step * answer;
   }
 }
 
@@ -153,35 +161,56 @@ double CrackDynamics::opening_rate(std::size_t f, std::span<const double> veloci
   return rate;
 }
 
-void CrackDynamics::press(std::span<const double> pressure, std::span<double> velocity) {
+void CrackDynamics::press(std::span<const double> pressure) {
   const auto count = static_cast<Eigen::Index>(terms_.size());
-  pressure_ = Eigen::Map<const Eigen::VectorXd>(pressure.data(), count);
   const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(slope_.data(), count,
                                                                                count);
-  Eigen::VectorXd contact = Eigen::VectorXd::Zero(count);
-  if (step_ > 0.0) {
-    const Eigen::VectorXd free =
-        Eigen::Map<const Eigen::VectorXd>(forecast_.data(), count) + slope * pressure_;
-    if (free.minCoeff() < 0.0) {
-      contact = solve_complementarity(slope, free, 1e-14 * spacing_).x;
-      pressure_ += contact;
-    }
+  pressure_ = Eigen::Map<const Eigen::VectorXd>(pressure.data(), count);
+  contact_.setZero(count);
+  const Eigen::VectorXd free =
+      Eigen::Map<const Eigen::VectorXd>(forecast_.data(), count) + slope * pressure_;
+  if (free.minCoeff() < 0.0 && slope(0, 0) > 0.0) {
+    contact_ = solve_complementarity(slope, free, 1e-14 * spacing_).x;
+    pressure_ += contact_;
   }
   for (const auto& terms : terms_) {
     for (const Term& term : terms) face_force_[term.unknown] = 0.0;
   }
+  for (std::size_t f = 0; f < terms_.size(); ++f) {
+    for (const Term& term : terms_[f]) {
+      face_force_[term.unknown] += jumps_[f].length * pressure_[f] * term.normal;
+    }
+  }
+}
+
+void CrackDynamics::begin_step(double step, std::span<double> velocity) {
+  strike(step * pressure_ - given_, step * contact_ - given_by_contact_, velocity);
+}
+
+void CrackDynamics::end_step(double step, std::span<double> velocity) {
+  given_ = 0.5 * step * pressure_;
+  given_by_contact_ = 0.5 * step * contact_;
+  strike(given_, given_by_contact_, velocity);
+}
+
+/// Velocities take an impulse of pressure, of which contact is a part that does work by itself.
+void CrackDynamics::strike(const Eigen::VectorXd& impulse, const Eigen::VectorXd& contact,
+                           std::span<double> velocity) {
+  const auto book = [&] {
+    for (std::size_t f = 0; f < terms_.size(); ++f) {
+      if (contact[f] == 0.0) continue;
+      contact_loss_ -= 0.5 * jumps_[f].length * contact[f] * opening_rate(f, velocity);
+    }
+  };
+  book();
   const std::span<const double> mass = system_->mass();
   for (std::size_t f = 0; f < terms_.size(); ++f) {
-    const double total = jumps_[f].length * pressure_[f];
-    const double closing = contact[f] == 0.0 ? 0.0 : opening_rate(f, velocity);
+    const double total = jumps_[f].length * impulse[f];
     for (const Term& term : terms_[f]) {
-      face_force_[term.unknown] += total * term.normal;
-      if (term.moved >= 0) velocity[term.moved] += step_ * total * term.normal / mass[term.moved];
+      if (term.moved >= 0) velocity[term.moved] += total * term.normal / mass[term.moved];
     }
-    if (contact[f] == 0.0) continue;
-    contact_loss_ -=
-        0.5 * step_ * jumps_[f].length * contact[f] * (closing + opening_rate(f, velocity));
   }
+  book();
 }
 
 std::vector<Vector<2>> CrackDynamics::jumps_at(std::span<const double> unknowns) const {
@@ -221,13 +250,15 @@ bool CrackDynamics::cut(const CrackFacet<2>& facet) {
   for (const Index i : points) spent_energy_ += elastic_->point_energy(i, u);
   break_bonds(bonds);
   for (const Index i : points) spent_energy_ -= elastic_->point_energy(i, u);
+  for (const Index i : points) note_stiffness(i);
   bonds_.add_facet(facet, bonds);
   followed_ = bonds_.version();
   add_facet(facet);
   system_->find_bond_force(after);
 
   const Index f = static_cast<Index>(terms_.size()) - 1;
-  for (Eigen::VectorXd* field : {&opening_, &sliding_, &pressure_}) {
+  for (Eigen::VectorXd* field :
+       {&opening_, &sliding_, &pressure_, &contact_, &given_, &given_by_contact_}) {
     field->conservativeResize(f + 1);
     (*field)[f] = 0.0;
   }
@@ -255,6 +286,13 @@ void CrackDynamics::visit_state(StateVisitor& visitor) {
   visitor.visit("relief_work", relief_work_);
   visitor.visit("fracture_energy", spent_energy_);
   visitor.visit("contact_loss", contact_loss_);
+  const auto visit = [&](const char* name, Eigen::VectorXd& field) {
+    std::vector<double> values(field.begin(), field.end());
+    visitor.visit(name, values);
+    field = Eigen::Map<Eigen::VectorXd>(values.data(), std::ssize(values));
+  };
+  visit("given_impulse", given_);
+  visit("given_contact_impulse", given_by_contact_);
   std::vector<std::int64_t> unknowns;
   std::vector<double> numbers;
   for (const Held& held : held_) {
@@ -289,22 +327,30 @@ void CrackDynamics::visit_state(StateVisitor& visitor) {
   bonds_.visit_state(visitor);
 }
 
-bool CrackDynamics::follow_bonds() {
-  if (bonds_.version() == followed_) return false;
+void CrackDynamics::follow_state() {
+  if (bonds_.version() == followed_) return;
   followed_ = bonds_.version();
   mend();
   std::vector<std::pair<Index, Index>> broken;
-  for (const BrokenBond& bond : bonds_.broken()) broken.emplace_back(bond.i, bond.j);
+  std::set<Index> points;
+  for (const BrokenBond& bond : bonds_.broken()) {
+    broken.emplace_back(bond.i, bond.j);
+    points.insert({bond.i, bond.j});
+  }
   break_bonds(broken);
+  growth_ = 1.0;
+  for (const Index i : points) note_stiffness(i);
   jumps_.clear();
-  return true;
+  terms_.clear();
+  for (const CrackFacet<2>& facet : facets()) add_facet(facet);
+  find_answers();
 }
 
-void CrackDynamics::follow(double t, std::span<const double> u) {
-  t_ = t;
+void CrackDynamics::read_jumps() {
   const auto count = static_cast<Eigen::Index>(terms_.size());
-  for (Eigen::VectorXd* field : {&opening_, &sliding_, &pressure_}) field->setZero(count);
-  for (Index f = 0; f < count; ++f) read_jump(f, u);
+  for (Eigen::VectorXd* field : {&opening_, &sliding_, &pressure_, &contact_})
+    field->setZero(count);
+  for (Index f = 0; f < count; ++f) read_jump(f, system_->unknowns());
 }
 
 }  // namespace perifrac

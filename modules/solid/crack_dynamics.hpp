@@ -12,10 +12,11 @@ namespace perifrac {
 
 /// The cracks of a solid with inertia: what their faces do to it.
 ///
-/// Fluid pressure is an impulse at the beginning of every step: with it the opening at the step's
+/// The pressure of a step acts as one impulse at its beginning: with it the opening at the step's
 /// end is known ahead but for its part slope * pressure, slope = h^2 D M^-1 D^T (D takes
 /// displacements to openings), and a pressure that keeps an opening as it is has no memory of the
-/// last one, as it would if it were split between the step's ends.
+/// last one, as it would if it were split between the step's ends. Velocities are given half an
+/// impulse before it is known, and the rest then, so that they are those of their time.
 ///
 /// Faces that would overlap at the step's end carry the pressure beside it that leaves them closed,
 /// without friction.
@@ -30,21 +31,26 @@ class CrackDynamics final : public CutBody, public AddedForce {
                 std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
                 double release);
 
-  /// The motion that the cracks are part of, which must stay. Again after facets were added.
-  void set_motion(ElasticDynamics<2>& system);
-  void start(double t);
+  /// Of the motion that the cracks are part of, which must stay.
+  void start(ElasticDynamics<2>& system, double t);
 
   bool cut(const CrackFacet<2>& facet) override;
   double intensity_at_fixed_volume(Index facet) const override;
+  /// After the last cut of a step: how openings answer to pressure.
+  void find_answers();
+
   void add(double t, std::span<const double> u, std::span<double> inner) override;
+  double stiffness_growth() const override { return growth_; }
+  void follow_state() override;
 
   /// Where every facet opens to in a step from these velocities and accelerations, and how that
   /// answers to a pressure, a matrix; velocities fall by `decay` first.
   void foretell(double step, double decay, std::span<const double> velocity,
                 std::span<const double> acceleration);
-  /// Gives velocities the impulse of a pressure in the facets, and of contact, over the step that
-  /// was foretold.
-  void press(std::span<const double> pressure, std::span<double> velocity);
+  /// Takes the pressure in the facets for the step that was foretold, and finds that of contact.
+  void press(std::span<const double> pressure);
+  void begin_step(double step, std::span<double> velocity) override;
+  void end_step(double step, std::span<double> velocity) override;
 
   std::span<double> forecast() { return forecast_; }             ///< without contact [m]
   std::span<double> slope() { return slope_; }                   ///< [m/Pa]
@@ -60,10 +66,8 @@ class CrackDynamics final : public CutBody, public AddedForce {
   double spent_energy() const { return spent_energy_; }  ///< on new faces [J/m]
 
   void visit_state(StateVisitor& visitor);
-  /// The state was replaced: builds the body that its bonds belong to; true where it is another.
-  bool follow_bonds();
-  /// Then reads the jumps.
-  void follow(double t, std::span<const double> u);
+  /// After follow_state(): of the present displacements.
+  void read_jumps();
 
  private:
   /// A displacement that a facet's jump depends on.
@@ -84,7 +88,9 @@ class CrackDynamics final : public CutBody, public AddedForce {
   };
 
   void add_facet(const CrackFacet<2>& facet);
-  void find_answers();
+  void note_stiffness(Index i);
+  void strike(const Eigen::VectorXd& impulse, const Eigen::VectorXd& contact,
+              std::span<double> velocity);
   double opening_rate(std::size_t f, std::span<const double> velocity) const;
   void read_jump(Index f, std::span<const double> u);
   void hold(double t, std::span<const double> u, std::span<double> inner);
@@ -92,17 +98,21 @@ class CrackDynamics final : public CutBody, public AddedForce {
 
   double release_;
   ElasticDynamics<2>* system_ = nullptr;
-  double t_ = 0.0;  ///< of the last force
+  double t_ = 0.0;                  ///< of the last force
+  double stiffest_at_start_ = 0.0;  ///< stiffness_bound(), the largest of all points
+  double growth_ = 1.0;
 
   std::vector<std::vector<Term>> terms_;  ///< by facet
   /// D M^-1 D^T by facet: opening per impulse of pressure [m^2/(N s) m].
   std::vector<std::vector<std::pair<Index, double>>> answers_;
   Eigen::VectorXd opening_, sliding_;  ///< [m]
   Eigen::VectorXd pressure_;           ///< [Pa]
+  Eigen::VectorXd contact_;            ///< its part [Pa]
+  /// Impulse of the next step that was given before, and that of contact in it [Pa s].
+  Eigen::VectorXd given_, given_by_contact_;
   std::vector<double> face_force_;
   std::vector<double> forecast_, slope_;
-  double step_ = 0.0;                             ///< that forecast_ is of [s]
-  double slope_step_ = -1.0, slope_decay_ = 0.0;  ///< that slope_ is of
+  double slope_step_ = -1.0;  ///< that slope_ is of [s]
   std::vector<Held> held_;
   double relief_work_ = 0.0, spent_energy_ = 0.0, contact_loss_ = 0.0;
 };

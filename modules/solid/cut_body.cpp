@@ -16,6 +16,11 @@ CutBody::CutBody(std::shared_ptr<Family<2>> family, double spacing,
       bonds_(bonds),
       seeds_(std::move(seeds)),
       initial_stress_(initial_stress) {
+  for (int a = 0; a < 2; ++a) {
+    const auto [least, largest] =
+        std::ranges::minmax(std::span(family_->position[a]).first(family_->point_count));
+    box_[a] = {least, largest};
+  }
   cut_seeds();
 }
 
@@ -77,8 +82,7 @@ Vector<2> CutBody::jump(Index f, std::span<const double> unknowns) const {
 
 bool CutBody::reaches(const Vector<2>& x, double distance) const {
   for (int a = 0; a < 2; ++a) {
-    const auto points = std::span(family_->position[a]).first(family_->point_count);
-    const auto [least, largest] = std::ranges::minmax(points);
+    const auto [least, largest] = box_[a];
     if (x[a] - distance < least || x[a] + distance > largest) return false;
   }
   return true;

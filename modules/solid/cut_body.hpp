@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -61,7 +62,8 @@ class CutBody {
   std::uint64_t followed_ = 0;  ///< version of the bonds that this body has
   std::vector<CrackFacet<2>> seeds_;
   std::optional<Vector<2>> initial_stress_;
-  std::vector<FaceJump> jumps_;  ///< by facet
+  std::vector<FaceJump> jumps_;                   ///< by facet
+  std::array<std::pair<double, double>, 2> box_;  ///< of the points, by axis
 };
 
 }  // namespace perifrac

@@ -103,8 +103,7 @@ double DynamicFracture::scalar(PortId id) {
 
 void DynamicFracture::initialize(double t) {
   DynamicSolid<2>::initialize(t);
-  cracks_.start(t);
-  cracks_.set_motion(*system_);
+  cracks_.start(*system_, t);
   tips_.start(seeds_, t);
 }
 
@@ -123,7 +122,7 @@ double DynamicFracture::advance(const TimeWindow& window) {
     const double part = static_cast<double>(n) / static_cast<double>(steps);
     const double end = n == steps ? window.end : window.begin + part * window.length();
     foretell(begin, end - begin);
-    cracks_.press(crack_pressure_, motion_.velocity);
+    cracks_.press(crack_pressure_);
     DynamicSolid<2>::advance({begin, end});
     begin = end;
   }
@@ -133,8 +132,8 @@ double DynamicFracture::advance(const TimeWindow& window) {
 double DynamicFracture::conclude(const TimeWindow& window) {
   if (!(window.length() > 0.0) || tips_.find_readiness(crack_state()) < ready) return window.end;
   if (tips_.grow(crack_state()) == 0.0) return window.end;
-  system_->note_stiffness();
-  cracks_.set_motion(*system_);
+  system_->note_broken_bonds();
+  cracks_.find_answers();
   verlet_->evaluate(time_, motion_);
   return window.end;
 }
@@ -169,11 +168,8 @@ void DynamicFracture::visit_state(StateVisitor& visitor) {
 }
 
 void DynamicFracture::on_restored(double t) {
-  const bool is_another = cracks_.follow_bonds();
-  if (is_another) system_->note_stiffness();
   DynamicSolid<2>::on_restored(t);
-  if (is_another) cracks_.set_motion(*system_);
-  cracks_.follow(t, system_->unknowns());
+  cracks_.read_jumps();
 }
 
 }  // namespace perifrac

@@ -136,7 +136,7 @@ template <int D>
 void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<double> product) {
   expand(v, {}, trial_);
   place_plates({}, {}, trial_);
-  apply(trial_, {no_pore_stress_, reference_slope_}, inner_, scratch_);
+  apply(trial_, {no_pore_stress_, reference_slope_}, inner_, {});
   gather(inner_, product);
 }
 
@@ -266,7 +266,11 @@ void ElasticDynamics<D>::derive() {
     breaking_->follow_bonds();
     plate_rows_known_ = false;
   }
-  apply(unknowns_, {}, inner_, dilatation_);
+  if (added_ != nullptr) {
+    added_->follow_state();
+    plate_rows_known_ = false;
+  }
+  apply(unknowns_, {}, inner_, pore_.value.empty() ? std::span<double>() : dilatation_);
 }
 
 template <int D>

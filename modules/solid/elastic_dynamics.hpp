@@ -32,6 +32,13 @@ class AddedForce {
   /// Takes its force at time t [s] and displacements u from the inner force on every unknown [N].
   /// Called once at each time that is reached, and again where something jumped.
   virtual void add(double t, std::span<const double> u, std::span<double> inner) = 0;
+  /// Impulses at the ends of a step [s], on the velocity of what has a mass.
+  virtual void begin_step(double step, std::span<double> velocity) = 0;
+  virtual void end_step(double step, std::span<double> velocity) = 0;
+  /// A bound, at least 1, of how much stiffer than it was at first the body is.
+  virtual double stiffness_growth() const = 0;
+  /// The state was replaced: takes the body to what it is in that.
+  virtual void follow_state() = 0;
 };
 
 /// Newton's law for an elastic body: m u'' = load - dE/du, for all that is free to move and has a
@@ -52,7 +59,14 @@ class ElasticDynamics final : public SecondOrderSystem {
   void stiffness_times(std::span<const double> v, std::span<double> product) override;
   std::uint64_t stiffness_version() const override { return version_; }
   double stiffness_growth() const override {
-    return breaking_ ? growth_ * breaking_->stiffness_growth() : growth_;
+    const double broken = breaking_ ? breaking_->stiffness_growth() : 1.0;
+    return growth_ * (added_ ? added_->stiffness_growth() : broken);
+  }
+  void begin_step(double step, std::span<double> velocity) override {
+    if (added_ != nullptr) added_->begin_step(step, velocity);
+  }
+  void end_step(double step, std::span<double> velocity) override {
+    if (added_ != nullptr) added_->end_step(step, velocity);
   }
   bool changes() override;
 
@@ -61,11 +75,8 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   /// Another force acts from now on; it must stay.
   void set_added_force(AddedForce& force) { added_ = &force; }
-  /// The stiffness became another one.
-  void note_stiffness() {
-    ++version_;
-    plate_rows_known_ = false;
-  }
+  /// Bonds were broken by who adds a force.
+  void note_broken_bonds() { plate_rows_known_ = false; }
   /// What moves an unknown, by its place in mass(); negative: nothing that has a mass.
   Index moved_by(Index unknown) const { return owner_[unknown]; }
   /// Force of the bonds at the present displacements and pore stress, on every unknown [N].

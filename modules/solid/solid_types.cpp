@@ -138,6 +138,10 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
   };
   if (!has_cracks(section)) return make(read_material<D>(section, *body, boundary), nullptr);
   if (!names_critical_stretch(section.scene())) return make_dynamic_fracture(section, body);
+  if (section.scene().has("crack_fluid")) {
+    section.scene().fail("damage.type", "'critical_stretch' beside fluid in cracks",
+                         "energy_release, whose cracks are facets that fluid may fill");
+  }
   auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<D>> elastic =
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));

@@ -67,11 +67,15 @@ class Restart(RunTest):
                 self.assert_same_results(whole, parts)
 
     def test_a_growing_crack_in_parts(self):
-        keys = {"body.spacing": "2.5 mm", "time.end": "20 ms", "output.checkpoint_interval": "0 s"}
-        whole = self.run_scene(keys, "crack/whole", scene=CONFIGS / "hf_storage.yaml")
-        parts = self.run_scene(keys, "crack/parts", "--until", "10 ms", scene=CONFIGS / "hf_storage.yaml")
-        self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], scene=CONFIGS / "hf_storage.yaml")
-        self.assert_same_results(whole, parts)
+        scene = CONFIGS / "hf_storage.yaml"
+        for solid in ("quasi_static", "dynamic"):
+            with self.subTest(solid):
+                keys = {"body.spacing": "2.5 mm", "time.end": "20 ms", "output.checkpoint_interval": "0 s",
+                        "solid.type": solid}
+                whole = self.run_scene(keys, f"{solid}/whole", scene=scene)
+                parts = self.run_scene(keys, f"{solid}/parts", "--until", "10 ms", scene=scene)
+                self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], scene=scene)
+                self.assert_same_results(whole, parts)
 
     def test_fluids_in_parts(self):
         for name, scene in FLUIDS.items():

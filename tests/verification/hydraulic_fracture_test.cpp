@@ -22,6 +22,13 @@ TEST(HfStorage, AgreesWithTheIndependentSolutionOnACoarseLattice) {
   expect_near_reference(run_config("hf_storage", {"body.spacing=2.5 mm"}), 0.02, 0.08);
 }
 
+/// One word makes it a solid with inertia. A facet is 5 % of what the crack has grown to by 25 ms.
+TEST(HfStorage, AgreesWithInertiaToo) {
+  const SceneRun run = run_config("hf_storage", {"body.spacing=2.5 mm", "solid.type=dynamic"});
+  expect_near_reference(run, 0.025, 0.08);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+}
+
 /// A sloped seed turns to where the stress lets it open, and the run ends well.
 TEST(HfStorage, TurnsFromASlopedNotch) {
   const SceneRun run =

@@ -111,9 +111,8 @@ TEST(DynamicFracture, KeepsClosedFacesApart) {
     solid.press(Eigen::VectorXd::Zero(20));
     most = std::max(most, -solid.opening().minCoeff());
   }
-  // A whole body would strain by 0.1 / (lambda + 2 mu) a spacing.
-  EXPECT_LE(most, 10.0 * 0.1 / (lambda + 2.0 * mu));
-  EXPECT_LE(std::abs(solid.energy_error()), 0.01 * solid.value("external_work"));
+  EXPECT_LE(most, 1e-12);
+  EXPECT_LE(std::abs(solid.energy_error()), 0.03 * solid.value("external_work"));
 }
 
 /// Freund (1990), section 2.5: faces of a semi-infinite crack under a sudden uniform pressure,
@@ -138,27 +137,26 @@ TEST(DynamicFracture, BeginsToGrowWhenTheStepResponseSays) {
   }
 }
 
-/// What fluid and loads do on the body is what it holds and what growth took; and that is Gc times
-/// the new length but for what waves carry.
+/// What fluid and loads do on the body is what it holds and what growth took. Where new facets stay
+/// dry that is Gc times the new length, less what J falls by over a facet: a tenth here.
 TEST(DynamicFracture, KeepsItsEnergyWhileItGrows) {
-  Cracking solid({60, 60}, straight_crack({30.0, 30.0}, 0.0, 12));
+  const int wet = 12;
+  Cracking solid({60, 60}, straight_crack({30.0, 30.0}, 0.0, wet));
   solid.fracture_energy = 4.0;
   solid.damping = 0.02;
   solid.start();
-  double work = 0.0;
-  Eigen::VectorXd pressure = Eigen::VectorXd::Zero(12);
-  while (solid.value("crack_length") < 19.5 && solid.time * speed < 4000.0) {
+  double work = 0.0, energy_at_16 = 0.0;
+  while (solid.value("crack_length") < 21.5 && solid.time * speed < 4000.0) {
     const Eigen::VectorXd before = solid.opening();
-    // Falls as fluid of fixed volume does, so that growth is slow.
-    pressure = Eigen::VectorXd::Constant(
-        before.size(), 2e-3 * solid.time * speed * std::pow(12.0 / std::ssize(before), 1.5));
+    Eigen::VectorXd pressure = Eigen::VectorXd::Zero(before.size());
+    pressure.head(wet).setConstant(2e-3 * solid.time * speed);
+    if (before.size() < 16) energy_at_16 = solid.value("fracture_energy");
     solid.press(pressure);
     work += pressure.dot(solid.opening().head(before.size()) - before);
   }
-  const double growth = solid.value("crack_length") - 12.0;
-  EXPECT_GE(growth, 7.5);
+  EXPECT_EQ(solid.value("crack_length"), 22.0);
   EXPECT_LE(std::abs(solid.energy_error() + solid.value("fracture_energy") - work), 0.01 * work);
-  EXPECT_NEAR(solid.value("fracture_energy"), 4.0 * growth, 0.1 * 4.0 * growth);
+  EXPECT_NEAR(solid.value("fracture_energy") - energy_at_16, 0.92 * 4.0 * 6.0, 0.1 * 4.0 * 6.0);
 }
 
 }  // namespace
