@@ -78,7 +78,7 @@ std::unique_ptr<Reference> make_kgd_reference(const Section& scene, const Simula
   const std::string inlet = scene.text("crack_fluid.inlets[0].name");
   const Field length = field_named(manager, "crack_length");
   const Field pressure = field_named(manager, fmt::format("inlet_{}_pressure", inlet));
-  const Field opening = field_named(manager, "crack_opening");
+  const Field opening = field_named(manager, "crack_aperture");
 
   auto reference = std::make_unique<Reference>(
       "kgd",

@@ -2,12 +2,17 @@
 
 #include <limits>
 
+#include "core/solvers/contact.hpp"
+
 namespace perifrac {
 
 namespace {
 
 /// Below this a pressure that an inlet holds is as good as none [Pa].
 constexpr double smallest_pressure = 1e3;
+
+/// Faces that overlap by less do not touch [m].
+constexpr double smallest_overlap = 1e-16;
 
 }  // namespace
 
@@ -32,16 +37,26 @@ void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v
   let_in(step, v);
 }
 
+void Lubrication::open(const CrackOpening& given, double t) {
+  slope_ = given.slope;
+  opening_.noalias() = slope_ * pressure_;
+  for (Index f = 0; f < graph_.facet_count(); ++f) {
+    opening_[f] += given.value[f] + given.rate[f] * (t - given.end);
+  }
+  if (opening_.minCoeff() >= -smallest_overlap) return;
+  const Contact contact = find_contact(opening_, slope_, smallest_overlap);
+  opening_ = contact.opening;
+  slope_ = compliance_beside(contact.closed, slope_);
+}
+
 void Lubrication::store(const LubricationStep& step, const Eigen::VectorXd& v) {
   const Index count = graph_.facet_count();
-  const CrackOpening& given = step.opening;
   for (Index f = 0; f < count; ++f) {
     pressure_[f] = liquid_.pressure(v[f]);
     fill_[f] = liquid_.fill(v[f]);
   }
-  opening_.noalias() = given.slope * pressure_;
+  open(step.opening, step.time.end);
   for (Index f = 0; f < count; ++f) {
-    opening_[f] += given.value[f] + given.rate[f] * (step.time.end - given.end);
     aperture_[f] = std::max(opening_[f], liquid_.residual_aperture);
     capacity_[f] = liquid_.density * graph_.length(f) * aperture_[f];
     const double compression = 1.0 + pressure_[f] / liquid_.bulk_modulus;
@@ -143,7 +158,7 @@ void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) 
   }
 }
 
-Eigen::MatrixXd Lubrication::jacobian(const LubricationStep& step, const Eigen::VectorXd& v) const {
+Eigen::MatrixXd Lubrication::jacobian(const Eigen::VectorXd& v) const {
   const Index count = graph_.facet_count();
   Eigen::SparseMatrix<double, Eigen::RowMajor> by_pressure(count, count);
   Eigen::SparseMatrix<double, Eigen::RowMajor> by_aperture(count, count);
@@ -153,7 +168,7 @@ Eigen::MatrixXd Lubrication::jacobian(const LubricationStep& step, const Eigen::
   for (Index f = 0; f < count; ++f) {
     is_open[f] = opening_[f] > liquid_.residual_aperture ? 1.0 : 0.0;
   }
-  Eigen::MatrixXd jacobian = (by_aperture * is_open.asDiagonal()) * step.opening.slope;
+  Eigen::MatrixXd jacobian = (by_aperture * is_open.asDiagonal()) * slope_;
   jacobian += by_pressure;
   for (Index f = 0; f < count; ++f) {
     if (liquid_.is_full(v[f])) continue;

@@ -13,8 +13,9 @@
 
 namespace perifrac {
 
-/// How wide the facets are: value + rate (t - end) + slope p at time t under the fluid's pressures
-/// p, of all facets.
+/// How wide the facets would be, could their faces pass through one another: value + rate (t - end)
+/// + slope p at time t under the fluid's pressures p, of all facets. Where that is below zero
+/// contact presses as well (core/solvers/contact.hpp), for which slope is the compliance too.
 struct CrackOpening {
   using Slope = Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>;
 
@@ -71,12 +72,13 @@ class Lubrication {
   const Eigen::VectorXd& rounding() const { return rounding_; }    ///< of the residual, a bound
   const Eigen::VectorXd& aperture() const { return aperture_; }    ///< [m]
   const Eigen::VectorXd& raw_opening() const { return opening_; }  ///< may be below the residual
-  const Eigen::VectorXd& capacity() const { return capacity_; }    ///< rho_0 length aperture
-  const Eigen::VectorXd& leaked() const { return leaked_.mass; }   ///< over the step [kg/m]
-  const Eigen::VectorXd& inflow() const { return inflow_; }        ///< by inlets [kg/m]
+  const Eigen::MatrixXd& slope() const { return slope_; }  ///< of it, closed facets staying so
+  const Eigen::VectorXd& capacity() const { return capacity_; }   ///< rho_0 length aperture
+  const Eigen::VectorXd& leaked() const { return leaked_.mass; }  ///< over the step [kg/m]
+  const Eigen::VectorXd& inflow() const { return inflow_; }       ///< by inlets [kg/m]
   /// What flows and leaks out over the step, inlets apart [kg/m].
   const Eigen::VectorXd& outflow() const { return outflow_; }
-  Eigen::MatrixXd jacobian(const LubricationStep& step, const Eigen::VectorXd& v) const;
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& v) const;
 
   /// Calls use(a, b, flux) for every pair of branches that meet, flux [kg/(m s)] from a to b.
   template <class Use>
@@ -99,6 +101,7 @@ class Lubrication {
  private:
   void find_conductances(std::span<const CrackGraph::Branch> joint,
                          std::span<const double> aperture);
+  void open(const CrackOpening& given, double t);
   void store(const LubricationStep& step, const Eigen::VectorXd& v);
   void leak(LeakOff& leak_off);
   void flow(double dt);
@@ -110,6 +113,7 @@ class Lubrication {
 
   Eigen::VectorXd pressure_, fill_, opening_, aperture_, capacity_;
   Eigen::VectorXd residual_, rounding_, outflow_, inflow_;
+  Eigen::MatrixXd slope_;
   LeakedFluid leaked_;                               ///< its by_pressure is part of by_pressure_
   Eigen::VectorXd by_fill_;                          ///< of the residual, diagonal
   std::vector<Eigen::Triplet<double>> by_pressure_;  ///< at given apertures

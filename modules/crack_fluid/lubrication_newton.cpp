@@ -64,12 +64,12 @@ NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const Lu
     report.converged = is_balanced(lubrication, report.worst);
     if (report.converged) break;
     const Eigen::VectorXd change =
-        lubrication.jacobian(step, v).partialPivLu().solve(-lubrication.residual());
+        lubrication.jacobian(v).partialPivLu().solve(-lubrication.residual());
     if (!change.allFinite()) break;
     for (Index f = 0; f < count; ++f) {
       pressure_change[f] = liquid.is_full(v[f]) ? change[f] : 0.0;
     }
-    const double part = part_allowed(lubrication, liquid, step.opening.slope * pressure_change);
+    const double part = part_allowed(lubrication, liquid, lubrication.slope() * pressure_change);
     for (Index f = 0; f < count; ++f) v[f] = moved(liquid, v[f], part * change[f]);
   }
   return report;

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "core/geometry/crack_cut.hpp"
+#include "core/solvers/contact.hpp"
 
 namespace perifrac {
 
@@ -236,50 +237,12 @@ void CrackedBody::find_opening() {
 }
 
 CrackedBody::Faces CrackedBody::faces(const Eigen::VectorXd& pressure) const {
-  Faces faces{opening_ + compliance_ * pressure, pressure, std::vector<bool>(modes_.size(), false)};
-  const Eigen::VectorXd free_opening = faces.opening;
-  // Which faces close is found by trial: those that overlap close, those that pull open.
-  for (int trial = 0; trial < 100; ++trial) {
-    bool changed = false;
-    for (std::size_t f = 0; f < faces.closed.size(); ++f) {
-      const bool overlaps = !faces.closed[f] && faces.opening[f] < -1e-14 * spacing_;
-      const bool pulls = faces.closed[f] && faces.pressure[f] < pressure[f];
-      if (overlaps || pulls) {
-        faces.closed[f] = overlaps;
-        changed = true;
-      }
-    }
-    if (!changed) break;
-    std::vector<int> closed;
-    for (std::size_t f = 0; f < faces.closed.size(); ++f) {
-      if (faces.closed[f]) closed.push_back(static_cast<int>(f));
-    }
-    faces.pressure = pressure;
-    faces.opening = free_opening;
-    if (closed.empty()) continue;
-    const Eigen::MatrixXd own = compliance_(closed, closed);
-    const Eigen::VectorXd contact = own.partialPivLu().solve(-free_opening(closed));
-    faces.pressure(closed) += contact;
-    faces.opening += compliance_(Eigen::all, closed) * contact;
-  }
-  for (std::size_t f = 0; f < faces.closed.size(); ++f) {
-    if (faces.closed[f]) faces.opening[f] = 0.0;
-  }
+  const Eigen::VectorXd free = opening_ + compliance_ * pressure;
+  const Contact contact = find_contact(free, compliance_, 1e-14 * spacing_);
+  Faces faces{free, contact.opening, pressure + contact.pressure,
+              std::vector<bool>(modes_.size(), false)};
+  for (const int f : contact.closed) faces.closed[f] = true;
   return faces;
-}
-
-Eigen::MatrixXd CrackedBody::compliance(const std::vector<bool>& closed) const {
-  std::vector<int> shut;
-  for (std::size_t f = 0; f < closed.size(); ++f) {
-    if (closed[f]) shut.push_back(static_cast<int>(f));
-  }
-  if (shut.empty()) return compliance_;
-  const Eigen::MatrixXd own = compliance_(shut, shut);
-  Eigen::MatrixXd result =
-      compliance_ - compliance_(Eigen::all, shut) *
-                        own.partialPivLu().solve(Eigen::MatrixXd(compliance_(shut, Eigen::all)));
-  result(shut, Eigen::all).setZero();
-  return result;
 }
 
 Vector<2> CrackedBody::relief(Index f) const {

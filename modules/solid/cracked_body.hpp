@@ -45,15 +45,14 @@ class CrackedBody {
 
   /// What the cracks' faces do at a pressure in them, one value a facet.
   struct Faces {
-    Eigen::VectorXd opening;   ///< mean normal jump [m], >= 0
+    Eigen::VectorXd free;      ///< mean normal jump, could they pass through one another [m]
+    Eigen::VectorXd opening;   ///< as it is [m], >= 0
     Eigen::VectorXd pressure;  ///< on the faces, that of contact included [Pa]
     std::vector<bool> closed;
   };
   Faces faces(const Eigen::VectorXd& pressure) const;
-  /// d(opening)/d(pressure) with all faces open [m/Pa].
+  /// d(free)/d(pressure) [m/Pa].
   const Eigen::MatrixXd& compliance() const { return compliance_; }
-  /// The same with these faces closed.
-  Eigen::MatrixXd compliance(const std::vector<bool>& closed) const;
 
   /// Mean jumps across all facets along their normal and tangent under a pressure on the faces [m].
   std::vector<Vector<2>> jumps_under(const Eigen::VectorXd& pressure) const;

@@ -20,6 +20,10 @@ Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
+std::span<double> span(Eigen::VectorXd& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
 Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
@@ -45,6 +49,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
           {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, 4},
           {"damage", "1", PortDirection::out},
           {"crack_opening", "m", PortDirection::out},
+          {"crack_aperture", "m", PortDirection::out},
           {"crack_length", "m", PortDirection::out},
           {"open_crack_length", "m", PortDirection::out},
           {"elastic_energy", "J/m", PortDirection::out, PortKind::extensive,
@@ -117,15 +122,14 @@ PortView FracturingSolid::port(PortId id) {
       find_damage(cracked_.family(), damage_);
       return {points, damage_};
     case crack_opening: {
-      const Eigen::MatrixXd slope = cracked_.compliance(faces_.closed);
+      const Eigen::MatrixXd& slope = cracked_.compliance();
       opening_slope_.resize(slope.size());
       Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
           opening_slope_.data(), slope.rows(), slope.cols()) = slope;
-      return {facets,
-              {faces_.opening.data(), static_cast<std::size_t>(faces_.opening.size())},
-              {},
-              opening_slope_};
+      return {facets, span(faces_.free), {}, opening_slope_};
     }
+    case crack_aperture:
+      return {facets, span(faces_.opening)};
     case crack_length:
       crack_length_ = 0.0;
       for (const FaceJump& jump : cracked_.jumps()) crack_length_ += jump.length;
@@ -159,8 +163,8 @@ void FracturingSolid::initialize(double t) {
   external_work_ = spent_energy_ = readiness_before_ = 0.0;
   load_work_ = relief_work_ = elastic_energy_ = 0.0;
   const auto facets = static_cast<Eigen::Index>(seeds_.size());
-  faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
-            std::vector<bool>(seeds_.size(), false)};
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(facets);
+  faces_ = {none, none, none, std::vector<bool>(seeds_.size(), false)};
   unknowns_are_current_ = true;
   derived_ = false;
 }
@@ -293,13 +297,16 @@ void FracturingSolid::visit_state(StateVisitor& visitor) {
   visitor.visit("fracture_energy", spent_energy_);
   visitor.visit("readiness", readiness_before_);
   visitor.visit("last_growth", last_growth_);
+  std::vector<double> free(faces_.free.begin(), faces_.free.end());
   std::vector<double> opening(faces_.opening.begin(), faces_.opening.end());
   std::vector<double> pressure(faces_.pressure.begin(), faces_.pressure.end());
   std::vector<std::int64_t> closed(faces_.closed.begin(), faces_.closed.end());
-  visitor.visit("crack_opening", opening);
+  visitor.visit("crack_opening", free);
+  visitor.visit("crack_aperture", opening);
   visitor.visit("face_pressure", pressure);
   visitor.visit("closed_faces", closed);
-  faces_ = {view(opening), view(pressure), std::vector<bool>(closed.begin(), closed.end())};
+  faces_ = {view(free), view(opening), view(pressure),
+            std::vector<bool>(closed.begin(), closed.end())};
   tips_.visit_state(visitor);
   bonds_.visit_state(visitor);
   interface_.visit_state(visitor);

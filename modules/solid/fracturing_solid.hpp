@@ -22,7 +22,8 @@ namespace perifrac {
 ///
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
 /// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
-/// `crack_opening` [m] with its slope d(opening)/d(crack_pressure), a matrix. `damage` of the
+/// `crack_aperture` [m]; `crack_opening` [m], which is below zero where faces would overlap without
+/// contact, with its slope d(opening)/d(crack_pressure), a matrix. `damage` of the
 /// points (paper Eq 16), `crack_length` [m], of it `open_crack_length` where faces are apart, and
 /// `fracture_energy` [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
@@ -56,6 +57,7 @@ class FracturingSolid final : public PhysicsModule {
     effective_stress,
     damage,
     crack_opening,
+    crack_aperture,
     crack_length,
     open_crack_length,
     elastic_energy,

@@ -90,7 +90,7 @@ struct AnyStep {
 TEST(Lubrication, JacobianIsTheDerivativeOfTheResidual) {
   AnyStep any;
   any.lubrication.evaluate(any.step(), any.v);
-  const Eigen::MatrixXd jacobian = any.lubrication.jacobian(any.step(), any.v);
+  const Eigen::MatrixXd jacobian = any.lubrication.jacobian(any.v);
   for (int g = 0; g < 15; ++g) {
     const double h = 1000.0;
     Eigen::VectorXd near = any.v;

@@ -98,7 +98,7 @@ TEST(CrackedBody, BearsItsInitialStressWhereItIsClosed) {
   EXPECT_EQ(faces.opening.maxCoeff(), 0.0);
   for (int f = 0; f < 10; ++f) EXPECT_NEAR(faces.pressure[f], 2e-3, 1e-12) << f;
   EXPECT_TRUE(std::ranges::all_of(faces.closed, std::identity()));
-  EXPECT_EQ(plate.cracked->compliance(faces.closed).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_LT(faces.free.maxCoeff(), 0.0) << "without contact they overlap";
   EXPECT_LE(plate.cracked->unknowns(faces.pressure).cwiseAbs().maxCoeff(), 1e-12);
 }
 
