@@ -33,8 +33,17 @@ struct Compared {
 };
 
 Compared compared(const SceneRun& run, const std::string& name) {
+  // Null where the table has nothing yet.
+  const auto numbers = [](const nlohmann::json& values) {
+    std::vector<double> numbers;
+    for (const auto& value : values) {
+      numbers.push_back(value.is_null() ? NAN : value.get<double>());
+    }
+    return numbers;
+  };
   for (const auto& history : run.summary["reference"]["histories"]) {
-    if (history["name"] == name) return {history["time"], history["computed"], history["exact"]};
+    if (history["name"] != name) continue;
+    return {numbers(history["time"]), numbers(history["computed"]), numbers(history["exact"])};
   }
   ADD_FAILURE() << "no " << name;
   return {};
