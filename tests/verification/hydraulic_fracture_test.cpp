@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -67,6 +68,40 @@ TEST(Griffith, GrowsInARockThatScatters) {
   EXPECT_GT(ledger(one, "energy_dissipated"), 0.0);
   EXPECT_EQ(ledger(one, "energy_dissipated"), ledger(same, "energy_dissipated"));
   EXPECT_NE(ledger(one, "energy_dissipated"), ledger(other, "energy_dissipated"));
+}
+
+/// Through a slit 26.6 degrees to the lattice, whose pressure rises first.
+TEST(SlitFlow, FollowsTheCubicLaw) {
+  const SceneRun run = run_config("slit_flow");
+  ASSERT_EQ(run.exit_code, 0);
+  for (const auto& row : run.summary["reference"]["table"]) {
+    EXPECT_LE(row["flow_rate_error"], 0.01) << row["time"];
+    EXPECT_LE(row["pressure_error"], 0.01) << row["time"];
+  }
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+}
+
+/// Once the well is shut its pressure falls, in the end the crack is closed.
+TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
+  const SceneRun run = run_config("shut_in");
+  ASSERT_EQ(run.exit_code, 0);
+  const std::vector<double> time = run.column("time [s]");
+  const std::vector<double> pressure = run.column("inlet_well_pressure [Pa]");
+  const std::vector<double> open = run.column("open_crack_length [m]");
+  const std::vector<double> length = run.column("crack_length [m]");
+  double highest = 0.0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    highest = std::max(highest, pressure[k]);
+    EXPECT_LE(open[k], length[k] * (1.0 + 1e-12)) << time[k];
+    if (time[k - 1] < 0.0201) continue;
+    EXPECT_LE(pressure[k], pressure[k - 1]) << time[k];
+  }
+  EXPECT_GT(highest, 1.0e6) << "the crack never opened";
+  EXPECT_GT(*std::ranges::max_element(open), 0.0);
+  EXPECT_EQ(open.back(), 0.0);
+  // Contact is found with the fluid: a pass does, and one more where the crack has grown.
+  EXPECT_LE(run.summary["counts"]["most_passes"], 3);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
 }
 
 }  // namespace
