@@ -30,9 +30,6 @@ class GrowthWatch {
   int rises_ = 0;
 };
 
-/// With the full tangent a pass is a step of Newton's method already.
-bool is_accelerated(const Link& link) { return link.lagged() && !link.sends_tangent(); }
-
 /// An event that moves back this often in one window is no event that a window can end at.
 constexpr int most_redos = 50;
 
@@ -160,7 +157,7 @@ double WindowSolver::weighted_mismatch() const {
 void WindowSolver::accelerate(double length) {
   Eigen::Index size = 0;
   for (const Link& link : links_) {
-    if (is_accelerated(link)) size += static_cast<Eigen::Index>(link.answer().size());
+    if (link.lagged()) size += static_cast<Eigen::Index>(link.answer().size());
   }
   if (size != accelerated_size_) acceleration_->reset();  // a module has inserted points
   accelerated_size_ = size;
@@ -169,7 +166,7 @@ void WindowSolver::accelerate(double length) {
   Eigen::VectorXd answer(size);
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (!is_accelerated(links_[i])) continue;
+    if (!links_[i].lagged()) continue;
     for (std::size_t j = 0; j < links_[i].answer().size(); ++j, ++at) {
       used[at] = weights_[i] * links_[i].used()[j];
       answer[at] = weights_[i] * links_[i].answer()[j];
@@ -179,7 +176,7 @@ void WindowSolver::accelerate(double length) {
   at = 0;
   std::vector<double> values;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (!is_accelerated(links_[i])) continue;
+    if (!links_[i].lagged()) continue;
     values.resize(links_[i].answer().size());
     for (double& value : values) value = next[at++] / weights_[i];
     links_[i].relax(values, length);
