@@ -82,7 +82,7 @@ PortView DarcyFlow<D>::port(PortId id) {
     case exchanged_mass:
       return {points, system_->exchange().mass(count)};
     case pore_pressure:
-      find_pressure_slope();
+      if (pressure_slope_.empty()) find_pressure_slope();
       return {points, pressure_, {}, pressure_slope_};
     case pore_stress:
       return {points, pore_stress_, {}, pore_stress_slope_};
@@ -149,6 +149,7 @@ double DarcyFlow<D>::advance(const TimeWindow& window) {
   update_content();
   system_->pressure(time_, unknowns_, pressure_);
   update_pore_stress();
+  find_pressure_slope();
   return window.end;
 }
 
@@ -286,6 +287,8 @@ void DarcyFlow<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("fluid_content", unknowns_);
   visitor.visit("pore_pressure", pressure_);
   visitor.visit("start", start_);
+  // Follows the slope of the dilatation, which a link has yet to bring after a restart.
+  if (system_->exchange().is_linked()) visitor.visit("pore_pressure_slope", pressure_slope_);
   system_->visit_state(visitor);
 }
 
