@@ -35,12 +35,13 @@ using PointInertia = std::function<Vector<2>(Index)>;
 /// Nakamura, Shih & Freund 1985), from the remaining bonds' gradients and the whole energy of every
 /// point:
 ///   J = sum V [(grad u^T sigma) grad q . d - W d . grad q + rho u'' . (grad u d) q]
-///       + int (p w + tau s) d . grad q ds,
-/// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry. Of
-/// displacements from the state at rest, so that an initial stress counts as what faces are
-/// relieved of. The kinetic energy T is left out: its two terms, -T d . grad q and
-/// -rho u' . (grad u' d) q, are the integral of -d . grad(T q), which vanishes along a crack but
-/// for what a tip carries along with it, a part of (speed of the tip / speed of sound)^2.
+///       - int q (p dw/ds + tau dv/ds) ds,
+/// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry, w
+/// and v their jumps, s along the crack to the tip. Of displacements from the state at rest, so
+/// that an initial stress counts as what faces are relieved of. The kinetic energy T is left out:
+/// its two terms, -T d . grad q and -rho u' . (grad u' d) q, are the integral of -d . grad(T q),
+/// which vanishes along a crack but for what a tip carries along with it, a part of (speed of the
+/// tip / speed of sound)^2.
 class EnergyRelease {
  public:
   EnergyRelease(CutBody& body, double spacing) : body_(body), spacing_(spacing) {}
@@ -52,6 +53,8 @@ class EnergyRelease {
   TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
 
  private:
+  Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
+                    std::span<const Vector<2>> jumps) const;
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
                          const Eigen::VectorXd& pressure, const PointInertia& inertia) const;
 
