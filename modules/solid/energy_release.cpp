@@ -102,6 +102,21 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
   return mean;
 }
 
+/// Where facets meet: the mean of theirs, 0 at the tip.
+Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
+                                 std::span<const Vector<2>> jumps) const {
+  Vector<2> sum{};
+  if (corner == tip.place) return sum;
+  int count = 0;
+  for (std::size_t f = 0; f < jumps.size(); ++f) {
+    const CrackFacet<2>& facet = body_.facets()[f];
+    if (facet[0] != corner && facet[1] != corner) continue;
+    ++count;
+    for (int a = 0; a < 2; ++a) sum[a] += jumps[f][a];
+  }
+  return {sum[0] / count, sum[1] / count};
+}
+
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
                                       const Eigen::VectorXd& pressure,
                                       std::span<const double> pore_stress,
@@ -145,16 +160,23 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
     const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
     sum += family.volume[i] * work - elastic.point_energy(i, unknowns) * along;
   }
+  std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
+    jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
+  }
+  for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
+    const std::array q = {cutoff.at(facet[0]), cutoff.at(facet[1])};
+    if (q[0] == 0.0 && q[1] == 0.0) continue;
     const Vector<2>& tangent = body_.jumps()[f].tangent;
     const double ahead = tangent[0] * tip.direction[0] + tangent[1] * tip.direction[1];
-    // The integral of d . grad q along the facet.
-    const double rise = ahead * (cutoff.at(facet[1]) - cutoff.at(facet[0]));
-    if (rise == 0.0) continue;
-    const Vector<2> jump = body_.jump(static_cast<Index>(f), unknowns);
     const Vector<2> relief = body_.relief(static_cast<Index>(f));
-    sum += ((pressure[f] + relief[0]) * jump[0] + relief[1] * jump[1]) * rise;
+    const Vector<2> load = {pressure[f] + relief[0], relief[1]};
+    for (int a = 0; a < 2; ++a) {
+      const double begin = jump_at(facet[0], tip, jumps)[a] - jumps[f][a];
+      const double end = jump_at(facet[1], tip, jumps)[a] - jumps[f][a];
+      sum += ahead * load[a] * (begin * q[0] - end * q[1]);
+    }
   }
   return sum;
 }

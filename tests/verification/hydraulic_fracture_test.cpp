@@ -23,13 +23,13 @@ TEST(HfStorage, AgreesWithTheIndependentSolutionOnACoarseLattice) {
   expect_near_reference(run_config("hf_storage", {"body.spacing=2.5 mm"}), 0.02, 0.08);
 }
 
-<<<<<<< HEAD
 /// One word makes it a solid with inertia. A facet is 5 % of what the crack has grown to by 25 ms.
 TEST(HfStorage, AgreesWithInertiaToo) {
   const SceneRun run = run_config("hf_storage", {"body.spacing=2.5 mm", "solid.type=dynamic"});
   expect_near_reference(run, 0.025, 0.08);
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
-=======
+}
+
 /// The whole chain, crack fluid that leaks into pores of a rock that cracks: the length is that of
 /// rock without pores, which the same volume opens; the pressure is higher by what pores stiffen.
 TEST(HfStoragePores, KeepsItsBalancesOnACoarseLattice) {
@@ -43,7 +43,6 @@ TEST(HfStoragePores, KeepsItsBalancesOnACoarseLattice) {
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
   EXPECT_GT(run.summary["ledger"]["pore_fluid_mass"]["value"], 0.0);
->>>>>>> pores
 }
 
 /// A sloped seed turns to where the stress lets it open, and the run ends well.

@@ -22,9 +22,9 @@ struct Cracking : Moving<2> {
 
   void start() {
     const Breakable<2> parts(*body, boundary, law);
-    module =
-        std::make_unique<DynamicFracture>(body, parts.family, parts.elastic, boundary, density,
-                                          damping, safety, initial_stress, seeds, fracture_energy);
+    module = std::make_unique<DynamicFracture>(body, parts.family, parts.elastic, boundary, density,
+                                               damping, safety, initial_stress, seeds,
+                                               FractureEnergy<2>{fracture_energy});
     module->initialize(0.0);
   }
   double step() const { return module->stable_time_step(); }
@@ -69,7 +69,7 @@ TEST(DynamicFracture, ForetellsTheOpeningAfterAStep) {
 /// smooth, from the suddenly loaded body on.
 TEST(DynamicFracture, IsStableAroundAnIncompressibleFluid) {
   Cracking solid({24, 20}, straight_crack({12.0, 10.0}, 0.0, 8));
-  solid.boundary.traction(3, {0.0, -1.0}, Schedule::ramp(20.0));
+  solid.boundary.traction(3, {0.0, -1.0}, Schedule::ramp(60.0));
   solid.boundary.fixed(2, {});
   solid.start();
   Eigen::VectorXd before = Eigen::VectorXd::Zero(8);
@@ -103,16 +103,16 @@ TEST(DynamicFracture, RestsClosedUnderItsInitialStressUntilFluidExceedsIt) {
 /// Faces that are pressed together do not pass through one another, and rebound.
 TEST(DynamicFracture, KeepsClosedFacesApart) {
   Cracking solid({20, 24}, straight_crack({10.0, 12.0}, 0.0, 20));
-  solid.boundary.traction(3, {0.0, -0.1}, Schedule::ramp(20.0));
+  solid.boundary.traction(3, {0.0, -0.1}, Schedule::ramp(60.0));
   solid.boundary.fixed(2, {});
   solid.start();
   double most = 0.0;
-  for (int n = 0; n < 600; ++n) {
+  for (int n = 0; n < 900; ++n) {
     solid.press(Eigen::VectorXd::Zero(20));
     most = std::max(most, -solid.opening().minCoeff());
   }
   EXPECT_LE(most, 1e-12);
-  EXPECT_LE(std::abs(solid.energy_error()), 0.03 * solid.value("external_work"));
+  EXPECT_LE(std::abs(solid.energy_error()), 0.01 * solid.value("external_work"));
 }
 
 /// Freund (1990), section 2.5: faces of a semi-infinite crack under a sudden uniform pressure,
@@ -138,7 +138,7 @@ TEST(DynamicFracture, BeginsToGrowWhenTheStepResponseSays) {
 }
 
 /// What fluid and loads do on the body is what it holds and what growth took. Where new facets stay
-/// dry that is Gc times the new length, less what J falls by over a facet: a tenth here.
+/// dry that is the mean of J over the growth: 0.87 Gc here, for it falls by a quarter over a facet.
 TEST(DynamicFracture, KeepsItsEnergyWhileItGrows) {
   const int wet = 12;
   Cracking solid({60, 60}, straight_crack({30.0, 30.0}, 0.0, wet));
@@ -156,7 +156,7 @@ TEST(DynamicFracture, KeepsItsEnergyWhileItGrows) {
   }
   EXPECT_EQ(solid.value("crack_length"), 22.0);
   EXPECT_LE(std::abs(solid.energy_error() + solid.value("fracture_energy") - work), 0.01 * work);
-  EXPECT_NEAR(solid.value("fracture_energy") - energy_at_16, 0.92 * 4.0 * 6.0, 0.1 * 4.0 * 6.0);
+  EXPECT_NEAR(solid.value("fracture_energy") - energy_at_16, 0.87 * 4.0 * 6.0, 0.08 * 4.0 * 6.0);
 }
 
 }  // namespace
