@@ -36,6 +36,7 @@ void Recorder::walk(StateVisitor& visitor) {
 
 void Recorder::restore(const Checkpoint& checkpoint) {
   checkpoint.state.restore([this](StateVisitor& visitor) { walk(visitor); });
+  simulation_.manager->restart_point();  // before modules are asked for what they hold
   restart_point();
 }
 

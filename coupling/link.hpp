@@ -67,8 +67,6 @@ class Link {
     hold_ = hold;
   }
   bool uses_slope() const { return counter_.has_value(); }
-  /// The slope of the present pass is a matrix.
-  bool sends_tangent() const { return slope_.size() > value_.size(); }
 
   /// Reads the source as it stands, at rest: the first exchange, before any window.
   void start();

@@ -29,9 +29,6 @@ class GrowthWatch {
   int rises_ = 0;
 };
 
-/// With the full tangent a pass is a step of Newton's method already.
-bool is_accelerated(const Link& link) { return link.predicts() && !link.sends_tangent(); }
-
 /// An event that moves back this often in one window is no event that a window can end at.
 constexpr int most_redos = 50;
 
@@ -168,7 +165,7 @@ double WindowSolver::weighted_mismatch() const {
 void WindowSolver::accelerate(double length) {
   Eigen::Index size = 0;
   for (const Link& link : links_) {
-    if (is_accelerated(link)) size += static_cast<Eigen::Index>(link.answer().size());
+    if (link.predicts()) size += static_cast<Eigen::Index>(link.answer().size());
   }
   if (size != accelerated_size_) acceleration_->reset();  // a module has inserted points
   accelerated_size_ = size;
@@ -177,7 +174,7 @@ void WindowSolver::accelerate(double length) {
   Eigen::VectorXd answer(size);
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (!is_accelerated(links_[i])) continue;
+    if (!links_[i].predicts()) continue;
     for (std::size_t j = 0; j < links_[i].answer().size(); ++j, ++at) {
       used[at] = weights_[i] * links_[i].used()[j];
       answer[at] = weights_[i] * links_[i].answer()[j];
@@ -187,7 +184,7 @@ void WindowSolver::accelerate(double length) {
   at = 0;
   std::vector<double> values;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (!is_accelerated(links_[i])) continue;
+    if (!links_[i].predicts()) continue;
     values.resize(links_[i].answer().size());
     for (double& value : values) value = next[at++] / weights_[i];
     links_[i].relax(values, length);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <memory>
 #include <numeric>
@@ -31,8 +32,10 @@ namespace perifrac {
 /// and Darcy flow (R = 1) are two laws of it.
 ///
 /// Law: `static constexpr int components` (R), `Tensor<R, D> stress(const Tensor<R, D>& gradient)`
-/// (linear, symmetric), `double stabilisation()`. Where it differs from point to point, a class
-/// with `components` and `at(i)`, the law of point i (law_by_region.hpp).
+/// (linear, symmetric), `double stabilisation()`; where bonds may break, `double bonds_alone()`, in
+/// place of `stabilisation` at a point whose bonds do not span space any more (none: 0). Where the
+/// law differs from point to point, a class with `components` and `at(i)`, the law of point i
+/// (law_by_region.hpp).
 ///
 /// An unknown vector holds R blocks of point values and then the face values of the
 /// MirrorCondition; rows of face values are the reactions of the faces.
@@ -78,19 +81,27 @@ class LinearExactOperator {
     if (matrix_) matrix_.emplace(assemble());
   }
   /// Bonds of these points broke: their weights are 0 in the family now. A thin family (is_thin())
-  /// has neither gradient nor stiffness here.
+  /// has no gradient, and of stiffness what the law leaves to bonds alone.
   void update(std::span<const Index> points) {
     if (matrix_) throw std::logic_error("bonds break beside curved ghosts");
     for (const Index i : points) {
-      set_moments(*family_, i, moments_);
-      bond_stiffness_[i] = law_at(law_, i).stabilisation() / moments_.weighted_volume[i];
+      const bool thin = set_moments(*family_, i, moments_);
+      const auto place = std::ranges::lower_bound(thin_points_, i);
+      const bool was_thin = place != thin_points_.end() && *place == i;
+      if (was_thin && !thin) thin_points_.erase(place);
+      if (thin && !was_thin) thin_points_.insert(place, i);
+      bond_stiffness_[i] = thin ? thin_stiffness(i) : stiffness(i);
     }
-    for (Index g = 0; g < family_->ghost_count(); ++g) {
-      bond_stiffness_[family_->point_count + g] = bond_stiffness_[family_->ghost_source[g]];
-    }
+    copy_stiffness_to_ghosts();
     if constexpr (PacketLaw<Law, D>) {
       if (lattice_) lattice_->update(*family_, moments_, bond_stiffness_, points);
     }
+  }
+  /// The same on a family of the same bonds with other weights, which differ at these points.
+  void update(std::shared_ptr<const Family<D>> family, std::span<const Index> points) {
+    family_ = std::move(family);
+    mirror_.use(*family_);
+    update(points);
   }
 
   /// The second derivative of the energy of point i alone.
@@ -260,13 +271,25 @@ class LinearExactOperator {
   }
 
   void find_bond_stiffness() {
-    const Index points = family_->point_count;
-    for_each_point(points, [&](Index i) {
-      bond_stiffness_[i] = law_at(law_, i).stabilisation() / moments_.weighted_volume[i];
-    });
+    for_each_point(family_->point_count, [&](Index i) { bond_stiffness_[i] = stiffness(i); });
+    for (const Index i : thin_points_) bond_stiffness_[i] = thin_stiffness(i);
+    copy_stiffness_to_ghosts();
+  }
+  void copy_stiffness_to_ghosts() {
     for (Index g = 0; g < family_->ghost_count(); ++g) {
-      bond_stiffness_[points + g] = bond_stiffness_[family_->ghost_source[g]];
+      bond_stiffness_[family_->point_count + g] = bond_stiffness_[family_->ghost_source[g]];
     }
+  }
+
+  double stiffness(Index i) const {
+    return law_at(law_, i).stabilisation() / moments_.weighted_volume[i];
+  }
+  double thin_stiffness(Index i) const {
+    const auto& law = law_at(law_, i);
+    if constexpr (requires { law.bonds_alone(); }) {
+      return law.bonds_alone() / moments_.weighted_volume[i];
+    }
+    return 0.0;
   }
 
   const double* field(int r) const {
@@ -396,6 +419,7 @@ class LinearExactOperator {
   using Lattice = std::conditional_t<PacketLaw<Law, D>, LinearExactLattice<D, Law>, std::monostate>;
   std::optional<Lattice> lattice_;  ///< where bonds lie on one
   std::vector<Index> face_points_;  ///< points with a bond to an odd ghost
+  std::vector<Index> thin_points_;  ///< ascending; none where nothing breaks
   std::optional<Matrix> matrix_;    ///< A, where ghosts are curved
 };
 

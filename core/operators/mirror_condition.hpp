@@ -19,6 +19,9 @@ class MirrorCondition {
  public:
   explicit MirrorCondition(const Family<D>& family);
 
+  /// Goes over to a family of the same points and ghosts; the former may go.
+  void use(const Family<D>& family) { family_ = &family; }
+
   /// Makes a component odd at a face; call before the first use of the condition.
   void set_odd(int face, int component);
 

@@ -72,14 +72,16 @@ bool is_thin(const Family<D>& family, Index i) {
 }
 
 template <int D>
-void set_moments(const Family<D>& family, Index i, FamilyMoments<D>& moments) {
+bool set_moments(const Family<D>& family, Index i, FamilyMoments<D>& moments) {
   using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
   const bool thin = is_thin(family, i);
   const auto sum = shape_tensor_at(family, i);
   const Matrix shape = Eigen::Map<const Matrix>(sum.data());
   const Matrix inverse = thin ? Matrix::Zero() : Matrix(shape.inverse());
   for (int k = 0; k < D * D; ++k) moments.inverse_shape[k][i] = inverse(k / D, k % D);
-  moments.weighted_volume[i] = thin ? std::numeric_limits<double>::infinity() : shape.trace();
+  const double m = shape.trace();
+  moments.weighted_volume[i] = m > 0.0 ? m : std::numeric_limits<double>::infinity();
+  return thin;
 }
 
 template struct FamilyMoments<2>;
@@ -88,8 +90,8 @@ template std::array<double, 4> shape_tensor_at<2>(const Family<2>&, Index);
 template std::array<double, 9> shape_tensor_at<3>(const Family<3>&, Index);
 template FamilyMoments<2> family_moments<2>(const Family<2>&);
 template FamilyMoments<3> family_moments<3>(const Family<3>&);
-template void set_moments<2>(const Family<2>&, Index, FamilyMoments<2>&);
-template void set_moments<3>(const Family<3>&, Index, FamilyMoments<3>&);
+template bool set_moments<2>(const Family<2>&, Index, FamilyMoments<2>&);
+template bool set_moments<3>(const Family<3>&, Index, FamilyMoments<3>&);
 template bool is_thin<2>(const Family<2>&, Index);
 template bool is_thin<3>(const Family<3>&, Index);
 

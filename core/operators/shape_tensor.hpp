@@ -24,10 +24,10 @@ std::array<double, D * D> shape_tensor_at(const Family<D>& family, Index i);
 template <int D>
 FamilyMoments<D> family_moments(const Family<D>& family);
 
-/// Finds the moments of point i anew, after bonds broke. A family that broke down to a line has
-/// those of a point without bonds; is_thin() tells.
+/// Finds the moments of point i anew, after bonds broke. A family that broke down to a line has a
+/// zero inverse shape beside the weighted volume of its bonds; returns is_thin().
 template <int D>
-void set_moments(const Family<D>& family, Index i, FamilyMoments<D>& moments);
+bool set_moments(const Family<D>& family, Index i, FamilyMoments<D>& moments);
 
 /// The bonds of point i span space so poorly (lambda_min / lambda_max of K_i < 0.05) that a
 /// gradient from them would amplify noise twenty times.

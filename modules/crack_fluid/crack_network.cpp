@@ -331,7 +331,7 @@ void CrackNetwork::book(const Eigen::VectorXd& v) {
     const double leaked = lubrication_.leaked()[f];
     const double pressure = liquid_.pressure(v[f]);
     double first = liquid_.pressure(unknown_[f]);
-    const double answer = opening_slope_[f * (mass_.size() + 1)];
+    const double answer = lubrication_.opening_slope()(f, f);
     if (!liquid_.is_full(unknown_[f]) && answer > 0.0) {
       first = std::clamp(pressure - lubrication_.opening()[f] / answer, first, pressure);
     }

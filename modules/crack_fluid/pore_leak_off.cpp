@@ -57,7 +57,7 @@ void PoreLeakOff::find_contacts(const BondState<2>& bonds) {
   std::map<std::pair<Index, Index>, double> factors;  // by facet and point
   for (const auto& [i, j, facet] : bonds.broken()) {
     if (facet == no_facet) continue;
-    const double factor = 2.0 * 4.0 * d * weight_of(*family_, i, j) * body_->points().volume[i] /
+    const double factor = 4.0 * d * weight_of(*family_, i, j) * body_->points().volume[i] /
                           (weighted_volume(*family_, i) + weighted_volume(*family_, j));
     for (const Index point : {i, j}) factors[{facet, point}] += factor;
   }

@@ -32,6 +32,9 @@ struct AnisotropicDarcyLaw {
   /// along all axes: second order inside.
   double stabilisation() const { return 4.0 * D / 3.0 * mean_mobility(); }
 
+  /// Of the bonds of a family that does not span space (bond_flow.hpp).
+  double bonds_alone() const { return D * mean_mobility(); }
+
   AnisotropicDarcyLaw times(double factor) const {
     AnisotropicDarcyLaw result = *this;
     for (double& entry : result.mobility) entry *= factor;

@@ -26,6 +26,11 @@ class BondFlow final : public GradientFlow<D, Law> {
     find_stiffness();
   }
 
+  void take_bonds(std::shared_ptr<const Family<D>> family, std::span<const Index> points) override {
+    GradientFlow<D, Law>::take_bonds(std::move(family), points);
+    find_stiffness();
+  }
+
   void apply(std::span<const double> p, std::span<double> outflow) override {
     const Family<D>& family = this->family();
     const Index points = family.point_count;

@@ -82,7 +82,7 @@ PortView DarcyFlow<D>::port(PortId id) {
     case exchanged_mass:
       return {points, system_->exchange().mass(count)};
     case pore_pressure:
-      find_pressure_slope();
+      if (pressure_slope_.empty()) find_pressure_slope();
       return {points, pressure_, {}, pressure_slope_};
     case pore_stress:
       return {points, pore_stress_, {}, pore_stress_slope_};
@@ -105,6 +105,7 @@ PortView DarcyFlow<D>::port(PortId id) {
 
 template <int D>
 void DarcyFlow<D>::initialize(double t) {
+  follow_bonds();
   start_ = time_ = t;
   unknowns_.assign(system_->size(), 0.0);
   system_->start();
@@ -125,6 +126,12 @@ void DarcyFlow<D>::initialize(double t) {
   restart_integrator_ = true;
 }
 
+/// No history goes across bonds that break.
+template <int D>
+void DarcyFlow<D>::follow_bonds() {
+  if (system_->follow(body_->bond_state())) restart_integrator_ = true;
+}
+
 template <int D>
 double DarcyFlow<D>::stable_time_step() const {
   if (restart_integrator_) integrator_->reset(time_, unknowns_);
@@ -133,6 +140,7 @@ double DarcyFlow<D>::stable_time_step() const {
 
 template <int D>
 double DarcyFlow<D>::advance(const TimeWindow& window) {
+  follow_bonds();
   system_->set_dilatation({dilatation_, dilatation_rate_, dilatation_slope_, window.end});
   if (window.length() > 0.0) integrate(window);
   // A window of no length changes pressures at once, which no history survives.
@@ -141,6 +149,7 @@ double DarcyFlow<D>::advance(const TimeWindow& window) {
   update_content();
   system_->pressure(time_, unknowns_, pressure_);
   update_pore_stress();
+  find_pressure_slope();
   return window.end;
 }
 
@@ -199,16 +208,19 @@ void DarcyFlow<D>::find_mobility() {
   }
 }
 
-/// While no fluid moves and the rock is held; empty where nobody hands over mass.
+/// While no fluid moves, and the rock answers as the dilatation's slope says; empty where nobody
+/// hands over mass.
 template <int D>
 void DarcyFlow<D>::find_pressure_slope() {
   if (!system_->exchange().is_linked()) return;
+  const PoreFluid& fluid = system_->fluid();
+  const std::span<const double> storage = system_->effective_storage(time_, unknowns_);
   pressure_slope_.resize(system_->points());
   for (Index i = 0; i < system_->points(); ++i) {
-    const double alpha = system_->biot_coefficient(i);
-    const double mass = system_->fluid().density * system_->volume()[i];
-    pressure_slope_[i] = -pore_stress_slope_[i] / (alpha * alpha * mass);
+    const double mass = fluid.density * system_->volume()[i];
+    pressure_slope_[i] = fluid.density_ratio(pressure_[i]) / (storage[i] * mass);
   }
+  for (const HeldPoint& held : system_->held_points()) pressure_slope_[held.point] = 0.0;
 }
 
 template <int D>
@@ -275,11 +287,14 @@ void DarcyFlow<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("fluid_content", unknowns_);
   visitor.visit("pore_pressure", pressure_);
   visitor.visit("start", start_);
+  // Follows the slope of the dilatation, which a link has yet to bring after a restart.
+  if (system_->exchange().is_linked()) visitor.visit("pore_pressure_slope", pressure_slope_);
   system_->visit_state(visitor);
 }
 
 template <int D>
 void DarcyFlow<D>::on_restored(double t) {
+  follow_bonds();
   time_ = t;
   restart_integrator_ = true;
   system_->exchange().on_restored();

@@ -25,7 +25,8 @@ struct InitialPressure {
                                 ///< highest corner of the body
 };
 
-/// Pore flow after Darcy, by whichever integrator it is given.
+/// Pore flow after Darcy, by whichever integrator it is given. No fluid crosses bonds of the body
+/// that are broken (Body::bond_state).
 ///
 /// Ports: in `dilatation`, `exchanged_mass` [kg] that others hand over to each point; out
 /// `pore_pressure` [Pa] with its slope d(pore_pressure)/d(exchanged_mass), `pore_stress` (alpha p)
@@ -72,6 +73,7 @@ class DarcyFlow final : public PhysicsModule {
   };
 
   double initial_pressure(Index i) const;
+  void follow_bonds();
   void integrate(const TimeWindow& window);
   void flow(const TimeWindow& window);
   void update_content();

@@ -22,6 +22,9 @@ struct DarcyLaw {
 
   /// 4 D / 3 cancels the leading error of the nonlocal gradient: about fourth order inside.
   double stabilisation() const { return 4.0 * D / 3.0 * mobility; }
+
+  /// Of the bonds of a family that does not span space (bond_flow.hpp).
+  double bonds_alone() const { return D * mobility; }
 };
 
 }  // namespace perifrac

@@ -4,18 +4,28 @@ namespace perifrac {
 
 template <int D>
 DarcyNewtonMatrix<D>::DarcyNewtonMatrix(DarcySystem<D>& system, Method method)
-    : system_(system), method_(method), right_side_(system.points()), pressure_(system.points()) {
+    : system_(system),
+      method_(method),
+      right_side_(system.points()),
+      pressure_(system.points()),
+      outflow_(system.points()) {
+  assemble();
+}
+
+template <int D>
+void DarcyNewtonMatrix<D>::assemble() {
   const Eigen::SparseMatrix<double> all =
-      method == Method::direct ? system.flow().assemble() : system.flow().preconditioner();
-  flow_ = all.topLeftCorner(system.points(), system.points());
-  face_flow_ = all.bottomLeftCorner(all.rows() - system.points(), system.points());
+      method_ == Method::direct ? system_.flow().assemble() : system_.flow().preconditioner();
+  flow_ = all.topLeftCorner(system_.points(), system_.points());
+  face_flow_ = all.bottomLeftCorner(all.rows() - system_.points(), system_.points());
   matrix_ = flow_;
-  outflow_.resize(system.points());
   face_outflow_.resize(face_flow_.rows());
+  bond_version_ = system_.bond_version();
 }
 
 template <int D>
 void DarcyNewtonMatrix<D>::set_up(double t, std::span<const double> y, double gamma) {
+  if (bond_version_ != system_.bond_version()) assemble();
   gamma_ = gamma;
   matrix_.coeffs() = gamma * flow_.coeffs();
   for (const HeldPoint& held : system_.held_points()) uncouple(held.point);

@@ -65,6 +65,28 @@ void DarcySystem<D>::set_dilatation(const DilatationInput& input) {
 }
 
 template <int D>
+bool DarcySystem<D>::follow(const BondState<D>& bonds) {
+  if (bond_version_ == bonds.version()) return false;
+  bond_version_ = bonds.version();
+  if (!cut_family_) {
+    cut_family_ = std::make_shared<Family<D>>(flow_->family());
+    intact_weight_ = cut_family_->weight;
+  }
+  cut_family_->weight = intact_weight_;
+  for (const BrokenBond& bond : bonds.broken()) {
+    silence(*cut_family_, bond.i, bond.j);
+    cut_points_.insert(cut_points_.end(), {bond.i, bond.j});
+  }
+  std::ranges::sort(cut_points_);
+  const auto twice = std::ranges::unique(cut_points_);
+  cut_points_.erase(twice.begin(), twice.end());
+  flow_->take_bonds(cut_family_, cut_points_);
+  if (smoothing_) smoothing_->take_bonds(cut_family_);
+  ++version_;
+  return true;
+}
+
+template <int D>
 double DarcySystem<D>::held_pressure(double t, const HeldPoint& held) {
   if (held.face_value < 0) return 0.0;
   if (!face_pressures_.is_constant()) find_face_potential(t);

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "core/geometry/bond_state.hpp"
 #include "core/module/time_window.hpp"
 #include "core/time/ode_system.hpp"
 #include "core/time/scheduled_vector.hpp"
@@ -61,6 +62,12 @@ class DarcySystem final : public OdeSystem {
 
   /// Takes the input of the next window; spans must stay valid while it is integrated.
   void set_dilatation(const DilatationInput& input);
+
+  /// Takes the bonds that broke in the body, or mended as a state was restored, out of the flow;
+  /// true where any did.
+  bool follow(const BondState<D>& bonds);
+  /// Of the bonds that flow follows: H is another matrix where it is another.
+  std::uint64_t bond_version() const { return bond_version_; }
 
   /// What other modules hand over within windows.
   MassExchange& exchange() { return exchange_; }
@@ -156,7 +163,11 @@ class DarcySystem final : public OdeSystem {
   std::vector<double> outflow_;    ///< workspace: H psi
   std::vector<double> mobility_;   ///< (rho/rho_0)^2; empty for a linear fluid
   std::optional<PressureSmoothing<D>> smoothing_;
-  std::vector<double> smoothed_;  ///< workspace: by its points
+  std::uint64_t bond_version_ = 0;
+  std::shared_ptr<Family<D>> cut_family_;  ///< made when the first bond breaks
+  std::vector<double> intact_weight_;      ///< likewise: of its bonds
+  std::vector<Index> cut_points_;          ///< ascending: whose bonds ever broke
+  std::vector<double> smoothed_;           ///< workspace: by its points
 };
 
 }  // namespace perifrac

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,10 @@ class FlowOperator {
     throw std::logic_error("an operator of constant mobility, asked to scale it by " +
                            std::to_string(factor.size()) + " factors");
   }
+
+  /// Takes a family of the same bonds in which others are broken, of weight 0, at these points.
+  virtual void take_bonds(std::shared_ptr<const Family<D>> family,
+                          std::span<const Index> points) = 0;
 
   /// outflow = H p: volume that leaves every point per time, and that enters through every face
   /// value's faces [m^3/s, per metre in 2D].

@@ -34,6 +34,10 @@ class GradientFlow : public FlowOperator<D> {
     }
   }
 
+  void take_bonds(std::shared_ptr<const Family<D>> family, std::span<const Index> points) override {
+    operator_.update(std::move(family), points);
+  }
+
   void velocity(std::span<const double> p, std::span<double> velocity) override {
     operator_.gradient(p, velocity);
     const Index points = family().point_count;

@@ -19,6 +19,11 @@ class NestedFlow final : public GradientFlow<D, Law> {
         nodes_(static_cast<std::size_t>(D) * this->family().node_count()),
         face_gradient_(face_gradient()) {}
 
+  void take_bonds(std::shared_ptr<const Family<D>> family, std::span<const Index> points) override {
+    GradientFlow<D, Law>::take_bonds(std::move(family), points);
+    face_gradient_ = face_gradient();
+  }
+
   void apply(std::span<const double> p, std::span<double> outflow) override {
     const Family<D>& family = this->family();
     const Index points = family.point_count, nodes = family.node_count();

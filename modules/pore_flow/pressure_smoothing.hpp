@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/body.hpp"
@@ -22,6 +23,12 @@ class PressureSmoothing {
 
   /// The points that are smoothed.
   std::span<const Index> points() const { return points_; }
+
+  /// Takes a family of the same bonds with other weights.
+  void take_bonds(std::shared_ptr<const Family<D>> family) {
+    family_ = std::move(family);
+    mirror_.use(*family_);
+  }
 
   /// smoothed[k] = the new pressure of points()[k]; p holds point values, then face values.
   void apply(std::span<const double> p, std::span<double> smoothed);

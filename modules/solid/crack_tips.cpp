@@ -11,9 +11,11 @@ namespace {
 
 /// The facet whose opening is held against the tip's asymptote is the last but one. On the lattice
 /// the tip acts as if it lay so much, in spacings, ahead of the end of the last facet: found from
-/// uniform pressure for the part of toughness; for that of viscosity so that the length, which goes
-/// in steps, is right in their mean (configs/kgd_viscosity.yaml, kgd_mixed.yaml at 10 mm).
-constexpr double tip_offset = -0.12, viscous_offset = 0.1;
+/// uniform pressure.
+constexpr double tip_offset = -0.12;
+/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity asks
+/// for is taken in the middle of it.
+constexpr double viscous_offset = tip_offset + 0.5;
 
 /// A turn below this is rounding [rad].
 constexpr double straight = 1e-6;
@@ -86,7 +88,8 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
                                                       s + viscous_offset * body_.spacing(),
                                                       state.viscosity[at.before], speed);
   }
-  const TipLoad load = energy_release_.at(at, state.unknowns(), state.pressure, state.inertia);
+  const TipLoad load =
+      energy_release_.at(at, state.unknowns(), state.pressure, state.pore_stress, state.inertia);
   if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
   return std::sqrt(load.energy_release / tip_law.fracture_energy);
 }

@@ -19,6 +19,8 @@ struct CrackState {
   const Eigen::VectorXd& pressure;  ///< on the faces, that of contact included [Pa]
   /// Of the fluid at every facet, 0 where it is dry [Pa s]; empty where no fluid is simulated.
   std::span<const double> viscosity;
+  /// Of all points [Pa]; empty where no pore flow is simulated.
+  std::span<const double> pore_stress;
   /// Displacements, found when they are asked for.
   std::function<std::span<const double>()> unknowns;
   /// Mean jumps across all facets along their normal and tangent [m], when they are asked for.

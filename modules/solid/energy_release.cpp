@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/operators/bond_traversal.hpp"
+#include "core/operators/shape_tensor.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -35,6 +38,21 @@ struct Cutoff {
   }
 };
 
+/// d . grad a at point i, from the bonds that are left.
+double rise_along(const Vector<2>& d, std::span<const double> a, const Family<2>& family, Index i) {
+  if (is_thin(family, i)) return 0.0;
+  const auto moment = sum_over_bonds<2>(family, i, [&](Index j, const Vector<2>& xi, double w) {
+    const Index end = j < family.point_count ? j : family.ghost_source[j - family.point_count];
+    const double difference = w * (a[end] - a[i]);
+    return std::array{difference * xi[0], difference * xi[1]};
+  });
+  const auto shape = shape_tensor_at(family, i);
+  const double determinant = shape[0] * shape[3] - shape[1] * shape[2];
+  const Vector<2> gradient = {(shape[3] * moment[0] - shape[1] * moment[1]) / determinant,
+                              (shape[0] * moment[1] - shape[2] * moment[0]) / determinant};
+  return gradient[0] * d[0] + gradient[1] * d[1];
+}
+
 /// The jump that turns a straight crack least reliably is the last one.
 constexpr double first_jump = 1.0, last_jump = 3.0;  // spacings behind the tip
 
@@ -46,12 +64,13 @@ constexpr double largest_kink = 70.0 * M_PI / 180.0;
 }  // namespace
 
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
-                          const Eigen::VectorXd& pressure, const PointInertia& inertia) const {
+                          const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
+                          const PointInertia& inertia) const {
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
   }
-  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, inertia)};
+  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, pore_stress, inertia)};
 }
 
 TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
@@ -100,6 +119,7 @@ Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
 
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
                                       const Eigen::VectorXd& pressure,
+                                      std::span<const double> pore_stress,
                                       const PointInertia& inertia) const {
   const Family<2>& family = body_.family();
   const Index points = family.point_count;
@@ -112,17 +132,23 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
   for (Index i = 0; i < points; ++i) {
     const Vector<2> x = {family.position[0][i], family.position[1][i]};
     if (!cutoff.reaches(x)) continue;
-    const Vector<2> slope = cutoff.gradient(x);
+    const double q = cutoff.at(x);
     const Tensor<2, 2> g = elastic.gradient_at(i);
+    const Vector<2> slope = cutoff.gradient(x);
     if (inertia) {
       const Vector<2> force = inertia(i);
       for (int a = 0; a < 2; ++a) {
-        const double along = g[a * 2] * tip.direction[0] + g[a * 2 + 1] * tip.direction[1];
-        sum += cutoff.at(x) * force[a] * along;
+        sum += q * force[a] * (g[a * 2] * tip.direction[0] + g[a * 2 + 1] * tip.direction[1]);
       }
     }
+    Tensor<2, 2> stress = elastic.law(i).stress(g);
+    if (!pore_stress.empty()) {
+      const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
+      for (const int k : {0, 3}) stress[k] -= pore_stress[i];
+      sum += family.volume[i] * (g[0] + g[3]) *
+             (pore_stress[i] * along + q * rise_along(tip.direction, pore_stress, family, i));
+    }
     if (slope == Vector<2>{}) continue;
-    const Tensor<2, 2> stress = elastic.law(i).stress(g);
     double work = 0.0;  // d . (grad u^T sigma) . grad q
     for (int a = 0; a < 2; ++a) {
       for (int b = 0; b < 2; ++b) {

@@ -38,17 +38,21 @@ using PointInertia = std::function<Vector<2>(Index)>;
 ///       - int q (p dw/ds + tau dv/ds) ds,
 /// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry, w
 /// and v their jumps, s along the crack to the tip. Of displacements from the state at rest, so
-/// that an initial stress counts as what faces are relieved of. The kinetic energy T is left out:
-/// its two terms, -T d . grad q and -rho u' . (grad u' d) q, are the integral of -d . grad(T q),
-/// which vanishes along a crack but for what a tip carries along with it, a part of (speed of the
-/// tip / speed of sound)^2.
+/// that an initial stress counts as what faces are relieved of. With a pore stress a, sigma is the
+/// total stress, W is less a theta, and there is
+///   + sum V theta (d . grad a) q,
+/// for a field that is held while the crack grows makes the rock another along the crack. The
+/// kinetic energy T is left out: its two terms, -T d . grad q and -rho u' . (grad u' d) q, are the
+/// integral of -d . grad(T q), which vanishes along a crack but for what a tip carries along with
+/// it, a part of (speed of the tip / speed of sound)^2.
 class EnergyRelease {
  public:
   EnergyRelease(CutBody& body, double spacing) : body_(body), spacing_(spacing) {}
 
-  /// `unknowns`: all displacements; `pressure`: on the faces, by facet [Pa].
+  /// `unknowns`: all displacements; `pressure`: on the faces, by facet [Pa]; `pore_stress`: of all
+  /// points [Pa], or empty.
   TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
-             const PointInertia& inertia = {}) const;
+             std::span<const double> pore_stress = {}, const PointInertia& inertia = {}) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
   TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
 
@@ -56,7 +60,8 @@ class EnergyRelease {
   Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
                     std::span<const Vector<2>> jumps) const;
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
-                         const Eigen::VectorXd& pressure, const PointInertia& inertia) const;
+                         const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
+                         const PointInertia& inertia) const;
 
   CutBody& body_;
   double spacing_;

@@ -120,6 +120,7 @@ PortView FracturingSolid::port(PortId id) {
     case crack_opening:
       return {facets, {faces_.opening.data(), static_cast<std::size_t>(faces_.opening.size())}};
     case free_crack_opening: {
+      take_load();
       free_opening_ = cracked_.free_opening(in_cracks());
       const Eigen::MatrixXd& slope = cracked_.compliance();
       opening_slope_.resize(slope.size());
@@ -157,7 +158,7 @@ void FracturingSolid::initialize(double t) {
   window_end_ = last_growth_ = t;
   cracked_.start();
   tips_.start(seeds_, t);
-  if (is_steady()) cracked_.set_load(find_load());
+  load_is_current_ = !is_steady();
   unknowns_.assign(free_unknowns_.rows(), 0.0);
   unknowns_before_ = force_ = unknowns_;
   external_work_ = spent_energy_ = readiness_before_ = 0.0;
@@ -209,14 +210,22 @@ Eigen::VectorXd FracturingSolid::in_cracks() {
   return view(crack_pressure_);
 }
 
+/// A load that a restored state brings is found when it is asked for: most windows bring another.
+void FracturingSolid::take_load() {
+  if (!load_is_current_) cracked_.set_load(find_load());
+  load_is_current_ = true;
+}
+
 void FracturingSolid::solve_faces() {
-  if (!is_steady()) cracked_.set_load(find_load());
+  load_is_current_ = load_is_current_ && is_steady();
+  take_load();
   faces_ = cracked_.faces(in_cracks());
   unknowns_are_current_ = false;
 }
 
 void FracturingSolid::find_unknowns() {
   if (unknowns_are_current_) return;
+  take_load();
   view(unknowns_) = prescribed_.at(window_end_) + cracked_.unknowns(faces_.pressure);
   unknowns_are_current_ = true;
   derived_ = false;
@@ -282,6 +291,7 @@ CrackState FracturingSolid::crack_state() {
           .opening = faces_.opening,
           .pressure = faces_.pressure,
           .viscosity = crack_viscosity_,
+          .pore_stress = pore_stress_,
           .unknowns = [this]() -> std::span<const double> {
             find_unknowns();
             return unknowns_;
@@ -297,6 +307,7 @@ void FracturingSolid::visit_state(StateVisitor& visitor) {
   } else {
     visitor.visit("displacement", unknowns_before_);
     visitor.visit("external_force", force_);
+    if (!pore_stress_.empty()) visitor.visit("pore_stress", pore_stress_);
   }
   // A link reads it anew with the opening where facets were added at the end of a window.
   visitor.visit("crack_pressure", crack_pressure_);
@@ -321,11 +332,8 @@ void FracturingSolid::on_restored(double t) {
   cracked_.follow_bonds();
   derived_ = false;
   unknowns_are_current_ = !is_steady();
-  if (is_steady()) {
-    cracked_.set_load(find_load());
-  } else {
-    unknowns_ = unknowns_before_;
-  }
+  load_is_current_ = false;
+  if (!is_steady()) unknowns_ = unknowns_before_;
 }
 
 }  // namespace perifrac

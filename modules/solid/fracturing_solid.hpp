@@ -75,6 +75,7 @@ class FracturingSolid final : public PhysicsModule {
   CrackState crack_state();
   Eigen::VectorXd find_load();
   Eigen::VectorXd in_cracks();
+  void take_load();
   void solve_faces();
   void find_unknowns();
   void derive();
@@ -97,6 +98,7 @@ class FracturingSolid final : public PhysicsModule {
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   bool unknowns_are_current_ = false;
+  bool load_is_current_ = false;         ///< the body has that of the window's end
   bool derived_ = false;                 ///< dilatation and energy are those of the unknowns
   std::vector<double> unknowns_before_;  ///< at the beginning of the window
   std::vector<double> force_;  ///< external, on every unknown, the fluid's in cracks apart [N/m]

@@ -67,14 +67,18 @@ class Restart(RunTest):
                 self.assert_same_results(whole, parts)
 
     def test_a_growing_crack_in_parts(self):
-        scene = CONFIGS / "hf_storage.yaml"
-        for solid in ("quasi_static", "dynamic"):
-            with self.subTest(solid):
-                keys = {"body.spacing": "2.5 mm", "time.end": "20 ms", "output.checkpoint_interval": "0 s",
-                        "solid.type": solid}
-                whole = self.run_scene(keys, f"{solid}/whole", scene=scene)
-                parts = self.run_scene(keys, f"{solid}/parts", "--until", "10 ms", scene=scene)
-                self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], scene=scene)
+        dry = {"body.spacing": "2.5 mm", "time.end": "20 ms"}
+        pores = {"body.spacing": "5 mm", "time.end": "10 ms"}
+        cvode = pores | {"pore_flow.integrator.type": "cvode", "coupling.window.largest": "1 ms"}
+        for name, scene, until, keys in (("dry", "hf_storage", "10 ms", dry),
+                                         ("inertia", "hf_storage", "10 ms", dry | {"solid.type": "dynamic"}),
+                                         ("explicit pores", "hf_storage_pores", "5 ms", pores),
+                                         ("cvode pores", "hf_storage_pores", "5 ms", cvode)):
+            with self.subTest(name):
+                path, keys = CONFIGS / f"{scene}.yaml", keys | {"output.checkpoint_interval": "0 s"}
+                whole = self.run_scene(keys, f"{name}/whole", scene=path)
+                parts = self.run_scene(keys, f"{name}/parts", "--until", until, scene=path)
+                self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], scene=path)
                 self.assert_same_results(whole, parts)
 
     def test_fluids_in_parts(self):

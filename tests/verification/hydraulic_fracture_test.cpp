@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -27,6 +28,21 @@ TEST(HfStorage, AgreesWithInertiaToo) {
   const SceneRun run = run_config("hf_storage", {"body.spacing=2.5 mm", "solid.type=dynamic"});
   expect_near_reference(run, 0.025, 0.08);
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+}
+
+/// The whole chain, crack fluid that leaks into pores of a rock that cracks: the length is that of
+/// rock without pores, which the same volume opens; the pressure is higher by what pores stiffen.
+TEST(HfStoragePores, KeepsItsBalancesOnACoarseLattice) {
+  const SceneRun run = run_config("hf_storage_pores", {"body.spacing=2.5 mm", "time.end=40 ms"});
+  ASSERT_EQ(run.exit_code, 0);
+  for (const auto& row : run.summary["reference"]["table"]) {
+    if (row["time"] < 0.015) continue;
+    EXPECT_LE(row["crack_length_error"], 0.08) << row["time"];
+    EXPECT_LE(row["inlet_notch_pressure_error"], 0.25) << row["time"];
+  }
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+  EXPECT_GT(run.summary["ledger"]["pore_fluid_mass"]["value"], 0.0);
 }
 
 /// A sloped seed turns to where the stress lets it open, and the run ends well.
@@ -67,6 +83,40 @@ TEST(Griffith, GrowsInARockThatScatters) {
   EXPECT_GT(ledger(one, "energy_dissipated"), 0.0);
   EXPECT_EQ(ledger(one, "energy_dissipated"), ledger(same, "energy_dissipated"));
   EXPECT_NE(ledger(one, "energy_dissipated"), ledger(other, "energy_dissipated"));
+}
+
+/// Through a slit 26.6 degrees to the lattice, whose pressure rises first.
+TEST(SlitFlow, FollowsTheCubicLaw) {
+  const SceneRun run = run_config("slit_flow");
+  ASSERT_EQ(run.exit_code, 0);
+  for (const auto& row : run.summary["reference"]["table"]) {
+    EXPECT_LE(row["flow_rate_error"], 0.01) << row["time"];
+    EXPECT_LE(row["pressure_error"], 0.01) << row["time"];
+  }
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+}
+
+/// Once the well is shut its pressure falls, in the end the crack is closed.
+TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
+  const SceneRun run = run_config("shut_in");
+  ASSERT_EQ(run.exit_code, 0);
+  const std::vector<double> time = run.column("time [s]");
+  const std::vector<double> pressure = run.column("inlet_well_pressure [Pa]");
+  const std::vector<double> open = run.column("open_crack_length [m]");
+  const std::vector<double> length = run.column("crack_length [m]");
+  double highest = 0.0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    highest = std::max(highest, pressure[k]);
+    EXPECT_LE(open[k], length[k] * (1.0 + 1e-12)) << time[k];
+    if (time[k - 1] < 0.0201) continue;
+    EXPECT_LE(pressure[k], pressure[k - 1]) << time[k];
+  }
+  EXPECT_GT(highest, 1.0e6) << "the crack never opened";
+  EXPECT_GT(*std::ranges::max_element(open), 0.0);
+  EXPECT_EQ(open.back(), 0.0);
+  // Contact is found with the fluid: a pass does, and one more where the crack has grown.
+  EXPECT_LE(run.summary["counts"]["most_passes"], 3);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
 }
 
 }  // namespace

@@ -99,16 +99,22 @@ double both_sides(double t) {
   return density * 4.0 * pressure * std::sqrt(mobility * storage * t / std::numbers::pi);
 }
 
+/// A seventh of a spacing lies between crack and pores; more at first, when the front is within the
+/// horizon.
 TEST(PoreLeakOff, IsThatOfTwoHalfSpaces) {
   LeakingStrip run;
+  double lacking_before = INFINITY;
   for (int k = 0; k < 5; ++k) {
     run.advance(500.0, 25);
-    const double expected = 4.0 * both_sides(run.time);
-    // A seventh of a spacing too much: the front is 2 to 5 spacings deep.
-    EXPECT_NEAR(run.leaked(), expected, 0.05 * expected) << run.time;
+    const double lacking = 4.0 * both_sides(run.time) - run.leaked();
+    const double of_a_spacing = 8.0 * density * storage * pressure;
+    EXPECT_LT(std::abs(lacking), 0.3 * of_a_spacing) << run.time;
+    EXPECT_LT(lacking, lacking_before) << run.time;
+    lacking_before = lacking;
     EXPECT_LT(run.manager->ledger().mass()->relative_error, 1e-14);
     EXPECT_LT(run.manager->ledger().energy()->relative_error, 1e-3);
   }
+  EXPECT_NEAR(run.leaked(), 4.0 * both_sides(2500.0), 0.03 * run.leaked());
 }
 
 /// The pores' answer is in: windows of four times what explicit diffusion bears in one pass, and of

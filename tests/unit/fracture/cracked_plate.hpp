@@ -76,13 +76,30 @@ struct CrackedPlate {
       const Vector<2> u = exact.displacement(body->points().at(i));
       for (int a = 0; a < 2; ++a) prescribed[a * points + i] = u[a];
     }
-    std::vector<double> u(prescribed.begin(), prescribed.end()), force(u.size()), theta(points);
-    elastic->apply(u, {}, force, theta);
-    cracked->set_load(-free_.transpose() *
-                      Eigen::Map<const Eigen::VectorXd>(force.data(), prescribed.size()));
+    const std::vector<double> u(prescribed.begin(), prescribed.end());
+    cracked->set_load(-free_.transpose() * inner_force(u, {}));
     pressure = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cracked->jumps().size()),
                                          exact.pressure);
     return prescribed + cracked->unknowns(pressure);
+  }
+
+  /// The equilibrium with the outer rows at rest, under a pore stress of the points and a pressure
+  /// in the crack.
+  Eigen::VectorXd solve(std::span<const double> pore_stress, double face_pressure) {
+    const std::vector<double> rest(prescribed.size(), 0.0);
+    cracked->set_load(-free_.transpose() * inner_force(rest, {pore_stress}));
+    pressure = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cracked->jumps().size()),
+                                         face_pressure);
+    return cracked->unknowns(pressure);
+  }
+
+  /// Of that equilibrium, the loads' potential included.
+  double potential_energy(std::span<const double> u, std::span<const double> pore_stress) {
+    const Eigen::Map<const Eigen::VectorXd> move(u.data(), prescribed.size());
+    const Eigen::VectorXd elastic_force = inner_force(u, {});
+    const Eigen::VectorXd load = elastic_force - inner_force(u, {pore_stress});
+    return 0.5 * move.dot(elastic_force) - move.dot(load) -
+           move.dot(cracked->face_force(pressure, false));
   }
 
   Eigen::VectorXd pressure;
@@ -101,6 +118,13 @@ struct CrackedPlate {
   }
 
  private:
+  Eigen::VectorXd inner_force(std::span<const double> u, const PoreStress& pore) {
+    Eigen::VectorXd force(prescribed.size());
+    std::vector<double> theta(family->point_count);
+    elastic->apply(u, pore, {force.data(), u.size()}, theta);
+    return force;
+  }
+
   Eigen::SparseMatrix<double> free_;
 };
 

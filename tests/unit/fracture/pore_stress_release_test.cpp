@@ -1,0 +1,67 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/fracture/cracked_plate.hpp"
+
+namespace perifrac::test {
+namespace {
+
+constexpr int n = 60, half = 10;
+
+/// J at the tip that grows, by domain integral.
+double release(CrackedPlate& plate, const std::vector<double>& pore_stress, double angle,
+               double half_length, const Eigen::VectorXd& u) {
+  const Vector<2> ahead = {std::cos(angle), std::sin(angle)};
+  const CrackTip tip{
+      {plate.middle()[0] + half_length * ahead[0], plate.middle()[1] + half_length * ahead[1]},
+      ahead,
+      no_facet,
+      no_facet};
+  return EnergyRelease(*plate.cracked, 1.0)
+      .at(tip, {u.data(), static_cast<std::size_t>(u.size())}, plate.pressure, pore_stress)
+      .energy_release;
+}
+
+/// A pore stress that is least on the crack and grows along it.
+std::vector<double> trough(const CrackedPlate& plate, double angle, double size, double rise) {
+  std::vector<double> pore_stress;
+  for (Index i = 0; i < plate.family->point_count; ++i) {
+    const Vector<2> x = plate.body->points().at(i);
+    const double dx = x[0] - 0.5 * n, dy = x[1] - 0.5 * n;
+    const double s = std::cos(angle) * dx + std::sin(angle) * dy;
+    const double t = -std::sin(angle) * dx + std::cos(angle) * dy;
+    pore_stress.push_back(size * (1.0 - 0.8 * std::exp(-t * t / 32.0)) * (1.0 + rise * s));
+  }
+  return pore_stress;
+}
+
+/// J over ten spacings of growth, against what these take off the potential energy.
+void expect_release_of_growth(double angle, double size, double rise, double face_pressure) {
+  constexpr int steps = 10;
+  CrackedPlate plate(n, straight_crack({0.5 * n, 0.5 * n}, angle, 2 * half));
+  const std::vector<double> pore_stress = trough(plate, angle, size, rise);
+  double first_energy = 0.0, energy = 0.0, sum = 0.0;
+  for (int k = 0; k <= steps; ++k) {
+    const auto longer = straight_crack({0.5 * n, 0.5 * n}, angle, 2 * (half + k));
+    if (k > 0) ASSERT_TRUE(plate.cracked->cut(longer.back()));
+    const Eigen::VectorXd u = plate.solve(pore_stress, face_pressure);
+    energy = plate.potential_energy({u.data(), static_cast<std::size_t>(u.size())}, pore_stress);
+    if (k == 0) first_energy = energy;
+    sum += (k == 0 || k == steps ? 0.5 : 1.0) * release(plate, pore_stress, angle, half + k, u);
+  }
+  EXPECT_NEAR(sum, first_energy - energy, 0.04 * sum)
+      << angle << " " << rise << " " << face_pressure;
+}
+
+TEST(PoreStressRelease, IsThePotentialEnergyThatGrowthTakes) {
+  for (const double angle : {0.0, M_PI / 4.0}) {
+    for (const double rise : {0.0, 0.03}) {
+      expect_release_of_growth(angle, 1e-3, rise, 0.0);
+      expect_release_of_growth(angle, -1e-3, rise, 2e-3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace perifrac::test
