@@ -5,7 +5,6 @@
 
 #include "core/errors.hpp"
 #include "core/operators/block_sum.hpp"
-#include "core/operators/bond_traversal.hpp"
 #include "core/state/all_finite.hpp"
 #include "core/time/equal_steps.hpp"
 #include "core/time/spectral_radius.hpp"
@@ -20,7 +19,7 @@ void VelocityVerlet::evaluate(double t, Motion& motion) {
   system_.force(t, motion.position, motion.acceleration);
   const double* const mass = system_.mass().data();
   double* const a = motion.acceleration.data();
-  for_each_point(static_cast<Index>(motion.acceleration.size()), [=](Index i) { a[i] /= mass[i]; });
+  for_each_entry(static_cast<Index>(motion.acceleration.size()), [=](Index i) { a[i] /= mass[i]; });
 }
 
 void VelocityVerlet::advance(double begin, double end, Motion& motion) {
@@ -50,7 +49,7 @@ void VelocityVerlet::step(double t, double length, Motion& motion) {
   kick(0.5 * length, motion);
   const double* const v = motion.velocity.data();
   double* const y = motion.position.data();
-  for_each_point(static_cast<Index>(motion.position.size()),
+  for_each_entry(static_cast<Index>(motion.position.size()),
                  [=](Index i) { y[i] += length * v[i]; });
   evaluate(t, motion);
   kick(0.5 * length, motion);
@@ -75,7 +74,7 @@ void VelocityVerlet::damp(double factor, Motion& motion) {
 void VelocityVerlet::kick(double length, Motion& motion) const {
   const double* const a = motion.acceleration.data();
   double* const v = motion.velocity.data();
-  for_each_point(static_cast<Index>(motion.velocity.size()),
+  for_each_entry(static_cast<Index>(motion.velocity.size()),
                  [=](Index i) { v[i] += length * a[i]; });
 }
 

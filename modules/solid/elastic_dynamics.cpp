@@ -6,7 +6,6 @@
 
 #include "core/errors.hpp"
 #include "core/operators/block_sum.hpp"
-#include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
 
@@ -129,7 +128,7 @@ void ElasticDynamics<D>::apply(std::span<const double> u, const PoreStress& pore
                                std::span<double> force, std::span<double> dilatation) {
   elastic_->apply(u, pore, force, dilatation);
   if (initial_force_.empty()) return;
-  for_each_point(static_cast<Index>(force.size()), [&](Index k) { force[k] -= initial_force_[k]; });
+  for_each_entry(static_cast<Index>(force.size()), [&](Index k) { force[k] -= initial_force_[k]; });
 }
 
 template <int D>
@@ -144,7 +143,7 @@ void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<do
 template <int D>
 void ElasticDynamics<D>::expand(std::span<const double> y, std::span<const double> prescribed,
                                 std::vector<double>& unknowns) const {
-  for_each_point(static_cast<Index>(owner_.size()), [&](Index k) {
+  for_each_entry(static_cast<Index>(owner_.size()), [&](Index k) {
     unknowns[k] = owner_[k] >= 0 ? y[owner_[k]] : 0.0;
     if (!prescribed.empty()) unknowns[k] += prescribed[k];
   });
@@ -153,7 +152,7 @@ void ElasticDynamics<D>::expand(std::span<const double> y, std::span<const doubl
 /// Force on what has a mass from that on every unknown.
 template <int D>
 void ElasticDynamics<D>::gather(std::span<const double> all, std::span<double> y) const {
-  for_each_point(static_cast<Index>(first_moved_.size()),
+  for_each_entry(static_cast<Index>(first_moved_.size()),
                  [&](Index i) { y[i] = all[first_moved_[i]]; });
   for (const auto& [i, unknown] : also_moved_) y[i] += all[unknown];
 }
@@ -223,7 +222,7 @@ template <int D>
 void ElasticDynamics<D>::find_pore_stress(double t) {
   pore_stress_.resize(pore_.value.size());
   const double since_end = t - pore_.end;
-  for_each_point(static_cast<Index>(pore_stress_.size()),
+  for_each_entry(static_cast<Index>(pore_stress_.size()),
                  [&](Index i) { pore_stress_[i] = pore_.value[i] + since_end * pore_.rate[i]; });
 }
 

@@ -75,6 +75,7 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   /// Another force acts from now on; it must stay.
   void set_added_force(AddedForce& force) { added_ = &force; }
+  bool may_break() const { return breaking_ != nullptr || added_ != nullptr; }
   /// Bonds were broken by who adds a force.
   void note_broken_bonds() { plate_rows_known_ = false; }
   /// What moves an unknown, by its place in mass(); negative: nothing that has a mass.
