@@ -288,7 +288,7 @@ void DarcyFlow<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("pore_pressure", pressure_);
   visitor.visit("start", start_);
   // Follows the slope of the dilatation, which a link has yet to bring after a restart.
-  if (system_->exchange().is_linked()) visitor.visit("pore_pressure_slope", pressure_slope_);
+  visitor.visit("pore_pressure_slope", pressure_slope_);
   system_->visit_state(visitor);
 }
 

@@ -102,13 +102,15 @@ class FracturingSolid final : public PhysicsModule {
   bool derived_ = false;                 ///< dilatation and energy are those of the unknowns
   std::vector<double> unknowns_before_;  ///< at the beginning of the window
   std::vector<double> force_;  ///< external, on every unknown, the fluid's in cracks apart [N/m]
-  double load_work_ = 0.0, relief_work_ = 0.0;  ///< steady: of the last window (Energies) [J/m]
+  double load_work_ = 0.0,
+         relief_work_ = 0.0;  ///< of the last window (CrackedBody::Energies) [J/m]
   double external_work_ = 0.0;
   double spent_energy_ = 0.0;      ///< on new faces [J/m]
   double crack_length_ = 0.0;      ///< made when it is asked for
   double open_length_ = 0.0;       ///< likewise
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
   double last_growth_ = 0.0;       ///< [s]
+  int cuts_ = 0;                   ///< of the window at hand
 
   std::vector<double> pore_stress_;
   std::vector<double> crack_pressure_;

@@ -31,12 +31,16 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
   AnyBody body = std::shared_ptr<const Body<2>>();
   if (dimension == 3) body = std::shared_ptr<const Body<3>>();
   if (scene.has("body")) body = make_body(scene.at("body"), dimension);
-  if (physics == "crack_fluid") seed_crack(*std::get<0>(body));
+  if (physics == "crack_fluid" || (physics == "pore_flow" && scene.count("cracks") > 0)) {
+    seed_crack(*std::get<0>(body));
+  }
   return make_module(scene, physics, body);
 }
 
 /// The nested operator takes no inflow at a face.
 const std::string nested_left = "pore_flow.boundary.left={type: sealed}";
+
+const std::string cracked = "cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]";
 
 struct Variant {
   std::string type;  ///< as registered, `physics/type`
@@ -94,6 +98,9 @@ const std::vector<Variant>& variants() {
               {"pore_flow.integrator.linear_solver=krylov"}),
       variant("darcy_explicit", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.integrator.type=explicit"}),
+      variant("darcy_cracked", "pore_flow/darcy", box_2d + darcy, {cracked}),
+      variant("darcy_cracked_explicit", "pore_flow/darcy", box_2d + darcy,
+              {cracked, "pore_flow.integrator.type=explicit"}),
       variant("darcy_bond", "pore_flow/darcy", box_2d + darcy, {"pore_flow.operator=bond"}),
       variant("darcy_nested_krylov", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.operator=nested", "pore_flow.nested.smoothing=none",
