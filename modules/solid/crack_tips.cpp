@@ -73,9 +73,11 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
     const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
                                 at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
     const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
+    const TipFluid fluid{state.viscosity[at.before],
+                         state.leak_off.empty() ? 0.0 : state.leak_off[at.before]};
     return state.faces.opening[at.before] / tip_law.opening(s + tip_offset * body_.spacing(),
                                                             s + viscous_offset * body_.spacing(),
-                                                            state.viscosity[at.before], speed);
+                                                            fluid, speed);
   }
   const TipLoad load = energy_release_.at(at, state.unknowns(), state.faces.pressure);
   if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;

@@ -17,6 +17,8 @@ struct CrackState {
   const CrackedBody::Faces& faces;
   /// Of the fluid at every facet, 0 where it is dry [Pa s]; empty where no fluid is simulated.
   std::span<const double> viscosity;
+  /// Carter's coefficient of one side, likewise [m/s^0.5]; empty where nothing leaks by it.
+  std::span<const double> leak_off;
   /// Displacements, found when they are asked for.
   std::function<std::span<const double>()> unknowns;
 

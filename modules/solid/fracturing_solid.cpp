@@ -44,6 +44,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
           InterfaceForce::port(2),
           {"crack_pressure", "Pa", PortDirection::in},
           {"crack_viscosity", "Pa s", PortDirection::in, PortKind::intensive, PortRole::property},
+          {"crack_leak_off", "m/s^0.5", PortDirection::in, PortKind::intensive, PortRole::property},
           {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, 2},
           {"dilatation", "1", PortDirection::out},
           {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, 4},
@@ -101,6 +102,9 @@ PortView FracturingSolid::port(PortId id) {
     case crack_viscosity:
       crack_viscosity_.resize(facets->count);
       return {facets, crack_viscosity_};
+    case crack_leak_off:
+      crack_leak_off_.resize(facets->count);
+      return {facets, crack_leak_off_};
     case displacement:
       find_unknowns();
       return {points, std::span(unknowns_).first(2 * body_->points().volume.size())};
@@ -276,7 +280,8 @@ double FracturingSolid::conclude(const TimeWindow& window) {
 }
 
 CrackState FracturingSolid::crack_state() {
-  return {window_end_, faces_, crack_viscosity_, [this]() -> std::span<const double> {
+  return {window_end_, faces_, crack_viscosity_, crack_leak_off_,
+          [this]() -> std::span<const double> {
             find_unknowns();
             return unknowns_;
           }};

@@ -21,7 +21,8 @@ namespace perifrac {
 /// fluid in the crack one tip goes on a window, so that the pressure answers before the next.
 ///
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
-/// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
+/// [Pa], `crack_viscosity` [Pa s] and Carter's coefficient `crack_leak_off` [m/s^0.5] of the fluid
+/// at the facet, 0 where it is dry; out
 /// `crack_aperture` [m]; `crack_opening` [m], which is below zero where faces would overlap without
 /// contact, with its slope d(opening)/d(crack_pressure), a matrix. `damage` of the
 /// points (paper Eq 16), `crack_length` [m], of it `open_crack_length` where faces are apart, and
@@ -52,6 +53,7 @@ class FracturingSolid final : public PhysicsModule {
     interface_impulse,
     crack_pressure,
     crack_viscosity,
+    crack_leak_off,
     displacement,
     dilatation,
     effective_stress,
@@ -110,6 +112,7 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<double> pore_stress_;
   std::vector<double> crack_pressure_;
   std::vector<double> crack_viscosity_;
+  std::vector<double> crack_leak_off_;
   InterfaceForce interface_;
   CrackedBody::Faces faces_;
   std::vector<double> opening_slope_;
