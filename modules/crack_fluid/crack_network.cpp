@@ -42,6 +42,9 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
   add_port(Quantity::wetted_fraction, {"crack_wetted_fraction", "1", out});
   add_port(Quantity::flow_rate, {"crack_flow_rate", "m^2/s", out});
   add_port(Quantity::viscosity, {"crack_viscosity", "Pa s", out, intensive, property});
+  if (leak_off_ && leak_off_->is_sink()) {
+    add_port(Quantity::leak_off, {"crack_leak_off", "m/s^0.5", out, intensive, property});
+  }
   add_port(Quantity::wetted_length, {"wetted_length", "m", out});
   add_port(Quantity::fluid_lag, {"fluid_lag", "m", out});
   add_port(Quantity::volume, {"crack_volume", "m^2", out});
@@ -112,6 +115,7 @@ PortView CrackNetwork::port(PortId id) {
     case Quantity::wetted_fraction:
     case Quantity::flow_rate:
     case Quantity::viscosity:
+    case Quantity::leak_off:
       return {facets, field(quantity)};
     case Quantity::pore_pressure:
       return pores_->pore_pressure();
@@ -137,16 +141,23 @@ std::vector<double>& CrackNetwork::field(Quantity quantity) {
       for (std::size_t f = 0; f < count; ++f) wetted_fraction_[f] = liquid_.fill(unknown_[f]);
       return wetted_fraction_;
     case Quantity::viscosity:
-      viscosity_.resize(count);
-      for (std::size_t f = 0; f < count; ++f) {
-        viscosity_[f] = liquid_.fill(unknown_[f]) < 0.5 ? 0.0 : liquid_.viscosity;
-      }
+      set_where_wet(viscosity_, liquid_.viscosity);
       return viscosity_;
+    case Quantity::leak_off:
+      set_where_wet(leak_off_coefficient_, leak_off_->coefficient());
+      return leak_off_coefficient_;
     case Quantity::flow_rate:
       find_flow_rate();
       return flow_rate_;
     default:
       return mass_;
+  }
+}
+
+void CrackNetwork::set_where_wet(std::vector<double>& field, double value) const {
+  field.resize(mass_.size());
+  for (std::size_t f = 0; f < mass_.size(); ++f) {
+    field[f] = liquid_.fill(unknown_[f]) < 0.5 ? 0.0 : value;
   }
 }
 

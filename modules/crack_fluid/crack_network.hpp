@@ -27,15 +27,16 @@ struct CrackFilling {
 /// Ports, on the facets ("crack"): in `free_crack_opening` [m], takes rate and a slope of count *
 /// count values against `crack_pressure`; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
 /// `crack_wetted_fraction`, `crack_flow_rate` [m^2/s] from a facet's first end to its second, the
-/// property `crack_viscosity` [Pa s], 0 where less than half a facet is wet. On its own:
-/// `wetted_length` and `fluid_lag` [m], `crack_volume` [m^2], `mean_crack_pressure` [Pa]
-/// (crack_extent.hpp), `inlet_<name>_pressure` [Pa], `inlet_<name>_opening` [m], with leak-off
-/// `leak_off_volume` [m^2] at zero pressure, since the start, and `leak_off_rate` [m^2/s], the mean
-/// of the last window; for the ledger `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with
-/// leak-off `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
-/// `crack_fluid_work`, `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on
-/// the body's points: in `pore_pressure` [Pa], takes rate and a slope against
-/// `exchanged_mass`, `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg/m].
+/// properties `crack_viscosity` [Pa s] and, by Carter's law, `crack_leak_off` [m/s^0.5], 0 where
+/// less than half a facet is wet. On its own: `wetted_length` and `fluid_lag` [m], `crack_volume`
+/// [m^2], `mean_crack_pressure` [Pa] (crack_extent.hpp), `inlet_<name>_pressure` [Pa],
+/// `inlet_<name>_opening` [m], with leak-off `leak_off_volume` [m^2] at zero pressure, since the
+/// start, and `leak_off_rate` [m^2/s], the mean of the last window; for the ledger
+/// `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off `leaked_crack_fluid_mass`
+/// (negative, of Carter's) [kg/m], `crack_fluid_energy`, `crack_fluid_work`,
+/// `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on the body's points:
+/// in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`, `pore_mobility`
+/// [m^2/(Pa s)]; out `exchanged_mass` [kg/m].
 class CrackNetwork final : public PhysicsModule {
  public:
   /// `leak_off` may be null.
@@ -58,6 +59,7 @@ class CrackNetwork final : public PhysicsModule {
     wetted_fraction,
     flow_rate,
     viscosity,
+    leak_off,
     volume,
     wetted_length,
     fluid_lag,
@@ -87,6 +89,7 @@ class CrackNetwork final : public PhysicsModule {
   void book(const Eigen::VectorXd& v);
   std::vector<double>& field(Quantity quantity);
   void find_flow_rate();
+  void set_where_wet(std::vector<double>& field, double value) const;
   double scalar(Quantity quantity, PortId id) const;
   CrackExtent extent() const {
     return crack_extent(lubrication_.graph(), liquid_, unknown_, aperture_);
@@ -121,7 +124,7 @@ class CrackNetwork final : public PhysicsModule {
   // The input and its companions.
   std::vector<double> opening_, opening_rate_, opening_slope_;
   // Outputs, made when they are asked for.
-  std::vector<double> pressure_, wetted_fraction_, flow_rate_, viscosity_;
+  std::vector<double> pressure_, wetted_fraction_, flow_rate_, viscosity_, leak_off_coefficient_;
   std::vector<double> scalars_;  ///< by port
 };
 

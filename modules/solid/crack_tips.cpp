@@ -13,8 +13,8 @@ namespace {
 /// the tip acts as if it lay so much, in spacings, ahead of the end of the last facet: found from
 /// uniform pressure.
 constexpr double tip_offset = -0.12;
-/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity asks
-/// for is taken in the middle of it.
+/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity
+/// asks for is taken in the middle of it.
 constexpr double viscous_offset = tip_offset + 0.5;
 
 /// A turn below this is rounding [rad].
@@ -84,9 +84,11 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
     const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
                                 at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
     const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
+    const TipFluid fluid{state.viscosity[at.before],
+                         state.leak_off.empty() ? 0.0 : state.leak_off[at.before]};
     return state.opening[at.before] / tip_law.opening(s + tip_offset * body_.spacing(),
-                                                      s + viscous_offset * body_.spacing(),
-                                                      state.viscosity[at.before], speed);
+                                                      s + viscous_offset * body_.spacing(), fluid,
+                                                      speed);
   }
   const TipLoad load =
       energy_release_.at(at, state.unknowns(), state.pressure, state.pore_stress, state.inertia);

@@ -19,6 +19,8 @@ struct CrackState {
   const Eigen::VectorXd& pressure;  ///< on the faces, that of contact included [Pa]
   /// Of the fluid at every facet, 0 where it is dry [Pa s]; empty where no fluid is simulated.
   std::span<const double> viscosity;
+  /// Carter's coefficient of one side, likewise [m/s^0.5]; empty where nothing leaks by it.
+  std::span<const double> leak_off;
   /// Of all points [Pa]; empty where no pore flow is simulated.
   std::span<const double> pore_stress;
   /// Displacements, found when they are asked for.

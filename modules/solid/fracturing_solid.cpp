@@ -40,6 +40,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
           InterfaceForce::port(2),
           {"crack_pressure", "Pa", PortDirection::in},
           {"crack_viscosity", "Pa s", PortDirection::in, PortKind::intensive, PortRole::property},
+          {"crack_leak_off", "m/s^0.5", PortDirection::in, PortKind::intensive, PortRole::property},
           {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, 2},
           {"dilatation", "1", PortDirection::out},
           {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, 4},
@@ -97,6 +98,9 @@ PortView FracturingSolid::port(PortId id) {
     case crack_viscosity:
       crack_viscosity_.resize(facets->count);
       return {facets, crack_viscosity_};
+    case crack_leak_off:
+      crack_leak_off_.resize(facets->count);
+      return {facets, crack_leak_off_};
     case displacement:
       find_unknowns();
       return {points, std::span(unknowns_).first(2 * body_->points().volume.size())};
@@ -301,6 +305,7 @@ CrackState FracturingSolid::crack_state() {
           .opening = faces_.opening,
           .pressure = faces_.pressure,
           .viscosity = crack_viscosity_,
+          .leak_off = crack_leak_off_,
           .pore_stress = pore_stress_,
           .unknowns = [this]() -> std::span<const double> {
             find_unknowns();

@@ -21,12 +21,12 @@ namespace perifrac {
 /// fluid in the crack one tip goes on a window, so that the pressure answers before the next.
 ///
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
-/// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
-/// `crack_opening` [m], and the property `free_crack_opening` [m], what it would be if closed faces
-/// did not press on each other (negative: they pass through one another), with its slope against
-/// crack_pressure, a matrix. `damage` of the points (paper Eq 16), `crack_length` [m], of it
-/// `open_crack_length` where faces are apart, and
-/// `fracture_energy` [J/m], what new faces took.
+/// [Pa], `crack_viscosity` [Pa s] and Carter's `crack_leak_off` [m/s^0.5], of the fluid at the
+/// facet, 0 where it is dry; out `crack_opening` [m], and the property `free_crack_opening` [m],
+/// what it would be if closed faces did not press on each other (negative: they pass through one
+/// another), with its slope against crack_pressure, a matrix. `damage` of the points (paper Eq 16),
+/// `crack_length` [m], of it `open_crack_length` where faces are apart, and `fracture_energy`
+/// [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
  public:
   /// `fracture_energy` infinite: no crack grows.
@@ -53,6 +53,7 @@ class FracturingSolid final : public PhysicsModule {
     interface_impulse,
     crack_pressure,
     crack_viscosity,
+    crack_leak_off,
     displacement,
     dilatation,
     effective_stress,
@@ -115,6 +116,7 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<double> pore_stress_;
   std::vector<double> crack_pressure_;
   std::vector<double> crack_viscosity_;
+  std::vector<double> crack_leak_off_;
   InterfaceForce interface_;
   CrackedBody::Faces faces_;
   Eigen::VectorXd free_opening_;

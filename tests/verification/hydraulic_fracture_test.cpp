@@ -96,6 +96,26 @@ TEST(SlitFlow, FollowsTheCubicLaw) {
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
 }
 
+/// A well that starts slowly, and a tank at the tip of the seed whose pressure rises and falls.
+TEST(Inlets, KeepToTheirSchedulesSideBySide) {
+  const SceneRun run = run_config(
+      "shut_in",
+      {"crack_fluid.inlets=[{name: well, at: [0 mm, 300 mm], rate: 1.6e-4 m^2/s, schedule: {ramp: "
+       "5 "
+       "ms}}, {name: tank, at: [20 mm, 300 mm], holds: pressure, pressure: 1.4 MPa, schedule: "
+       "{times: [0 ms, 10 ms, 20 ms], factors: [0, 1, 0.5]}}]",
+       "time.end=20 ms"});
+  ASSERT_EQ(run.exit_code, 0);
+  const std::vector<double> time = run.column("time [s]");
+  const std::vector<double> tank = run.column("inlet_tank_pressure [Pa]");
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    const double factor = time[k] < 0.01 ? time[k] / 0.01 : 1.5 - time[k] / 0.02;
+    EXPECT_NEAR(tank[k], 1.4e6 * factor, 1.0) << time[k];
+  }
+  EXPECT_GT(run.column("inlet_well_pressure [Pa]").back(), 1e6);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+}
+
 /// Once the well is shut its pressure falls, in the end the crack is closed.
 TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
   const SceneRun run = run_config("shut_in");
