@@ -6,6 +6,7 @@
 #include "app/output_times.hpp"
 #include "app/recorder.hpp"
 #include "app/scene_keys.hpp"
+#include "app/scene_regime.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
 #include "core/config/scene.hpp"
@@ -55,6 +56,36 @@ std::size_t family_bytes(const Simulation& simulation) {
       simulation.body);
 }
 
+nlohmann::json regime_json(const SceneRegime& regime) {
+  const HydraulicFracture& fracture = regime.fracture;
+  const auto with_unit = [](double value, const char* unit) {
+    return nlohmann::json{{"value", value}, {"unit", unit}};
+  };
+  const double toughness = fracture.driven.dimensionless_toughness();
+  const double kept = efficiency(fracture, regime.time);
+  const CrackSize crack = expected_crack(fracture, regime.time);
+  return {{"corner", corner(toughness, kept)},
+          {"dimensionless_toughness", toughness},
+          {"leak_off_number", leak_off_number(fracture, regime.time)},
+          {"efficiency", kept},
+          {"lag_time", with_unit(lag_time(fracture), "s")},
+          {"largest_lag", with_unit(largest_lag(fracture, regime.time), "m")},
+          {"time", with_unit(regime.time, "s")},
+          {"length", with_unit(crack.length, "m")},
+          {"inlet_opening", with_unit(crack.opening, "m")},
+          {"net_inlet_pressure", with_unit(crack.pressure, "Pa")}};
+}
+
+void print_regime(const nlohmann::json& regime) {
+  fmt::print("  regime: {}\n", regime["corner"].get<std::string>());
+  for (const auto& [name, entry] : regime.items()) {
+    if (entry.is_number()) fmt::print("    {:<24} {:>10.4g}\n", name, entry.get<double>());
+    if (!entry.is_object()) continue;
+    fmt::print("    {:<24} {:>10.4g} {}\n", name, entry["value"].get<double>(),
+               entry["unit"].get<std::string>());
+  }
+}
+
 void print(const nlohmann::json& result) {
   const auto& counts = result["counts"];
   fmt::print("{}: fine\n", result["scene"].get<std::string>());
@@ -70,6 +101,7 @@ void print(const nlohmann::json& result) {
     fmt::print("  {:<48} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
                array["count"].get<long>(), array["bytes"].get<long>());
   }
+  if (result.contains("regime")) print_regime(result["regime"]);
   for (const auto& warning : result["warnings"]) {
     fmt::print("  warning: {}\n", warning.get<std::string>());
   }
@@ -87,11 +119,15 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
   const Recorder recorder(scene, "", simulation);
   ArrayList list;
   manager.visit_state(list);
-  const nlohmann::json result = {
+  nlohmann::json result = {
       {"scene", scene_file},          {"modules", modules_of(manager)},
       {"effects", effects(scene)},    {"links", links_of(manager)},
       {"counts", counts(simulation)}, {"family_bytes", family_bytes(simulation)},
       {"arrays", list.arrays},        {"warnings", manager.warnings()}};
+  if (const std::optional<SceneRegime> regime = regime_of(scene, simulation)) {
+    result["regime"] = regime_json(*regime);
+    for (const std::string& warning : regime->warnings) result["warnings"].push_back(warning);
+  }
   if (json) {
     fmt::print("{}", json_text(result));
   } else {

@@ -68,6 +68,12 @@ std::optional<Balance> Ledger::energy() const {
 
 std::vector<LedgerColumn> Ledger::columns() const {
   std::vector<LedgerColumn> columns;
+  const auto add_parts = [&](std::initializer_list<const Total*> totals) {
+    for (const Total* whole : totals) {
+      if (whole->ports.size() < 2) continue;
+      columns.insert(columns.end(), whole->ports.begin(), whole->ports.end());
+    }
+  };
   if (mass_at_start_) {
     const Total stored = total(modules_, PortRole::mass_stored);
     const Total gained = total(modules_, PortRole::mass_gained);
@@ -80,21 +86,19 @@ std::vector<LedgerColumn> Ledger::columns() const {
     if (!artificial.ports.empty()) {
       columns.push_back({"fluid_mass_artificial", unit, artificial.sum});
     }
-    for (const Total* part : {&stored, &gained}) {
-      if (part->ports.size() < 2) continue;
-      columns.insert(columns.end(), part->ports.begin(), part->ports.end());
-    }
+    add_parts({&stored, &gained});
   }
   if (energy_at_start_) {
     const Total stored = total(modules_, PortRole::energy_stored);
+    const Total gained = total(modules_, PortRole::energy_gained);
+    const Total dissipated = total(modules_, PortRole::energy_dissipated);
     const std::string& unit = stored.ports[0].unit;
-    const Balance energy =
-        balance(stored, *energy_at_start_, total(modules_, PortRole::energy_gained),
-                total(modules_, PortRole::energy_dissipated));
+    const Balance energy = balance(stored, *energy_at_start_, gained, dissipated);
     columns.push_back({"energy_stored", unit, energy.stored});
     columns.push_back({"energy_gained", unit, energy.gained});
     columns.push_back({"energy_dissipated", unit, energy.dissipated});
     columns.push_back({"energy_error", "1", energy.relative_error});
+    add_parts({&stored, &gained, &dissipated});
   }
   return columns;
 }

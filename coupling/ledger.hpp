@@ -28,8 +28,8 @@ struct LedgerColumn {
 };
 
 /// Adds up what modules say on their ports of the roles mass_* and energy_*. A quantity that no
-/// module stores has no balance and no columns. Where masses are stored, or gained, on several
-/// ports, each has a column beside their sum. What numerical measures made has a column of its
+/// module stores has no balance and no columns. What is stored, gained or dissipated on several
+/// ports has a column for each beside their sum. What numerical measures made has a column of its
 /// own; the error holds it too.
 class Ledger {
  public:

@@ -48,11 +48,19 @@ void Link::start() {
   read_source(reached_);
   find_rates(0.0);
   accept();
+  is_foretold_ = !source_.module->port(source_.port).forecast.empty();
 }
 
 void Link::predict(double length) {
   // The source stands where the last window left it, though its points may have a new version.
   const PortView out = source_.module->port(source_.port);
+  if (is_foretold_) {
+    sent_points_ = freeze(*out.points, sent_points_);
+    value_.assign(out.forecast.begin(), out.forecast.end());
+    rate_.assign(value_.size(), 0.0);
+    slope_.assign(out.slope.begin(), out.slope.end());
+    return;
+  }
   if (out.value.size() == accepted_.output.size()) {
     accepted_.points = freeze(*out.points, accepted_.points);
   } else {  // points came or went at the window's end
@@ -97,6 +105,7 @@ void Link::deliver() {
 }
 
 void Link::collect(double length) {
+  if (is_foretold_) return;
   std::swap(used_, value_);
   read_source(reached_);
   find_rates(length);

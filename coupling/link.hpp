@@ -33,6 +33,8 @@ struct LinkEnd {
 /// window, so that one pass is second order in the window; or it is held. An extensive one is the
 /// total of the last window: late, but in one-pass nothing of it is lost.
 ///
+/// An output that its module foretells (PortView::forecast) is neither predicted nor compared.
+///
 /// All that is held lies on the source's points and is mapped when delivered, so either end may
 /// insert, remove or reorder points at any time.
 class Link {
@@ -53,6 +55,9 @@ class Link {
   const LinkEnd& source() const { return source_; }
   const LinkEnd& target() const { return target_; }
   bool lagged() const { return lagged_; }
+  bool is_foretold() const { return is_foretold_; }
+  /// Sends a prediction, which the answer may contradict.
+  bool predicts() const { return lagged_ && !is_foretold_; }
 
   /// Send intercept and slope from now on; `counter` is the source's in-port that its slope
   /// refers to. `hold`: the first pass of a window gets the intercept as it stands at its
@@ -85,7 +90,9 @@ class Link {
   void relax(std::span<const double> value, double length);
 
   /// The window stands: what was collected is what the next one begins with.
-  void accept() { std::swap(accepted_, reached_); }
+  void accept() {
+    if (!is_foretold_) std::swap(accepted_, reached_);
+  }
 
   /// The fields that the next window depends on.
   void visit_state(StateVisitor& visitor);
@@ -114,6 +121,7 @@ class Link {
   bool lagged_;
   std::optional<PortId> counter_;
   bool hold_ = false;
+  bool is_foretold_ = false;
 
   Sample accepted_;
   Sample reached_;

@@ -23,9 +23,17 @@ CouplingManager::CouplingManager(std::vector<ModuleSlot> modules, const Coupling
                 options.largest_window) {}
 
 void CouplingManager::initialize(double t) {
-  for (ModuleSlot& slot : modules_) slot.module->initialize(t);
+  for (ModuleSlot& slot : modules_) {
+    const ModuleTime counted(slot);
+    slot.module->initialize(t);
+  }
   links_ = connect(modules_, options_.split);
   for (Link& link : links_) link.start();
+  if (std::ranges::any_of(links_, &Link::is_foretold)) {
+    options_.window = WindowType::one_step;
+    schedule_ = WindowSchedule(options_.window, options_.first_window, options_.window_growth,
+                               options_.largest_window);
+  }
   solver_ = std::make_unique<WindowSolver>(modules_, links_, options_.acceleration);
   ledger_.start();
   time_ = t;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,7 +15,21 @@ struct ModuleSlot {
   std::string name;
   std::unique_ptr<PhysicsModule> module;
   std::int64_t advances = 0;  ///< calls of advance(), those that were taken back included
-  double seconds = 0.0;       ///< wall time in them [s]
+  double seconds = 0.0;       ///< wall time in the module [s]
+};
+
+/// Counts the time of its own life as the module's.
+class ModuleTime {
+ public:
+  explicit ModuleTime(ModuleSlot& slot) : slot_(slot) {}
+  ModuleTime(const ModuleTime&) = delete;
+  ModuleTime& operator=(const ModuleTime&) = delete;
+  ~ModuleTime() { slot_.seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  ModuleSlot& slot_;
+  Clock::time_point start_ = Clock::now();
 };
 
 /// Shows the state of each module, its fields named `<module>/<field>`.

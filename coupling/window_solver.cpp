@@ -1,7 +1,6 @@
 #include "coupling/window_solver.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -44,7 +43,8 @@ WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
 
 double WindowSolver::solve(const TimeWindow& window, const Iterations& iterations) {
   const bool alone = modules_.size() == 1;
-  if (!alone) begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
+  if (may_go_back(iterations))
+    begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
 
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
@@ -64,15 +64,24 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   return reached;
 }
 
+bool WindowSolver::may_go_back(const Iterations& iterations) const {
+  if (modules_.size() == 1) return false;
+  return (iterations.max > 1 && std::ranges::any_of(links_, &Link::predicts)) ||
+         std::ranges::any_of(modules_,
+                             [](const ModuleSlot& slot) { return slot.module->may_end_windows(); });
+}
+
 double WindowSolver::conclude(const TimeWindow& window, double reached) {
   for (ModuleSlot& slot : modules_) {
     if (reached < window.end) return reached;
+    const ModuleTime counted(slot);
     reached = slot.module->conclude(window);
   }
   return reached;
 }
 
 double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterations) {
+  for (ModuleSlot& slot : modules_) slot.module->prepare(window);
   for (Link& link : links_) link.predict(window.length());
   acceleration_->reset();
   GrowthWatch watch;
@@ -95,6 +104,7 @@ double WindowSolver::pass(const TimeWindow& window) {
     for (Link& link : links_) {
       if (link.target().module == slot.module.get()) link.deliver();
     }
+    const ModuleTime counted(slot);
     const double reached = advance(slot, window);
     if (reached < window.end) return reached;
     for (Link& link : links_) {
@@ -105,10 +115,8 @@ double WindowSolver::pass(const TimeWindow& window) {
 }
 
 double WindowSolver::advance(ModuleSlot& slot, const TimeWindow& window) {
-  const auto start = std::chrono::steady_clock::now();
-  const double reached = slot.module->advance(window);
-  slot.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   ++slot.advances;
+  const double reached = slot.module->advance(window);
   const bool moved = reached > window.begin || window.length() == 0.0;
   if (!moved || !(reached >= window.begin && reached <= window.end)) {
     throw NumericalError(
@@ -125,7 +133,7 @@ void WindowSolver::go_back(double t) {
 
 bool WindowSolver::has_converged(double tolerance) const {
   for (const Link& link : links_) {
-    if (link.lagged() && !(link.mismatch().relative() <= tolerance)) return false;
+    if (link.predicts() && !(link.mismatch().relative() <= tolerance)) return false;
   }
   return true;
 }
@@ -133,7 +141,7 @@ bool WindowSolver::has_converged(double tolerance) const {
 void WindowSolver::watch(double length) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
-    if (link.lagged() && watches_[i].finds_growth(link.mismatch(), length)) unstable_ = &link;
+    if (link.predicts() && watches_[i].finds_growth(link.mismatch(), length)) unstable_ = &link;
   }
 }
 
@@ -149,7 +157,7 @@ double WindowSolver::weighted_mismatch() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const double mismatch = weights_[i] * links_[i].mismatch().absolute;
-    if (links_[i].lagged()) sum += mismatch * mismatch;
+    if (links_[i].predicts()) sum += mismatch * mismatch;
   }
   return std::sqrt(sum);
 }
@@ -157,7 +165,7 @@ double WindowSolver::weighted_mismatch() const {
 void WindowSolver::accelerate(double length) {
   Eigen::Index size = 0;
   for (const Link& link : links_) {
-    if (link.lagged()) size += static_cast<Eigen::Index>(link.answer().size());
+    if (link.predicts()) size += static_cast<Eigen::Index>(link.answer().size());
   }
   if (size != accelerated_size_) acceleration_->reset();  // a module has inserted points
   accelerated_size_ = size;
@@ -166,7 +174,7 @@ void WindowSolver::accelerate(double length) {
   Eigen::VectorXd answer(size);
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (!links_[i].lagged()) continue;
+    if (!links_[i].predicts()) continue;
     for (std::size_t j = 0; j < links_[i].answer().size(); ++j, ++at) {
       used[at] = weights_[i] * links_[i].used()[j];
       answer[at] = weights_[i] * links_[i].answer()[j];
@@ -176,7 +184,7 @@ void WindowSolver::accelerate(double length) {
   at = 0;
   std::vector<double> values;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (!links_[i].lagged()) continue;
+    if (!links_[i].predicts()) continue;
     values.resize(links_[i].answer().size());
     for (double& value : values) value = next[at++] / weights_[i];
     links_[i].relax(values, length);
@@ -186,7 +194,7 @@ void WindowSolver::accelerate(double length) {
 void WindowSolver::fail(double t, int passes, const char* problem) const {
   const Link* worst = nullptr;
   for (const Link& link : links_) {
-    if (!link.lagged()) continue;
+    if (!link.predicts()) continue;
     if (!worst || !(link.mismatch().relative() <= worst->mismatch().relative())) worst = &link;
   }
   std::string strength;

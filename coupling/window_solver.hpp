@@ -32,10 +32,9 @@ struct CouplingWork {
 /// Takes all modules through one window: predict, advance in order and exchange, compare, go back
 /// and repeat; after an event, go back and redo the window to the event.
 ///
-/// The modules' state is saved at every window's beginning if there is more than one module, also
-/// for one pass: any advance may end at an event, which is known only once the state is gone. The
-/// copy costs far less than advancing (about 1 ms per 100 000 points in 2D). A module alone needs
-/// none: it simply stands where its event was.
+/// The modules' state is saved at every window's beginning if there is more than one module and the
+/// window may be repeated: by iterations, or because some module may end it at an event, which is
+/// known only once the state is gone. A module alone simply stands where its event was.
 class WindowSolver {
  public:
   WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links, AccelerationType acceleration);
@@ -52,6 +51,7 @@ class WindowSolver {
   const CouplingWork& work() const { return work_; }
 
  private:
+  bool may_go_back(const Iterations& iterations) const;
   /// Repeats passes until all lagged links agree; less than window.end after an event.
   double iterate(const TimeWindow& window, const Iterations& iterations);
   /// Asks all modules whether the window stands; less than window.end where one cuts it.

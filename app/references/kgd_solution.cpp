@@ -25,6 +25,9 @@ constexpr Row table[] = {
     {6, 0.28175, 2.26136, 2.01082},
 };
 
+static_assert(table[0][0] == KgdSolution::least_toughness &&
+              table[std::size(table) - 1][0] == KgdSolution::most_toughness);
+
 /// A parabola through the three rows nearest to a toughness.
 double interpolated(double toughness, std::size_t column) {
   const auto after =
@@ -44,19 +47,23 @@ double interpolated(double toughness, std::size_t column) {
 
 }  // namespace
 
-KgdSolution::KgdSolution(const Problem& problem) : problem_(problem) {
-  const double modulus = problem.plane_strain_modulus;
-  const double toughness = std::sqrt(32.0 / M_PI * modulus * problem.fracture_energy);
-  toughness_ =
-      toughness / std::pow(12.0 * problem.viscosity * problem.rate * std::pow(modulus, 3), 0.25);
-  const double least = std::begin(table)->front(), most = std::prev(std::end(table))->front();
-  if (!(toughness_ >= least && toughness_ <= most)) {
+double KgdProblem::toughness() const {
+  return std::sqrt(32.0 / M_PI * plane_strain_modulus * fracture_energy);
+}
+
+double KgdProblem::dimensionless_toughness() const {
+  return toughness() / std::pow(12.0 * viscosity * rate * std::pow(plane_strain_modulus, 3), 0.25);
+}
+
+KgdSolution::KgdSolution(const KgdProblem& problem) : problem_(problem) {
+  const double toughness = problem.dimensionless_toughness();
+  if (!(toughness >= least_toughness && toughness <= most_toughness)) {
     throw std::domain_error(fmt::format("a dimensionless toughness of {:.3g}, outside {:g} to {:g}",
-                                        toughness_, least, most));
+                                        toughness, least_toughness, most_toughness));
   }
-  length_factor_ = interpolated(toughness_, 1);
-  opening_factor_ = interpolated(toughness_, 2);
-  pressure_factor_ = interpolated(toughness_, 3);
+  length_factor_ = interpolated(toughness, 1);
+  opening_factor_ = interpolated(toughness, 2);
+  pressure_factor_ = interpolated(toughness, 3);
 }
 
 double KgdSolution::length(double t) const {

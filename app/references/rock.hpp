@@ -14,6 +14,10 @@ struct ElasticRock {
   double bulk_modulus() const { return lame_lambda + 2.0 / 3.0 * shear_modulus; }
   double uniaxial_modulus() const { return lame_lambda + 2.0 * shear_modulus; }
   double youngs_modulus() const;
+  double plane_strain_modulus() const {  ///< E / (1 - nu^2)
+    return 4.0 * shear_modulus * (lame_lambda + shear_modulus) /
+           (lame_lambda + 2.0 * shear_modulus);
+  }
   double poisson_ratio() const { return 0.5 * lame_lambda / (lame_lambda + shear_modulus); }
 };
 

@@ -11,8 +11,14 @@ namespace perifrac {
 /// The keys of `cracks`, which a body has from the start.
 KeyTable crack_seed_keys();
 
-/// The facets of all cracks that the scene names, in its order: every leg of a path in equal pieces
-/// of about a spacing, joined at ends that are equal to the bit. Throws InputError.
+/// The corners of the scene's crack number k, two or more. Throws InputError.
+std::vector<Vector<2>> read_crack_corners(const Section& scene, std::size_t k);
+
+/// Its facets: every leg in equal pieces of about a spacing, joined at ends that are equal to the
+/// bit. Throws InputError.
+std::vector<CrackFacet<2>> read_crack(const Section& scene, std::size_t k, double spacing);
+
+/// Those of all cracks, in the scene's order.
 std::vector<CrackFacet<2>> read_crack_seeds(const Section& scene, double spacing);
 
 }  // namespace perifrac

@@ -29,6 +29,10 @@ class PhysicsModule {
   /// implicit. A scene may ask for windows of one such step.
   virtual double stable_time_step() const = 0;
 
+  /// This window is about to be tried, from where the module stands: what its outputs foretell
+  /// (PortView::forecast) is of it.
+  virtual void prepare([[maybe_unused]] const TimeWindow& window) {}
+
   /// Advances over the window with steps of its own; returns the time reached [s]. Less than
   /// window.end means an event: the manager takes every module back and ends the window there.
   /// Throws NumericalError.
@@ -39,6 +43,9 @@ class PhysicsModule {
   /// takes every module back and redoes the window up to it. Otherwise the window stands: does what
   /// its end brings about (bonds break) and returns window.end. A module alone may not cut.
   virtual double conclude(const TimeWindow& window) { return window.end; }
+
+  /// False: neither advance() nor conclude() ever ends a window early.
+  virtual bool may_end_windows() const { return true; }
 
   /// Shows every evolving field once; a visitor that restores may resize.
   virtual void visit_state(StateVisitor& visitor) = 0;

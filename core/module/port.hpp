@@ -57,11 +57,16 @@ inline std::string unit_of_total(const std::string& unit, int dimension) {
 /// A slope has one value a point where the output depends on the input at the same point, or is
 /// taken to; where every point answers to every other (the opening of a crack to its pressure) it
 /// is a matrix of count * count values, row by row, and both ends lie on the same points.
+///
+/// An output that its module can tell ahead carries `forecast` too: what it will be at the end of
+/// the window that prepare() was told of, slope x apart. Then one pass is exact, and no window is
+/// longer than the module's stable step, for which that holds.
 struct PortView {
   const PointSet* points = nullptr;
   std::span<double> value{};
   std::span<double> rate{};
   std::span<double> slope{};
+  std::span<double> forecast{};
 };
 
 }  // namespace perifrac

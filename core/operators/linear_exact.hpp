@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cassert>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <variant>
 #include <vector>
 
 #include <Eigen/SparseCore>
 
 #include "core/operators/bond_traversal.hpp"
 #include "core/operators/law_by_region.hpp"
+#include "core/operators/linear_exact_lattice.hpp"
 #include "core/operators/mirror_condition.hpp"
 #include "core/operators/nonlocal_gradient.hpp"
 #include "core/operators/point_stiffness.hpp"
@@ -59,6 +62,10 @@ class LinearExactOperator {
       if (touches_odd_face(i)) face_points_.push_back(i);
     }
     if (family_->curved) matrix_.emplace(assemble());
+    if constexpr (PacketLaw<Law, D>) {
+      lattice_ = LinearExactLattice<D, Law>::find(*family_, face_points_);
+      take_in_lattice();
+    }
   }
 
   const Family<D>& family() const { return *family_; }
@@ -70,6 +77,7 @@ class LinearExactOperator {
   void change_law(Change&& change) {
     change(law_);
     find_bond_stiffness();
+    take_in_lattice();
     if (matrix_) matrix_.emplace(assemble());
   }
   /// Bonds of these points broke: their weights are 0 in the family now. A thin family (is_thin())
@@ -85,6 +93,9 @@ class LinearExactOperator {
       bond_stiffness_[i] = thin ? thin_stiffness(i) : stiffness(i);
     }
     copy_stiffness_to_ghosts();
+    if constexpr (PacketLaw<Law, D>) {
+      if (lattice_) lattice_->update(*family_, moments_, bond_stiffness_, points);
+    }
   }
   /// The same on a family of the same bonds with other weights, which differ at these points.
   void update(std::shared_ptr<const Family<D>> family, std::span<const Index> points) {
@@ -135,7 +146,7 @@ class LinearExactOperator {
     return on_unknowns(*family_, mirror_, i, family_->volume[i] * matrix);
   }
 
-  /// The energy of point i alone in the field that apply() was last given.
+  /// The energy of point i alone in the field that is looked at.
   double energy(Index i) const {
     const Tensor<R, D> f = gradient_at(i);
     const Tensor<R, D> stress = law_at(law_, i).stress(f);
@@ -167,7 +178,7 @@ class LinearExactOperator {
         }
         result[row] = sum;
       });
-    } else {
+    } else if (!apply_on_lattice(u, result)) {
       apply(u, result, [](Index, const Tensor<R, D>&, Tensor<R, D>&) {});
     }
   }
@@ -187,6 +198,29 @@ class LinearExactOperator {
       for (int r = 0; r < R; ++r) result[static_cast<std::size_t>(r) * points + i] = -force[r];
     });
     add_face_reactions(result.subspan(point_unknowns()));
+  }
+
+  /// Takes the field that gradient_at() and energy() are of; apply() and gradient() do so too.
+  void look_at(std::span<const double> u) { mirror_.spread(u, field_); }
+
+  /// Gradient of the field at a point.
+  Tensor<R, D> gradient_at(Index i) const {
+    std::array<const double*, R> u;
+    std::array<double, R> own;
+    for (int r = 0; r < R; ++r) {
+      u[r] = field(r);
+      own[r] = u[r][i];
+    }
+    const Tensor<R, D> moment =
+        sum_over_bonds<R * D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+          Tensor<R, D> t;
+          for (int r = 0; r < R; ++r) {
+            const double difference = w * (u[r][j] - own[r]);
+            for (int b = 0; b < D; ++b) t[r * D + b] = difference * xi[b];
+          }
+          return t;
+        });
+    return times_inverse_shape(moment, i);
   }
 
   /// Gradient of the field at every point: R * D blocks of point_count, block r * D + b.
@@ -215,6 +249,27 @@ class LinearExactOperator {
  private:
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+  void take_in_lattice() {
+    if constexpr (PacketLaw<Law, D>) {
+      if (!lattice_) return;
+      std::vector<Index> all(family_->point_count);
+      std::iota(all.begin(), all.end(), 0);
+      lattice_->take(*family_, moments_, bond_stiffness_, all);
+    }
+  }
+
+  /// False where bonds lie on no lattice.
+  bool apply_on_lattice(std::span<const double> u, std::span<double> result) {
+    if constexpr (PacketLaw<Law, D>) {
+      if (!lattice_) return false;
+      mirror_.spread(u, field_);
+      lattice_->apply(law_, mirror_, field_, state_, result);
+      add_face_reactions(result.subspan(point_unknowns()));
+      return true;
+    }
+    return false;
+  }
+
   void find_bond_stiffness() {
     for_each_point(family_->point_count, [&](Index i) { bond_stiffness_[i] = stiffness(i); });
     for (const Index i : thin_points_) bond_stiffness_[i] = thin_stiffness(i);
@@ -242,25 +297,6 @@ class LinearExactOperator {
   }
   double* state(int k) {
     return state_.data() + static_cast<std::size_t>(k) * family_->node_count();
-  }
-
-  Tensor<R, D> gradient_at(Index i) const {
-    std::array<const double*, R> u;
-    std::array<double, R> own;
-    for (int r = 0; r < R; ++r) {
-      u[r] = field(r);
-      own[r] = u[r][i];
-    }
-    const Tensor<R, D> moment =
-        sum_over_bonds<R * D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
-          Tensor<R, D> t;
-          for (int r = 0; r < R; ++r) {
-            const double difference = w * (u[r][j] - own[r]);
-            for (int b = 0; b < D; ++b) t[r * D + b] = difference * xi[b];
-          }
-          return t;
-        });
-    return times_inverse_shape(moment, i);
   }
 
   Tensor<R, D> times_inverse_shape(const Tensor<R, D>& t, Index i) const {
@@ -380,9 +416,11 @@ class LinearExactOperator {
   std::vector<double> field_;           ///< u on real points and ghosts
   std::vector<double> state_;           ///< store_state() on real points and ghosts
   std::vector<double> bond_stiffness_;  ///< s_i on real points and ghosts
-  std::vector<Index> face_points_;      ///< points with a bond to an odd ghost
-  std::vector<Index> thin_points_;      ///< ascending; none where nothing breaks
-  std::optional<Matrix> matrix_;        ///< A, where ghosts are curved
+  using Lattice = std::conditional_t<PacketLaw<Law, D>, LinearExactLattice<D, Law>, std::monostate>;
+  std::optional<Lattice> lattice_;  ///< where bonds lie on one
+  std::vector<Index> face_points_;  ///< points with a bond to an odd ghost
+  std::vector<Index> thin_points_;  ///< ascending; none where nothing breaks
+  std::optional<Matrix> matrix_;    ///< A, where ghosts are curved
 };
 
 }  // namespace perifrac

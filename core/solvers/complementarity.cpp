@@ -43,7 +43,8 @@ Complementarity solve_complementarity(const Eigen::Ref<const Eigen::MatrixXd>& m
   for (Eigen::Index trial = 0; trial < 100 + 10 * count; ++trial) {
     std::vector<Eigen::Index> wrong;
     for (Eigen::Index i = 0; i < count; ++i) {
-      if (answer.held[i] ? answer.x[i] < 0.0 : answer.y[i] < -rounding) wrong.push_back(i);
+      const bool overlaps = answer.y[i] < -rounding && m(i, i) > 0.0;
+      if (answer.held[i] ? answer.x[i] < 0.0 : overlaps) wrong.push_back(i);
     }
     if (wrong.empty()) return answer;
     if (static_cast<Eigen::Index>(wrong.size()) < fewest) {

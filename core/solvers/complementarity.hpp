@@ -15,7 +15,8 @@ struct Complementarity {
 };
 
 /// Solves it, for M with positive principal minors, by block principal pivoting (Judice & Pires
-/// 1994). y counts as 0 up to `rounding`. Throws std::runtime_error where M is no such matrix.
+/// 1994). y counts as 0 up to `rounding`; a place that does not answer to its own x, as a facet of
+/// given width, is left alone. Throws std::runtime_error where M is no such matrix.
 Complementarity solve_complementarity(const Eigen::Ref<const Eigen::MatrixXd>& m,
                                       const Eigen::VectorXd& q, double rounding);
 

@@ -6,17 +6,17 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/state/all_finite.hpp"
 
 namespace perifrac {
 
 void FiniteCheck::real(const std::string& name, std::vector<double>& values) {
+  if (all_finite(values)) return;
   const auto bad =
       std::find_if(values.begin(), values.end(), [](double x) { return !std::isfinite(x); });
-  if (bad != values.end()) {
-    const auto index = static_cast<std::size_t>(bad - values.begin());
-    throw NumericalError(name, place(name, index, values.size()), time_,
-                         std::isnan(*bad) ? "not a number" : "infinite value");
-  }
+  const auto index = static_cast<std::size_t>(bad - values.begin());
+  throw NumericalError(name, place(name, index, values.size()), time_,
+                       std::isnan(*bad) ? "not a number" : "infinite value");
 }
 
 std::string FiniteCheck::place(const std::string& name, std::size_t index, std::size_t size) const {

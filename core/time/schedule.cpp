@@ -32,6 +32,19 @@ double Schedule::factor(double t) const {
   return factors_[n - 1] + part * (factors_[n] - factors_[n - 1]) + growth;
 }
 
+double Schedule::integral(double begin, double end) const {
+  double sum = 0.0;
+  const auto up_to = [&](double t) {
+    sum += 0.5 * (factor(begin) + factor(t)) * (t - begin);
+    begin = t;
+  };
+  for (const double t : times_) {
+    if (t > begin && t < end) up_to(t);
+  }
+  up_to(end);
+  return sum;
+}
+
 KeyTable schedule_keys(const std::string& prefix) {
   return {
       {.path = prefix + "schedule.ramp",

@@ -19,7 +19,8 @@ class Schedule {
   static Schedule table(std::vector<double> times, std::vector<double> factors);
   static Schedule growth(double rate);  ///< rate [1/s] times t, without end
 
-  double factor(double t) const;  ///< t [s]
+  double factor(double t) const;                    ///< t [s]
+  double integral(double begin, double end) const;  ///< of the factor, exact [s]
   bool is_constant() const { return times_.empty(); }
   /// Where the factor's rate changes, rising [s]: no step of an integrator should go across.
   const std::vector<double>& break_points() const { return times_; }

@@ -39,6 +39,12 @@ class SecondOrderSystem {
   /// A bound, at least 1, of how much stiffer than K the system is now.
   virtual double stiffness_growth() const { return 1.0; }
 
+  /// Impulses beside f at the two ends of a step [s], where velocities are those of that time.
+  virtual void begin_step([[maybe_unused]] double step,
+                          [[maybe_unused]] std::span<double> velocity) {}
+  virtual void end_step([[maybe_unused]] double step, [[maybe_unused]] std::span<double> velocity) {
+  }
+
   /// Called after every step, at the y of the last force: true where the system became another one
   /// there, whose force is to be found anew.
   virtual bool changes() { return false; }

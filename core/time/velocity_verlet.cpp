@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "core/operators/bond_traversal.hpp"
+#include "core/operators/block_sum.hpp"
+#include "core/state/all_finite.hpp"
 #include "core/time/equal_steps.hpp"
 #include "core/time/spectral_radius.hpp"
 
@@ -18,7 +19,7 @@ void VelocityVerlet::evaluate(double t, Motion& motion) {
   system_.force(t, motion.position, motion.acceleration);
   const double* const mass = system_.mass().data();
   double* const a = motion.acceleration.data();
-  for_each_point(static_cast<Index>(motion.acceleration.size()), [=](Index i) { a[i] /= mass[i]; });
+  for_each_entry(static_cast<Index>(motion.acceleration.size()), [=](Index i) { a[i] /= mass[i]; });
 }
 
 void VelocityVerlet::advance(double begin, double end, Motion& motion) {
@@ -33,40 +34,47 @@ void VelocityVerlet::advance(double begin, double end, Motion& motion) {
       ++steps_;
     }
   }
+  if (all_finite(motion.position)) return;
   const auto bad =
       std::ranges::find_if_not(motion.position, [](double x) { return std::isfinite(x); });
-  if (bad != motion.position.end()) {
-    throw NumericalError(std::string(system_.name()), system_.place(bad - motion.position.begin()),
-                         end, "a value is not finite");
-  }
+  throw NumericalError(std::string(system_.name()), system_.place(bad - motion.position.begin()),
+                       end, "a value is not finite");
 }
 
 /// One step of `length` that ends at t.
 void VelocityVerlet::step(double t, double length, Motion& motion) {
   const double factor = std::exp(-0.5 * damping_ * length);
   damp(factor, motion);
+  system_.begin_step(length, motion.velocity);
   kick(0.5 * length, motion);
   const double* const v = motion.velocity.data();
   double* const y = motion.position.data();
-  for_each_point(static_cast<Index>(motion.position.size()),
+  for_each_entry(static_cast<Index>(motion.position.size()),
                  [=](Index i) { y[i] += length * v[i]; });
   evaluate(t, motion);
   kick(0.5 * length, motion);
+  system_.end_step(length, motion.velocity);
   damp(factor, motion);
   if (system_.changes()) evaluate(t, motion);
 }
 
-void VelocityVerlet::damp(double factor, Motion& motion) const {
+void VelocityVerlet::damp(double factor, Motion& motion) {
   if (damping_ == 0.0) return;
-  const double before = kinetic_energy(system_.mass(), motion.velocity);
+  const double* const mass = system_.mass().data();
+  double* const v = motion.velocity.data();
+  const double before =
+      block_sum(static_cast<Index>(motion.velocity.size()), block_sums_, [=](Index i) {
+        const double energy = 0.5 * mass[i] * v[i] * v[i];
+        v[i] *= factor;
+        return energy;
+      });
   motion.damped_energy += (1.0 - factor * factor) * before;
-  for (double& v : motion.velocity) v *= factor;
 }
 
 void VelocityVerlet::kick(double length, Motion& motion) const {
   const double* const a = motion.acceleration.data();
   double* const v = motion.velocity.data();
-  for_each_point(static_cast<Index>(motion.velocity.size()),
+  for_each_entry(static_cast<Index>(motion.velocity.size()),
                  [=](Index i) { v[i] += length * a[i]; });
 }
 

@@ -48,7 +48,7 @@ class VelocityVerlet {
 
  private:
   void step(double t, double length, Motion& motion);
-  void damp(double factor, Motion& motion) const;
+  void damp(double factor, Motion& motion);
   void kick(double length, Motion& motion) const;
 
   SecondOrderSystem& system_;
@@ -57,6 +57,7 @@ class VelocityVerlet {
   double stable_step_ = 0.0;
   std::optional<std::uint64_t> limit_version_;  ///< the stiffness that stable_step_ belongs to
   std::int64_t steps_ = 0;
+  std::vector<double> block_sums_;  // workspace
 };
 
 /// sum 1/2 m v^2.

@@ -15,6 +15,7 @@ class CarterLeakOff final : public LeakOff {
       : coefficient_(coefficient), density_(density) {}
 
   bool is_sink() const override { return true; }
+  double coefficient() const override { return coefficient_; }
   void match(const BondState<2>& bonds, const CrackGraph& graph) override;
   void begin(const TimeWindow& step) override { step_ = step; }
   void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,

@@ -14,21 +14,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Of the factor over a window, exact, for it is linear between break points.
-double integral(const Schedule& schedule, const TimeWindow& window) {
-  double sum = 0.0;
-  double begin = window.begin;
-  const auto up_to = [&](double end) {
-    sum += 0.5 * (schedule.factor(begin) + schedule.factor(end)) * (end - begin);
-    begin = end;
-  };
-  for (const double t : schedule.break_points()) {
-    if (t > begin && t < window.end) up_to(t);
-  }
-  up_to(window.end);
-  return sum;
-}
-
 }  // namespace
 
 CrackInlets::CrackInlets(std::vector<CrackInlet> inlets, const CrackLiquid& liquid)
@@ -74,8 +59,8 @@ std::span<const FacetInflow> CrackInlets::inflows(const TimeWindow& step) {
         inflow.most = infinity;
         inflow.target = std::max(inflow.target, inlet.amount * inlet.schedule.factor(step.end));
       } else if (!inlet.holds_pressure) {
-        const double mass =
-            liquid_.density * inlet.amount * share_[k][n] * integral(inlet.schedule, step);
+        const double mass = liquid_.density * inlet.amount * share_[k][n] *
+                            inlet.schedule.integral(step.begin, step.end);
         inflow.least = mass;
         inflow.most = std::max(mass, 0.0);
       }

@@ -42,11 +42,21 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
   add_port(Quantity::wetted_fraction, {"crack_wetted_fraction", "1", out});
   add_port(Quantity::flow_rate, {"crack_flow_rate", "m^2/s", out});
   add_port(Quantity::viscosity, {"crack_viscosity", "Pa s", out, intensive, property});
+  if (leak_off_ && leak_off_->is_sink()) {
+    add_port(Quantity::leak_off, {"crack_leak_off", "m/s^0.5", out, intensive, property});
+  }
   add_port(Quantity::wetted_length, {"wetted_length", "m", out});
+  add_port(Quantity::fluid_lag, {"fluid_lag", "m", out});
   add_port(Quantity::volume, {"crack_volume", "m^2", out});
-  first_inlet_ = static_cast<PortId>(ports_.size());
-  for (const CrackInlet& inlet : inlets_.all()) {
-    add_port(Quantity::inlet_pressure, {"inlet_" + inlet.name + "_pressure", "Pa", out});
+  add_port(Quantity::mean_pressure, {"mean_crack_pressure", "Pa", out});
+  for (std::size_t k = 0; k < inlets_.all().size(); ++k) {
+    const std::string name = "inlet_" + inlets_.all()[k].name;
+    add_port(Quantity::inlet_pressure, {name + "_pressure", "Pa", out}, k);
+    add_port(Quantity::inlet_opening, {name + "_opening", "m", out}, k);
+  }
+  if (leak_off_) {
+    add_port(Quantity::leak_off_volume, {"leak_off_volume", "m^2", out});
+    add_port(Quantity::leak_off_rate, {"leak_off_rate", "m^2/s", out});
   }
   add_port(Quantity::stored_mass, {"crack_fluid_stored_mass", "kg/m", out, extensive, mass_stored});
   add_port(Quantity::injected_mass,
@@ -69,8 +79,9 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
   scalars_.resize(ports_.size());
 }
 
-void CrackNetwork::add_port(Quantity quantity, Port port) {
+void CrackNetwork::add_port(Quantity quantity, Port port, std::size_t inlet) {
   quantities_.push_back(quantity);
+  inlet_of_.push_back(inlet);
   ports_.push_back(std::move(port));
 }
 
@@ -104,6 +115,7 @@ PortView CrackNetwork::port(PortId id) {
     case Quantity::wetted_fraction:
     case Quantity::flow_rate:
     case Quantity::viscosity:
+    case Quantity::leak_off:
       return {facets, field(quantity)};
     case Quantity::pore_pressure:
       return pores_->pore_pressure();
@@ -129,16 +141,23 @@ std::vector<double>& CrackNetwork::field(Quantity quantity) {
       for (std::size_t f = 0; f < count; ++f) wetted_fraction_[f] = liquid_.fill(unknown_[f]);
       return wetted_fraction_;
     case Quantity::viscosity:
-      viscosity_.resize(count);
-      for (std::size_t f = 0; f < count; ++f) {
-        viscosity_[f] = liquid_.fill(unknown_[f]) < 0.5 ? 0.0 : liquid_.viscosity;
-      }
+      set_where_wet(viscosity_, liquid_.viscosity);
       return viscosity_;
+    case Quantity::leak_off:
+      set_where_wet(leak_off_coefficient_, leak_off_->coefficient());
+      return leak_off_coefficient_;
     case Quantity::flow_rate:
       find_flow_rate();
       return flow_rate_;
     default:
       return mass_;
+  }
+}
+
+void CrackNetwork::set_where_wet(std::vector<double>& field, double value) const {
+  field.resize(mass_.size());
+  for (std::size_t f = 0; f < mass_.size(); ++f) {
+    field[f] = liquid_.fill(unknown_[f]) < 0.5 ? 0.0 : value;
   }
 }
 
@@ -155,13 +174,6 @@ void CrackNetwork::find_flow_rate() {
       });
 }
 
-double CrackNetwork::inlet_pressure(std::size_t inlet) const {
-  const auto facets = inlets_.facets(inlet);
-  double sum = 0.0;
-  for (const Index f : facets) sum += liquid_.pressure(unknown_[f]);
-  return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
-}
-
 double CrackNetwork::scalar(Quantity quantity, PortId id) const {
   const CrackGraph& graph = lubrication_.graph();
   const auto sum = [&](auto&& term) {
@@ -169,13 +181,29 @@ double CrackNetwork::scalar(Quantity quantity, PortId id) const {
     for (Index f = 0; f < graph.facet_count(); ++f) sum.add(term(f));
     return sum.value();
   };
+  const auto mean_at_inlet = [&](auto&& value) {
+    const auto facets = inlets_.facets(inlet_of_[id]);
+    double sum = 0.0;
+    for (const Index f : facets) sum += value(f);
+    return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
+  };
   switch (quantity) {
-    case Quantity::wetted_length:
-      return sum([&](Index f) { return graph.length(f) * liquid_.fill(unknown_[f]); });
     case Quantity::volume:
-      return sum([&](Index f) { return graph.length(f) * aperture_[f]; });
+      return extent().volume;
+    case Quantity::wetted_length:
+      return extent().wetted_length;
+    case Quantity::fluid_lag:
+      return extent().fluid_lag;
+    case Quantity::mean_pressure:
+      return extent().mean_pressure;
     case Quantity::inlet_pressure:
-      return inlet_pressure(id - first_inlet_);
+      return mean_at_inlet([&](Index f) { return liquid_.pressure(unknown_[f]); });
+    case Quantity::inlet_opening:
+      return mean_at_inlet([&](Index f) { return aperture_[f]; });
+    case Quantity::leak_off_volume:
+      return leak_off_volume();
+    case Quantity::leak_off_rate:
+      return leak_off_rate_;
     case Quantity::stored_mass:
       return sum([&](Index f) { return mass_[f]; });
     case Quantity::energy:
@@ -205,6 +233,7 @@ void CrackNetwork::initialize(double) {
   std::ranges::fill(aperture_, liquid_.residual_aperture);
   has_begun_ = 0;
   injected_ = leaked_ = work_ = dissipation_ = {};
+  leak_off_rate_ = 0.0;
 }
 
 double CrackNetwork::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
@@ -236,6 +265,7 @@ double CrackNetwork::advance(const TimeWindow& window) {
   if (mass_.empty()) return window.end;
   if (has_begun_ == 0) fill_at_start(window);
   if (leak_off_) leak_off_->begin_window(window);
+  const double leaked_before = leak_off_volume();
   std::int64_t parts = 1;
   for (std::int64_t done = 0; done < parts;) {
     const auto time_after = [&](std::int64_t n) {
@@ -248,6 +278,9 @@ double CrackNetwork::advance(const TimeWindow& window) {
       parts *= 2;
       done *= 2;
     }
+  }
+  if (leak_off_ && window.length() > 0.0) {
+    leak_off_rate_ = (leak_off_volume() - leaked_before) / window.length();
   }
   return window.end;
 }
@@ -309,7 +342,7 @@ void CrackNetwork::book(const Eigen::VectorXd& v) {
     const double leaked = lubrication_.leaked()[f];
     const double pressure = liquid_.pressure(v[f]);
     double first = liquid_.pressure(unknown_[f]);
-    const double answer = opening_slope_[f * (mass_.size() + 1)];
+    const double answer = lubrication_.opening_slope()(f, f);
     if (!liquid_.is_full(unknown_[f]) && answer > 0.0) {
       first = std::clamp(pressure - lubrication_.opening()[f] / answer, first, pressure);
     }
@@ -338,7 +371,9 @@ void CrackNetwork::visit_state(StateVisitor& visitor) {
   leaked_.visit_state(visitor, "leaked_crack_fluid_mass");
   work_.visit_state(visitor, "crack_fluid_work");
   dissipation_.visit_state(visitor, "crack_flow_dissipation");
-  if (leak_off_) leak_off_->visit_state(visitor);
+  if (!leak_off_) return;
+  visitor.visit("leak_off_rate", leak_off_rate_);
+  leak_off_->visit_state(visitor);
 }
 
 void CrackNetwork::on_restored(double) { match_facets(); }

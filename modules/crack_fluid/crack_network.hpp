@@ -7,6 +7,7 @@
 #include "core/geometry/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/operators/compensated_sum.hpp"
+#include "modules/crack_fluid/crack_extent.hpp"
 #include "modules/crack_fluid/crack_inlets.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/lubrication.hpp"
@@ -26,13 +27,16 @@ struct CrackFilling {
 /// Ports, on the facets ("crack"): in `free_crack_opening` [m], takes rate and a slope of count *
 /// count values against `crack_pressure`; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
 /// `crack_wetted_fraction`, `crack_flow_rate` [m^2/s] from a facet's first end to its second, the
-/// property `crack_viscosity` [Pa s], 0 where less than half a facet is wet. On its own:
-/// `wetted_length` [m], `crack_volume` [m^2], `inlet_<name>_pressure` [Pa]; for the ledger
-/// `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
-/// `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
-/// `crack_fluid_work`, `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on
-/// the body's points: in `pore_pressure` [Pa], takes rate and a slope against
-/// `exchanged_mass`, `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg/m].
+/// properties `crack_viscosity` [Pa s] and, by Carter's law, `crack_leak_off` [m/s^0.5], 0 where
+/// less than half a facet is wet. On its own: `wetted_length` and `fluid_lag` [m], `crack_volume`
+/// [m^2], `mean_crack_pressure` [Pa] (crack_extent.hpp), `inlet_<name>_pressure` [Pa],
+/// `inlet_<name>_opening` [m], with leak-off `leak_off_volume` [m^2] at zero pressure, since the
+/// start, and `leak_off_rate` [m^2/s], the mean of the last window; for the ledger
+/// `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off `leaked_crack_fluid_mass`
+/// (negative, of Carter's) [kg/m], `crack_fluid_energy`, `crack_fluid_work`,
+/// `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on the body's points:
+/// in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`, `pore_mobility`
+/// [m^2/(Pa s)]; out `exchanged_mass` [kg/m].
 class CrackNetwork final : public PhysicsModule {
  public:
   /// `leak_off` may be null.
@@ -55,9 +59,15 @@ class CrackNetwork final : public PhysicsModule {
     wetted_fraction,
     flow_rate,
     viscosity,
-    wetted_length,
+    leak_off,
     volume,
+    wetted_length,
+    fluid_lag,
+    mean_pressure,
     inlet_pressure,
+    inlet_opening,
+    leak_off_volume,
+    leak_off_rate,
     stored_mass,
     injected_mass,
     leaked_mass,
@@ -71,7 +81,7 @@ class CrackNetwork final : public PhysicsModule {
     iterations
   };
 
-  void add_port(Quantity quantity, Port port);
+  void add_port(Quantity quantity, Port port, std::size_t inlet = 0);
   void match_facets();
   void fill_at_start(const TimeWindow& window);
   std::vector<double> filled_from_neighbours() const;
@@ -79,8 +89,12 @@ class CrackNetwork final : public PhysicsModule {
   void book(const Eigen::VectorXd& v);
   std::vector<double>& field(Quantity quantity);
   void find_flow_rate();
+  void set_where_wet(std::vector<double>& field, double value) const;
   double scalar(Quantity quantity, PortId id) const;
-  double inlet_pressure(std::size_t inlet) const;
+  CrackExtent extent() const {
+    return crack_extent(lubrication_.graph(), liquid_, unknown_, aperture_);
+  }
+  double leak_off_volume() const { return -leaked_.value() / liquid_.density; }  ///< [m^2]
 
   std::shared_ptr<const Body<2>> body_;
   CrackLiquid liquid_;
@@ -89,10 +103,10 @@ class CrackNetwork final : public PhysicsModule {
   std::unique_ptr<LeakOff> leak_off_;
   PoreLeakOff* pores_;  ///< which is the leak-off, or null
   std::vector<Port> ports_;
-  std::vector<Quantity> quantities_;  ///< by port
-  PortId first_inlet_ = 0;
-  std::int64_t steps_ = 0;       ///< in this process
-  std::int64_t iterations_ = 0;  ///< likewise
+  std::vector<Quantity> quantities_;   ///< by port
+  std::vector<std::size_t> inlet_of_;  ///< by port; 0 where it is of none
+  std::int64_t steps_ = 0;             ///< in this process
+  std::int64_t iterations_ = 0;        ///< likewise
 
   std::uint64_t version_ = 0;  ///< of the facets that the graph is made of
   Lubrication lubrication_;
@@ -105,11 +119,12 @@ class CrackNetwork final : public PhysicsModule {
   // State, since the start.
   std::int64_t has_begun_ = 0;
   CompensatedSum injected_, leaked_, work_, dissipation_;
+  double leak_off_rate_ = 0.0;  ///< mean of the last window of some length [m^2/s]
 
   // The input and its companions.
   std::vector<double> opening_, opening_rate_, opening_slope_;
   // Outputs, made when they are asked for.
-  std::vector<double> pressure_, wetted_fraction_, flow_rate_, viscosity_;
+  std::vector<double> pressure_, wetted_fraction_, flow_rate_, viscosity_, leak_off_coefficient_;
   std::vector<double> scalars_;  ///< by port
 };
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/solvers/band_lu.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -43,6 +45,14 @@ double part_allowed(const Lubrication& lubrication, const CrackLiquid& liquid,
   return part;
 }
 
+/// Facets answer to their neighbours alone where the solid has inertia, and to all where not.
+Eigen::VectorXd solved(const Eigen::MatrixXd& jacobian, std::span<const Index> order,
+                       const Eigen::VectorXd& right) {
+  const Eigen::Index width = half_bandwidth(jacobian, order);
+  if (8 * width < jacobian.rows()) return solve_band(jacobian, order, width, right);
+  return jacobian.partialPivLu().solve(right);
+}
+
 /// v after its change, stopped at the edge between full and not, and where a facet is empty.
 double moved(const CrackLiquid& liquid, double v, double change) {
   const double goal = v + change;
@@ -64,7 +74,7 @@ NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const Lu
     report.converged = is_balanced(lubrication, report.worst);
     if (report.converged) break;
     const Eigen::VectorXd change =
-        lubrication.jacobian(v).partialPivLu().solve(-lubrication.residual());
+        solved(lubrication.jacobian(v), lubrication.graph().order(), -lubrication.residual());
     if (!change.allFinite()) break;
     for (Index f = 0; f < count; ++f) {
       pressure_change[f] = liquid.is_full(v[f]) ? change[f] : 0.0;

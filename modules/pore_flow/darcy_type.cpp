@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/geometry/face_conditions.hpp"
+#include "core/geometry/scatter.hpp"
 #include "core/time/forward_euler.hpp"
 #include "modules/pore_flow/anisotropic_darcy_law.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
@@ -120,11 +121,16 @@ Discretisation<D> discretise(const Section& section, const Body<D>& body,
     section.fail("operator", "'bond' cannot carry a permeability tensor", "conservative or nested");
   }
   const double scalar = isotropic_part<D>(mobilities[0]);
-  if (fluid.is_linear() && mobilities.size() == 1 && scalar >= 0.0) {
+  const auto scatter = read_scatter<D>(section, "permeability_scatter");
+  if (fluid.is_linear() && mobilities.size() == 1 && scalar >= 0.0 && !scatter) {
     return discretise(scheme, body, boundary, DarcyLaw<D>{scalar});
   }
   LawByRegion<AnisotropicDarcyLaw<D>> law{.laws = {}, .law_of_point = std::move(region)};
   for (const Tensor<D, D>& mobility : mobilities) law.laws.push_back({mobility});
+  if (scatter) {
+    law = scattered(law, *scatter, body.points(),
+                    [](const auto& rock, double factor) { return rock.times(factor); });
+  }
   if (fluid.is_linear()) return discretise(scheme, body, boundary, std::move(law));
   std::vector<double> ones(law.law_of_point.size(), 1.0);
   return discretise(scheme, body, boundary, ScaledDarcyLaw<D>{std::move(law), std::move(ones)});

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "core/geometry/scatter.hpp"
 #include "modules/pore_flow/region_path.hpp"
 
 namespace perifrac {
@@ -91,7 +92,7 @@ KeyTable permeability_keys() {
   const std::string tensor_meaning =
       "Symmetric permeability, [xx, yy, xy] in 2D and [xx, yy, zz, xy, yz, zx] in 3D, in place of "
       "permeability.";
-  return {
+  KeyTable keys = {
       {.path = "permeability",
        .unit = "m^2",
        .range = "[0, inf)",
@@ -109,6 +110,10 @@ KeyTable permeability_keys() {
        .unit = "m^2",
        .meaning = "In a region of the body, in place of its permeability."},
   };
+  for (Key& key : scatter_keys("permeability_scatter", "the permeability")) {
+    keys.push_back(std::move(key));
+  }
+  return keys;
 }
 
 template std::vector<Tensor<2, 2>> read_mobilities<2>(const Section&, double);

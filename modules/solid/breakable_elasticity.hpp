@@ -13,13 +13,15 @@ namespace perifrac {
 template <int D>
 class BreakableElasticity : public ElasticOperator<D> {
  public:
-  /// Gradient of the displacement at every point: D * D blocks, row by row.
-  virtual void gradient(std::span<const double> u, std::span<double> gradient) = 0;
+  /// Takes the displacements that gradient_at() and point_energy() are of; apply() does so too.
+  virtual void look_at(std::span<const double> u) = 0;
+  /// Gradient of the displacement at a point.
+  virtual Tensor<D, D> gradient_at(Index i) const = 0;
 
   /// What the energy of point i alone adds to the stiffness.
   virtual PointStiffness point_stiffness(Index i) const = 0;
 
-  /// The energy of point i alone at u, which apply() was last given.
+  /// The energy of point i alone at u, which is looked at.
   virtual double point_energy(Index i, std::span<const double> u) const = 0;
 
   /// Bonds of these points broke: their weights are 0 in the family now.

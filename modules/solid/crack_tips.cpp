@@ -11,19 +11,21 @@ namespace {
 
 /// The facet whose opening is held against the tip's asymptote is the last but one. On the lattice
 /// the tip acts as if it lay so much, in spacings, ahead of the end of the last facet: found from
-/// uniform pressure for the part of toughness; for that of viscosity so that the length, which goes
-/// in steps, is right in their mean (configs/kgd_viscosity.yaml, kgd_mixed.yaml at 10 mm).
-constexpr double tip_offset = -0.12, viscous_offset = 0.1;
+/// uniform pressure.
+constexpr double tip_offset = -0.12;
+/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity
+/// asks for is taken in the middle of it.
+constexpr double viscous_offset = tip_offset + 0.5;
 
 /// A turn below this is rounding [rad].
 constexpr double straight = 1e-6;
 
 }  // namespace
 
-CrackTips::CrackTips(const Body<2>& body, CrackedBody& cracked, double fracture_energy)
+CrackTips::CrackTips(const Body<2>& body, CutBody& cracked, FractureEnergy<2> fracture_energy)
     : body_(body),
       cracked_(cracked),
-      fracture_energy_(fracture_energy),
+      fracture_energy_(std::move(fracture_energy)),
       energy_release_(cracked, body.spacing()) {}
 
 void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
@@ -43,7 +45,10 @@ void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
       if (joined) continue;
       const double sign = end == 1 ? 1.0 : -1.0;
       const Vector<2>& along = cracked_.jumps()[f].tangent;
-      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before}, t, true};
+      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before},
+              t,
+              true,
+              body_.nearest_point(place)};
       tip.grows = cracked_.is_intact_along(next_facet(tip.at, 0.0));
       if (tip.grows) tips_.push_back(tip);
     }
@@ -58,46 +63,44 @@ CrackFacet<2> CrackTips::next_facet(const CrackTip& tip, double turn) const {
           {tip.place[0] + body_.spacing() * ahead[0], tip.place[1] + body_.spacing() * ahead[1]}};
 }
 
+/// Per length of it [J/m^2].
+double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
+  return fracture_energy_.at(
+      {0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
+}
+
 double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
   const CrackTip& at = tip.at;
-  const IsotropicElasticity<2>& law = cracked_.elastic().law(body_.nearest_point(at.place));
+  const IsotropicElasticity<2>& law = cracked_.elastic().law(tip.nearest);
   const double shear = law.shear_modulus, lame = law.lame_lambda;
   // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
   // what counts is the mean of its beginning and end.
   const double needed =
       state.has_fluid() ? 2.0 / (1.0 + tip.intensity_ratio * tip.intensity_ratio) : 1.0;
   const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
-                       needed * fracture_energy_};
+                       needed * energy_to_cut(next_facet(at, 0.0))};
   if (state.has_fluid() && at.before != no_facet && state.viscosity[at.before] > 0.0) {
     const CrackFacet<2>& facet = cracked_.facets()[at.before];
     const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
                                 at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
     const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
-    return state.faces.opening[at.before] / tip_law.opening(s + tip_offset * body_.spacing(),
-                                                            s + viscous_offset * body_.spacing(),
-                                                            state.viscosity[at.before], speed);
+    const TipFluid fluid{state.viscosity[at.before],
+                         state.leak_off.empty() ? 0.0 : state.leak_off[at.before]};
+    return state.opening[at.before] / tip_law.opening(s + tip_offset * body_.spacing(),
+                                                      s + viscous_offset * body_.spacing(), fluid,
+                                                      speed);
   }
   const TipLoad load =
-      energy_release_.at(at, state.unknowns(), state.faces.pressure, state.pore_stress);
+      energy_release_.at(at, state.unknowns(), state.pressure, state.pore_stress, state.inertia);
   if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
   return std::sqrt(load.energy_release / tip_law.fracture_energy);
-}
-
-/// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
-/// changes as it does K_I.
-double CrackTips::intensity_at_fixed_volume(Index facet) const {
-  const Eigen::VectorXd opening = cracked_.compliance().rowwise().sum();
-  double volume = 0.0;
-  for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
-    volume += cracked_.jumps()[f].length * opening[f];
-  }
-  return opening[facet] / volume;
 }
 
 double CrackTips::find_readiness(const CrackState& state) {
   double most = 0.0;
   for (Tip& tip : tips_) {
-    tip.readiness = tip.grows ? readiness(tip, state) : 0.0;
+    const bool may_go = tip.grows && state.t >= tip.since + state.pause;
+    tip.readiness = may_go ? readiness(tip, state) : 0.0;
     most = std::max(most, tip.readiness);
   }
   return most;
@@ -105,7 +108,7 @@ double CrackTips::find_readiness(const CrackState& state) {
 
 double CrackTips::grow(const CrackState& state) {
   // Where to is asked before the first facet makes the displacements old.
-  const std::vector<Vector<2>> jumps = cracked_.jumps_under(state.faces.pressure);
+  const std::vector<Vector<2>> jumps = state.jumps();
   std::vector<double> turns;
   for (const Tip& tip : tips_) {
     double turn = 0.0;
@@ -114,20 +117,20 @@ double CrackTips::grow(const CrackState& state) {
     }
     turns.push_back(std::abs(turn) < straight ? 0.0 : turn);
   }
-  double length = 0.0;
+  double energy = 0.0;
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     if (tips_[k].grows && tips_[k].readiness >= ready) {
-      length += advance(tips_[k], turns[k], state.t);
+      energy += advance(tips_[k], turns[k], state.t);
     }
   }
-  return length;
+  return energy;
 }
 
 double CrackTips::advance(Tip& tip, double turn, double t) {
   CrackFacet<2> facet = next_facet(tip.at, turn);
   const bool joined = joins(facet, tip.at, facet[1]);
   const bool known = tip.at.before != no_facet;
-  const double before = known ? intensity_at_fixed_volume(tip.at.before) : 1.0;
+  const double before = known ? cracked_.intensity_at_fixed_volume(tip.at.before) : 1.0;
   if (!cracked_.cut(facet)) {
     tip.grows = false;
     return 0.0;
@@ -135,10 +138,11 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   const FaceJump& jump = cracked_.jumps().back();
   tip.at = {facet[1], jump.tangent, static_cast<Index>(cracked_.facets().size()) - 1, tip.at.facet};
   tip.since = t;
+  tip.nearest = body_.nearest_point(tip.at.place);
   tip.intensity_ratio =
-      known ? std::min(1.0, intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
+      known ? std::min(1.0, cracked_.intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
   tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
-  return jump.length;
+  return jump.length * energy_to_cut(facet);
 }
 
 /// The facet would come close to an end of another crack's, where it is to end.
@@ -172,9 +176,13 @@ void CrackTips::visit_state(StateVisitor& visitor) {
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     const double* const n = &numbers[6 * k];
     const std::int64_t* const i = &indices[3 * k];
-    tips_[k] = {{{n[0], n[1]}, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
+    const Vector<2> place = {n[0], n[1]};
+    const bool is_known = tips_[k].nearest >= 0 && tips_[k].at.place == place;
+    const Index nearest = is_known ? tips_[k].nearest : body_.nearest_point(place);
+    tips_[k] = {{place, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
                 n[4],
                 i[2] != 0,
+                nearest,
                 n[5]};
   }
 }

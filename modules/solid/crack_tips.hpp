@@ -6,21 +6,29 @@
 
 #include "core/geometry/body.hpp"
 #include "core/state/state_visitor.hpp"
-#include "modules/solid/cracked_body.hpp"
+#include "modules/solid/cut_body.hpp"
 #include "modules/solid/energy_release.hpp"
+#include "modules/solid/fracture_energy.hpp"
 
 namespace perifrac {
 
 /// What tips need to know of the body at the end of a window.
 struct CrackState {
-  double t;  ///< [s]
-  const CrackedBody::Faces& faces;
+  double t;                         ///< [s]
+  const Eigen::VectorXd& opening;   ///< of every facet [m]
+  const Eigen::VectorXd& pressure;  ///< on the faces, that of contact included [Pa]
   /// Of the fluid at every facet, 0 where it is dry [Pa s]; empty where no fluid is simulated.
   std::span<const double> viscosity;
-  std::span<const double>
-      pore_stress;  ///< of all points [Pa]; empty where no pore flow is simulated
+  /// Carter's coefficient of one side, likewise [m/s^0.5]; empty where nothing leaks by it.
+  std::span<const double> leak_off;
+  /// Of all points [Pa]; empty where no pore flow is simulated.
+  std::span<const double> pore_stress;
   /// Displacements, found when they are asked for.
   std::function<std::span<const double>()> unknowns;
+  /// Mean jumps across all facets along their normal and tangent [m], when they are asked for.
+  std::function<std::vector<Vector<2>>()> jumps;
+  PointInertia inertia{};
+  double pause = 0.0;  ///< a tip stays where it came to for at least so long [s]
 
   bool has_fluid() const { return !viscosity.empty(); }
 };
@@ -31,15 +39,14 @@ struct CrackState {
 /// Where the facet would come close to the end of another it ends there, and so does the tip.
 class CrackTips {
  public:
-  /// `fracture_energy`: Gc [J/m^2].
-  CrackTips(const Body<2>& body, CrackedBody& cracked, double fracture_energy);
+  CrackTips(const Body<2>& body, CutBody& cracked, FractureEnergy<2> fracture_energy);
 
   /// Takes the ends of the seeds that no other seed touches and that lie in the rock.
   void start(std::span<const CrackFacet<2>> seeds, double t);
 
   /// How close the tips are to growth, the largest: 1 at it.
   double find_readiness(const CrackState& state);
-  /// Those that were found ready go on; returns the length of the new facets [m].
+  /// Those that were found ready go on; returns the energy that the new facets take [J/m].
   double grow(const CrackState& state);
 
   void visit_state(StateVisitor& visitor);
@@ -47,22 +54,23 @@ class CrackTips {
  private:
   struct Tip {
     CrackTip at;
-    double since;  ///< when it came there [s]
-    bool grows;    ///< some bond lies ahead
+    double since;        ///< when it came there [s]
+    bool grows;          ///< some bond lies ahead
+    Index nearest = -1;  ///< point, whose rock it is in
     /// K_I under fluid of fixed volume, over that before the last step: falls as the crack grows.
     double intensity_ratio = 1.0;
     double readiness = 0.0;
   };
 
+  double energy_to_cut(const CrackFacet<2>& facet) const;
   double readiness(const Tip& tip, const CrackState& state) const;
-  double intensity_at_fixed_volume(Index facet) const;
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
   bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
   double advance(Tip& tip, double turn, double t);
 
   const Body<2>& body_;
-  CrackedBody& cracked_;
-  double fracture_energy_;
+  CutBody& cracked_;
+  FractureEnergy<2> fracture_energy_;
   EnergyRelease energy_release_;
   std::vector<Tip> tips_;
 };

@@ -24,31 +24,16 @@ CrackedBody::CrackedBody(std::shared_ptr<Family<2>> family, double spacing,
                          std::shared_ptr<BreakableElasticity<2>> elastic,
                          Eigen::SparseMatrix<double> free_unknowns, BondState<2>& bonds,
                          std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds)
-    : family_(std::move(family)),
-      intact_(*family_),
-      spacing_(spacing),
-      elastic_(std::move(elastic)),
+    : CutBody(std::move(family), spacing, std::move(elastic), bonds, initial_stress,
+              std::move(seeds)),
       free_unknowns_(std::move(free_unknowns)),
       free_of_(free_unknowns_.rows(), {-1, 0.0}),
-      bonds_(bonds),
-      seeds_(std::move(seeds)),
-      initial_stress_(initial_stress),
       load_(Eigen::VectorXd::Zero(free_unknowns_.cols())) {
   for (int column = 0; column < free_unknowns_.cols(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(free_unknowns_, column); entry; ++entry) {
       free_of_[entry.row()] = {column, entry.value()};
     }
   }
-  cut_seeds();
-}
-
-void CrackedBody::cut_seeds() {
-  for (const CrackFacet<2>& seed : seeds_) {
-    const auto cut = bonds_cut_by<2>(seed, *family_);
-    break_bonds(cut);
-    bonds_.add_facet(seed, cut);
-  }
-  followed_ = bonds_.version();
 }
 
 Eigen::SparseMatrix<double> CrackedBody::free_stiffness() const {
@@ -64,22 +49,6 @@ void CrackedBody::start() {
   intact_move_.resize(0);
   set_load(load_);
   find_compliance();
-}
-
-void CrackedBody::break_bonds(std::span<const std::pair<Index, Index>> bonds) {
-  std::vector<Index> points;
-  for (const auto& [i, j] : bonds) {
-    silence(*family_, i, j);
-    points.insert(points.end(), {i, j});
-  }
-  std::ranges::sort(points);
-  const auto twice = std::ranges::unique(points);
-  points.erase(twice.begin(), twice.end());
-  elastic_->update(points);
-}
-
-bool CrackedBody::is_intact_along(const CrackFacet<2>& facet) const {
-  return !bonds_cut_by<2>(facet, *family_).empty();
 }
 
 bool CrackedBody::cut(const CrackFacet<2>& facet) {
@@ -127,10 +96,7 @@ void CrackedBody::follow_bonds() {
   if (bonds_.version() == followed_) return;
   const std::vector<CrackFacet<2>> facets(bonds_.facets().begin(), bonds_.facets().end());
   bonds_ = BondState<2>(bonds_.version());
-  *family_ = intact_;
-  std::vector<Index> all(family_->point_count);
-  for (Index i = 0; i < family_->point_count; ++i) all[i] = i;
-  elastic_->update(all);
+  mend();
   cut_seeds();
   start();
   for (const CrackFacet<2>& facet : std::span(facets).subspan(seeds_.size())) cut(facet);
@@ -246,43 +212,13 @@ CrackedBody::Faces CrackedBody::faces(const Eigen::VectorXd& pressure) const {
   return {contact.y.cwiseMax(0.0), pressure + contact.x, std::move(contact.held)};
 }
 
-Vector<2> CrackedBody::relief(Index f) const {
-  if (!initial_stress_) return {};
-  const Vector<2>& n = jumps_[f].normal;
-  const Vector<2>& t = jumps_[f].tangent;
-  Vector<2> stress{};
-  for (int a = 0; a < 2; ++a) {
-    stress[0] += n[a] * (*initial_stress_)[a] * n[a];
-    stress[1] += t[a] * (*initial_stress_)[a] * n[a];
-  }
-  return stress;
-}
-
-Vector<2> CrackedBody::jump(Index f, std::span<const double> unknowns) const {
-  Vector<2> sum{};
-  for (const auto& [point, coefficient] : jumps_[f].terms) {
-    for (int a = 0; a < 2; ++a) {
-      const double u = unknowns[a * family_->point_count + point];
-      sum[0] += coefficient * jumps_[f].normal[a] * u;
-      sum[1] += coefficient * jumps_[f].tangent[a] * u;
-    }
-  }
-  return sum;
-}
-
-std::span<const double> CrackedBody::gradient(std::span<const double> unknowns) {
-  gradient_.resize(4 * static_cast<std::size_t>(family_->point_count));
-  elastic_->gradient(unknowns, gradient_);
-  return gradient_;
-}
-
-bool CrackedBody::reaches(const Vector<2>& x, double distance) const {
-  for (int a = 0; a < 2; ++a) {
-    const auto points = std::span(family_->position[a]).first(family_->point_count);
-    const auto [least, largest] = std::ranges::minmax(points);
-    if (x[a] - distance < least || x[a] + distance > largest) return false;
-  }
-  return true;
+/// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
+/// changes as it does K_I.
+double CrackedBody::intensity_at_fixed_volume(Index facet) const {
+  const Eigen::VectorXd opening = compliance_.rowwise().sum();
+  double volume = 0.0;
+  for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].length * opening[f];
+  return opening[facet] / volume;
 }
 
 Eigen::VectorXd CrackedBody::face_force(const Eigen::VectorXd& pressure, bool relief) const {

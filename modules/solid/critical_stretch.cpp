@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
-
 #include "core/geometry/crack_cut.hpp"
 #include "core/operators/bond_traversal.hpp"
-#include "core/operators/shape_tensor.hpp"
+#include "modules/solid/stiffness_bound.hpp"
 
 namespace perifrac {
 
@@ -114,26 +112,9 @@ void CriticalStretch<D>::break_in_family(std::span<const std::pair<Index, Index>
   elastic_->update(points);
 }
 
-/// Of the energy of point i, per sum of |u_j - u_i|^2 over its bonds in the mean, up to a factor
-/// that all points share. Its gradient F has |F|^2 <= sum w |du|^2 / lambda_min(K); where the
-/// family is too thin for a gradient, theta^2 <= D^2 / m sum w |du|^2.
 template <int D>
 double CriticalStretch<D>::stiffness_bound(Index i) const {
-  using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
-  double weight = 0.0;
-  for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
-    weight += family_->weight[bond];
-  }
-  if (!(weight > 0.0)) return 0.0;
-  const IsotropicElasticity<D>& law = elastic_->law(i);
-  const auto sum = shape_tensor_at(*family_, i);
-  const Matrix shape = Eigen::Map<const Matrix>(sum.data());
-  if (is_thin(*family_, i)) {
-    return (D * D * law.drained_bulk_modulus() + D * (D + 2) * law.shear_modulus) * weight /
-           shape.trace();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spectrum(shape);
-  return D * law.drained_bulk_modulus() * weight / spectrum.eigenvalues()[0];
+  return perifrac::stiffness_bound(*family_, elastic_->law(i), i);
 }
 
 template <int D>

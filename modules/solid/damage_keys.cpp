@@ -1,5 +1,6 @@
 #include "modules/solid/damage_keys.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "modules/solid/stretch_limit.hpp"
@@ -7,12 +8,12 @@
 namespace perifrac {
 
 KeyTable damage_keys() {
-  return {
+  KeyTable keys = {
       {.path = "type",
        .type = KeyType::word,
        .required = true,
        .words = {"energy_release", "critical_stretch"},
-       .meaning = "energy_release (quasi_static solid): a crack goes on where the energy that "
+       .meaning = "energy_release (2D): a crack goes on where the energy that "
                   "growth sets free, J at its tracked tip, reaches the fracture energy; "
                   "critical_stretch (dynamic solid): a bond breaks where it is stretched too far. "
                   "docs/fracture.md compares them."},
@@ -20,6 +21,10 @@ KeyTable damage_keys() {
        .unit = "J/m^2",
        .range = "(0, inf)",
        .meaning = "Energy that new crack takes per area of it, both faces together."},
+      {.path = "regions.*.fracture_energy",
+       .unit = "J/m^2",
+       .range = "(0, inf)",
+       .meaning = "energy_release: the same in a region of the body (body.regions)."},
       {.path = "critical_stretch",
        .type = KeyType::word,
        .fallback = "corrected",
@@ -31,15 +36,13 @@ KeyTable damage_keys() {
       {.path = "stretch",
        .range = "(0, inf)",
        .meaning = "critical_stretch: the limit itself, in place of fracture_energy."}};
+  for (Key& key : scatter_keys("scatter", "energy_release: the fracture energy")) {
+    keys.push_back(std::move(key));
+  }
+  return keys;
 }
 
 namespace {
-
-void require_criterion(const Section& scene, const char* criterion, const char* solid) {
-  const std::string found = scene.word("damage.type");
-  if (found == criterion) return;
-  scene.fail("damage.type", "'" + found + "' in a " + solid + " solid", criterion);
-}
 
 double required_fracture_energy(const Section& scene) {
   if (!scene.has("damage.fracture_energy")) {
@@ -50,17 +53,40 @@ double required_fracture_energy(const Section& scene) {
 
 }  // namespace
 
-double read_fracture_energy(const Section& scene) {
-  if (!scene.has("damage")) return std::numeric_limits<double>::infinity();
-  require_criterion(scene, "energy_release", "quasi_static");
-  return required_fracture_energy(scene);
+bool names_critical_stretch(const Section& scene) {
+  return scene.has("damage") && scene.word("damage.type") == "critical_stretch";
+}
+
+FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body) {
+  if (!scene.has("damage")) return {std::numeric_limits<double>::infinity()};
+  if (names_critical_stretch(scene)) {
+    scene.fail("damage.type", "'critical_stretch' in a quasi_static solid", "energy_release");
+  }
+  FractureEnergy<2> energy{required_fracture_energy(scene)};
+  energy.scatter = read_scatter<2>(scene, "damage.scatter");
+  if (!scene.has("damage.regions")) return energy;
+  for (const std::string& name : scene.names("damage.regions")) {
+    const std::string path = "damage.regions." + name;
+    const auto found = std::ranges::find(body.regions(), name, &Region<2>::name);
+    if (found == body.regions().end()) {
+      std::vector<std::string> known;
+      for (const Region<2>& region : body.regions()) known.push_back(region.name);
+      scene.fail_unknown(path, name, known);
+    }
+    if (!scene.has(path + ".fracture_energy")) {
+      scene.fail(path, "missing key 'fracture_energy'", "a number in J/m^2");
+    }
+    energy.inside.emplace_back(*found, scene.number(path + ".fracture_energy"));
+  }
+  return energy;
 }
 
 template <int D>
 double read_stretch_limit(const Section& scene, const Body<D>& body, const Family<D>& family,
                           const IsotropicElasticity<D>& law) {
-  if (!scene.has("damage")) return std::numeric_limits<double>::infinity();
-  require_criterion(scene, "critical_stretch", "dynamic");
+  for (const char* key : {"damage.regions", "damage.scatter"}) {
+    if (scene.has(key)) scene.fail(key, "with critical_stretch", "energy_release");
+  }
   if (scene.has("damage.stretch")) {
     if (scene.has("damage.fracture_energy")) {
       scene.fail("damage.stretch", "beside fracture_energy", "one of the two");

@@ -163,7 +163,7 @@ void DynamicSolid<D>::on_restored(double t) {
   system_->set_interface_force(interface_.force());
   system_->note_reference();
   // The stable step is that of the body without broken bonds, which a restart begins with.
-  if (breaking_) verlet_->stable_step(t);
+  if (system_->may_break()) verlet_->stable_step(t);
   system_->derive();
 }
 

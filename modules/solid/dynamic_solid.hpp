@@ -24,7 +24,7 @@ namespace perifrac {
 /// along its axis. Where bonds may break, `damage` of the points (paper Eq 16) and
 /// `fracture_energy` [J], what breaking took from the elastic energy.
 template <int D>
-class DynamicSolid final : public PhysicsModule {
+class DynamicSolid : public PhysicsModule {
  public:
   /// density [kg/m^3]; damping [1/s] of all velocities; a step is at most safety (0 to 1) times the
   /// stable limit. The operator's mirror condition is the boundary's. `breaking` breaks its bonds;
@@ -38,10 +38,11 @@ class DynamicSolid final : public PhysicsModule {
   void initialize(double t) override;
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
+  bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor& visitor) override;
   void on_restored(double t) override;
 
- private:
+ protected:
   enum Id : PortId {
     pore_stress,
     interface_impulse,
@@ -57,7 +58,7 @@ class DynamicSolid final : public PhysicsModule {
     first_plate
   };
 
-  double scalar(PortId id);
+  virtual double scalar(PortId id);
   PortId first_of_breaking() const;
   PortView breaking_port(PortId id);
 

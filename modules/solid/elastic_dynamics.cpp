@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "core/errors.hpp"
-#include "core/operators/bond_traversal.hpp"
+#include "core/operators/block_sum.hpp"
 
 namespace perifrac {
 
@@ -107,17 +107,18 @@ void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<do
   unknowns_.resize(owner_.size());
   expand(y, view(prescribed_now_), unknowns_);
   place_plates(view(load_now_), pore_stress_, unknowns_);
-  apply(unknowns_, {pore_stress_, pore_slope_}, inner_, dilatation_);
+  const bool answers = !pore_.value.empty();
+  apply(unknowns_, {pore_stress_, pore_slope_}, inner_,
+        answers ? std::span(dilatation_) : std::span<double>());
+  if (added_ != nullptr) added_->add(t, unknowns_, inner_);
   // Trapezoidal in time: the work that this scheme's energy answers to.
-  double work = 0.0;
-  for (std::size_t k = 0; k < owner_.size(); ++k) {
+  external_work_ += block_sum(static_cast<Index>(owner_.size()), block_sums_, [&](Index k) {
     const double now = owner_[k] == none ? inner_[k] : load_now_[k];
-    work += 0.5 * (external_force_[k] + now) * (unknowns_[k] - before_[k]);
+    const double work = 0.5 * (external_force_[k] + now) * (unknowns_[k] - before_[k]);
     external_force_[k] = now;
-  }
-  external_work_ += work;
-  for_each_point(static_cast<Index>(owner_.size()),
-                 [&](Index k) { inner_[k] = load_now_[k] - inner_[k]; });
+    inner_[k] = load_now_[k] - inner_[k];
+    return work;
+  });
   gather(inner_, force);
 }
 
@@ -127,14 +128,14 @@ void ElasticDynamics<D>::apply(std::span<const double> u, const PoreStress& pore
                                std::span<double> force, std::span<double> dilatation) {
   elastic_->apply(u, pore, force, dilatation);
   if (initial_force_.empty()) return;
-  for_each_point(static_cast<Index>(force.size()), [&](Index k) { force[k] -= initial_force_[k]; });
+  for_each_entry(static_cast<Index>(force.size()), [&](Index k) { force[k] -= initial_force_[k]; });
 }
 
 template <int D>
 void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<double> product) {
   expand(v, {}, trial_);
   place_plates({}, {}, trial_);
-  apply(trial_, {no_pore_stress_, reference_slope_}, inner_, scratch_);
+  apply(trial_, {no_pore_stress_, reference_slope_}, inner_, {});
   gather(inner_, product);
 }
 
@@ -142,7 +143,7 @@ void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<do
 template <int D>
 void ElasticDynamics<D>::expand(std::span<const double> y, std::span<const double> prescribed,
                                 std::vector<double>& unknowns) const {
-  for_each_point(static_cast<Index>(owner_.size()), [&](Index k) {
+  for_each_entry(static_cast<Index>(owner_.size()), [&](Index k) {
     unknowns[k] = owner_[k] >= 0 ? y[owner_[k]] : 0.0;
     if (!prescribed.empty()) unknowns[k] += prescribed[k];
   });
@@ -151,7 +152,7 @@ void ElasticDynamics<D>::expand(std::span<const double> y, std::span<const doubl
 /// Force on what has a mass from that on every unknown.
 template <int D>
 void ElasticDynamics<D>::gather(std::span<const double> all, std::span<double> y) const {
-  for_each_point(static_cast<Index>(first_moved_.size()),
+  for_each_entry(static_cast<Index>(first_moved_.size()),
                  [&](Index i) { y[i] = all[first_moved_[i]]; });
   for (const auto& [i, unknown] : also_moved_) y[i] += all[unknown];
 }
@@ -221,7 +222,7 @@ template <int D>
 void ElasticDynamics<D>::find_pore_stress(double t) {
   pore_stress_.resize(pore_.value.size());
   const double since_end = t - pore_.end;
-  for_each_point(static_cast<Index>(pore_stress_.size()),
+  for_each_entry(static_cast<Index>(pore_stress_.size()),
                  [&](Index i) { pore_stress_[i] = pore_.value[i] + since_end * pore_.rate[i]; });
 }
 
@@ -264,7 +265,11 @@ void ElasticDynamics<D>::derive() {
     breaking_->follow_bonds();
     plate_rows_known_ = false;
   }
-  apply(unknowns_, {}, inner_, dilatation_);
+  if (added_ != nullptr) {
+    added_->follow_state();
+    plate_rows_known_ = false;
+  }
+  apply(unknowns_, {}, inner_, pore_.value.empty() ? std::span<double>() : dilatation_);
 }
 
 template <int D>
@@ -275,8 +280,14 @@ std::vector<double> ElasticDynamics<D>::position() const {
 }
 
 template <int D>
+std::span<double> ElasticDynamics<D>::dilatation() {
+  if (pore_.value.empty()) apply(unknowns_, {}, inner_, dilatation_);
+  return dilatation_;
+}
+
+template <int D>
 double ElasticDynamics<D>::elastic_energy() {
-  apply(unknowns_, {}, inner_, scratch_);
+  apply(unknowns_, {}, inner_, {});
   double sum = 0.0;
   for (std::size_t k = 0; k < unknowns_.size(); ++k) sum += 0.5 * unknowns_[k] * inner_[k];
   return sum;

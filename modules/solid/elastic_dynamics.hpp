@@ -25,6 +25,22 @@ struct PoreStressInput {
   double end = 0.0;
 };
 
+/// Forces on an elastic body beside those of its bonds and loads.
+class AddedForce {
+ public:
+  virtual ~AddedForce() = default;
+  /// Takes its force at time t [s] and displacements u from the inner force on every unknown [N].
+  /// Called once at each time that is reached, and again where something jumped.
+  virtual void add(double t, std::span<const double> u, std::span<double> inner) = 0;
+  /// Impulses at the ends of a step [s], on the velocity of what has a mass.
+  virtual void begin_step(double step, std::span<double> velocity) = 0;
+  virtual void end_step(double step, std::span<double> velocity) = 0;
+  /// A bound, at least 1, of how much stiffer than it was at first the body is.
+  virtual double stiffness_growth() const = 0;
+  /// The state was replaced: takes the body to what it is in that.
+  virtual void follow_state() = 0;
+};
+
 /// Newton's law for an elastic body: m u'' = load - dE/du, for all that is free to move and has a
 /// mass. What is prescribed moves as prescribed. A rigid plate on a mirrored face has no mass: its
 /// place follows from its equilibrium at every time. One on a layer moves the layer's mass.
@@ -43,12 +59,31 @@ class ElasticDynamics final : public SecondOrderSystem {
   void stiffness_times(std::span<const double> v, std::span<double> product) override;
   std::uint64_t stiffness_version() const override { return version_; }
   double stiffness_growth() const override {
-    return breaking_ ? growth_ * breaking_->stiffness_growth() : growth_;
+    const double broken = breaking_ ? breaking_->stiffness_growth() : 1.0;
+    return growth_ * (added_ ? added_->stiffness_growth() : broken);
+  }
+  void begin_step(double step, std::span<double> velocity) override {
+    if (added_ != nullptr) added_->begin_step(step, velocity);
+  }
+  void end_step(double step, std::span<double> velocity) override {
+    if (added_ != nullptr) added_->end_step(step, velocity);
   }
   bool changes() override;
 
   /// Bonds break from now on, in the family of the operator; cuts the seeds. It must stay.
   void set_breaking(CriticalStretch<D>& breaking);
+
+  /// Another force acts from now on; it must stay.
+  void set_added_force(AddedForce& force) { added_ = &force; }
+  bool may_break() const { return breaking_ != nullptr || added_ != nullptr; }
+  /// Bonds were broken by who adds a force.
+  void note_broken_bonds() { plate_rows_known_ = false; }
+  /// What moves an unknown, by its place in mass(); negative: nothing that has a mass.
+  Index moved_by(Index unknown) const { return owner_[unknown]; }
+  /// Force of the bonds at the present displacements and pore stress, on every unknown [N].
+  void find_bond_force(std::span<double> force) {
+    apply(unknowns_, {pore_stress_, pore_slope_}, force, {});
+  }
 
   /// Takes the input of the next window; spans must stay valid while it is integrated. The slope
   /// is part of the stiffness.
@@ -71,7 +106,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   std::vector<double> position() const;
   /// All displacements: D blocks of points, then face values [m].
   std::vector<double>& unknowns() { return unknowns_; }
-  std::vector<double>& dilatation() { return dilatation_; }
+  std::span<double> dilatation();  ///< of the points
   void effective_stress(std::span<double> stress) { elastic_->stress(unknowns_, stress); }
   double elastic_energy();                                 ///< without pore stress [J]
   double external_work() const { return external_work_; }  ///< [J]
@@ -106,6 +141,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
   CriticalStretch<D>* breaking_ = nullptr;
+  AddedForce* added_ = nullptr;
   std::vector<double> initial_force_;  ///< of the initial stress [N]; empty without one
   ScheduledVector prescribed_;
   ScheduledVector loads_;
@@ -136,8 +172,8 @@ class ElasticDynamics final : public SecondOrderSystem {
   double growth_ = 1.0;
   std::vector<double> no_pore_stress_;
 
-  Eigen::VectorXd prescribed_now_, load_now_;             // workspace
-  std::vector<double> before_, trial_, inner_, scratch_;  // workspace
+  Eigen::VectorXd prescribed_now_, load_now_;                          // workspace
+  std::vector<double> before_, trial_, inner_, scratch_, block_sums_;  // workspace
 };
 
 }  // namespace perifrac

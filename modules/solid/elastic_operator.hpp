@@ -41,7 +41,7 @@ class ElasticOperator {
   virtual Index size() const = 0;
 
   /// force = dE/du, the inner force on every unknown [N, per metre in 2D], pore stress included,
-  /// and the points' dilatation on the way.
+  /// and the points' dilatation on the way (empty: it is not asked for).
   virtual void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
                      std::span<double> dilatation) = 0;
 

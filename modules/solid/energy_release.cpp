@@ -24,6 +24,10 @@ struct Cutoff {
     return 0.5 * (1.0 + std::cos(M_PI * (distance - inner) / (outer - inner)));
   }
 
+  bool reaches(const Vector<2>& x) const {
+    return std::abs(x[0] - centre[0]) < outer && std::abs(x[1] - centre[1]) < outer;
+  }
+
   Vector<2> gradient(const Vector<2>& x) const {
     const Vector<2> r = {x[0] - centre[0], x[1] - centre[1]};
     const double distance = std::hypot(r[0], r[1]);
@@ -60,13 +64,13 @@ constexpr double largest_kink = 70.0 * M_PI / 180.0;
 }  // namespace
 
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
-                          const Eigen::VectorXd& pressure,
-                          std::span<const double> pore_stress) const {
+                          const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
+                          const PointInertia& inertia) const {
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
   }
-  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, pore_stress)};
+  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, pore_stress, inertia)};
 }
 
 TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
@@ -98,29 +102,50 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
   return mean;
 }
 
+/// Where facets meet: the mean of theirs, 0 at the tip.
+Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
+                                 std::span<const Vector<2>> jumps) const {
+  Vector<2> sum{};
+  if (corner == tip.place) return sum;
+  int count = 0;
+  for (std::size_t f = 0; f < jumps.size(); ++f) {
+    const CrackFacet<2>& facet = body_.facets()[f];
+    if (facet[0] != corner && facet[1] != corner) continue;
+    ++count;
+    for (int a = 0; a < 2; ++a) sum[a] += jumps[f][a];
+  }
+  return {sum[0] / count, sum[1] / count};
+}
+
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
                                       const Eigen::VectorXd& pressure,
-                                      std::span<const double> pore_stress) const {
+                                      std::span<const double> pore_stress,
+                                      const PointInertia& inertia) const {
   const Family<2>& family = body_.family();
   const Index points = family.point_count;
   // Near a boundary the ring is drawn in, so as to lie within the body.
   const double radius = (body_.reaches(tip.place, 4.5 * spacing_) ? 4.5 : 3.0) * spacing_;
   const Cutoff cutoff{tip.place, spacing_, radius};
-  const std::span<const double> gradient = body_.gradient(unknowns);
+  BreakableElasticity<2>& elastic = body_.elastic();
+  elastic.look_at(unknowns);
   double sum = 0.0;
   for (Index i = 0; i < points; ++i) {
     const Vector<2> x = {family.position[0][i], family.position[1][i]};
+    if (!cutoff.reaches(x)) continue;
     const double q = cutoff.at(x);
-    if (q == 0.0) continue;
-    Tensor<2, 2> g;
-    for (int k = 0; k < 4; ++k) g[k] = gradient[static_cast<std::size_t>(k) * points + i];
-    Tensor<2, 2> stress = body_.elastic().law(i).stress(g);
+    const Tensor<2, 2> g = elastic.gradient_at(i);
     const Vector<2> slope = cutoff.gradient(x);
-    const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
+    if (inertia) {
+      const Vector<2> force = inertia(i);
+      for (int a = 0; a < 2; ++a) {
+        sum += q * force[a] * (g[a * 2] * tip.direction[0] + g[a * 2 + 1] * tip.direction[1]);
+      }
+    }
+    Tensor<2, 2> stress = elastic.law(i).stress(g);
     if (!pore_stress.empty()) {
-      const double dilatation = g[0] + g[3];
+      const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
       for (const int k : {0, 3}) stress[k] -= pore_stress[i];
-      sum += family.volume[i] * dilatation *
+      sum += family.volume[i] * (g[0] + g[3]) *
              (pore_stress[i] * along + q * rise_along(tip.direction, pore_stress, family, i));
     }
     if (slope == Vector<2>{}) continue;
@@ -132,21 +157,26 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
         }
       }
     }
-    const PointStiffness own = body_.elastic().point_stiffness(i);
-    Eigen::VectorXd u(own.matrix.rows());
-    for (Eigen::Index k = 0; k < u.size(); ++k) u[k] = unknowns[own.unknowns[k]];
-    sum += family.volume[i] * work - 0.5 * u.dot(own.matrix * u) * along;
+    const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
+    sum += family.volume[i] * work - elastic.point_energy(i, unknowns) * along;
   }
+  std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
+    jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
+  }
+  for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
+    const std::array q = {cutoff.at(facet[0]), cutoff.at(facet[1])};
+    if (q[0] == 0.0 && q[1] == 0.0) continue;
     const Vector<2>& tangent = body_.jumps()[f].tangent;
     const double ahead = tangent[0] * tip.direction[0] + tangent[1] * tip.direction[1];
-    // The integral of d . grad q along the facet.
-    const double rise = ahead * (cutoff.at(facet[1]) - cutoff.at(facet[0]));
-    if (rise == 0.0) continue;
-    const Vector<2> jump = body_.jump(static_cast<Index>(f), unknowns);
     const Vector<2> relief = body_.relief(static_cast<Index>(f));
-    sum += ((pressure[f] + relief[0]) * jump[0] + relief[1] * jump[1]) * rise;
+    const Vector<2> load = {pressure[f] + relief[0], relief[1]};
+    for (int a = 0; a < 2; ++a) {
+      const double begin = jump_at(facet[0], tip, jumps)[a] - jumps[f][a];
+      const double end = jump_at(facet[1], tip, jumps)[a] - jumps[f][a];
+      sum += ahead * load[a] * (begin * q[0] - end * q[1]);
+    }
   }
   return sum;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <span>
 
-#include "modules/solid/cracked_body.hpp"
+#include <Eigen/Core>
+
+#include "modules/solid/cut_body.hpp"
 
 namespace perifrac {
 
@@ -25,30 +28,42 @@ struct TipLoad : TipJump {
   double energy_release;  ///< J, what growth straight ahead would set free [J/m^2]
 };
 
-/// J as an integral over the points around the tip (Li, Shih & Needleman 1985), from the remaining
-/// bonds' gradients and the whole energy of every point:
-///   J = sum V [(grad u^T sigma) grad q . d - W d . grad q] + int (p w + tau s) d . grad q ds,
-/// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry. Of
-/// displacements from the state at rest, so that an initial stress counts as what faces are
-/// relieved of. With a pore stress a, sigma is the total stress, W is less a theta, and there is
+/// Mass times acceleration of a point [N, per metre]; empty: the body is at rest.
+using PointInertia = std::function<Vector<2>(Index)>;
+
+/// J as an integral over the points around the tip (Li, Shih & Needleman 1985; with inertia
+/// Nakamura, Shih & Freund 1985), from the remaining bonds' gradients and the whole energy of every
+/// point:
+///   J = sum V [(grad u^T sigma) grad q . d - W d . grad q + rho u'' . (grad u d) q]
+///       - int q (p dw/ds + tau dv/ds) ds,
+/// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry, w
+/// and v their jumps, s along the crack to the tip. Of displacements from the state at rest, so
+/// that an initial stress counts as what faces are relieved of. With a pore stress a, sigma is the
+/// total stress, W is less a theta, and there is
 ///   + sum V theta (d . grad a) q,
-/// for a field that is held while the crack grows makes the rock another along the crack.
-/// `unknowns` and `pressure` as CrackedBody has them; `pore_stress` of all points, or empty.
+/// for a field that is held while the crack grows makes the rock another along the crack. The
+/// kinetic energy T is left out: its two terms, -T d . grad q and -rho u' . (grad u' d) q, are the
+/// integral of -d . grad(T q), which vanishes along a crack but for what a tip carries along with
+/// it, a part of (speed of the tip / speed of sound)^2.
 class EnergyRelease {
  public:
-  EnergyRelease(CrackedBody& body, double spacing) : body_(body), spacing_(spacing) {}
+  EnergyRelease(CutBody& body, double spacing) : body_(body), spacing_(spacing) {}
 
+  /// `unknowns`: all displacements; `pressure`: on the faces, by facet [Pa]; `pore_stress`: of all
+  /// points [Pa], or empty.
   TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
-             std::span<const double> pore_stress = {}) const;
+             std::span<const double> pore_stress = {}, const PointInertia& inertia = {}) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
   TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
 
  private:
+  Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
+                    std::span<const Vector<2>> jumps) const;
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
-                         const Eigen::VectorXd& pressure,
-                         std::span<const double> pore_stress) const;
+                         const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
+                         const PointInertia& inertia) const;
 
-  CrackedBody& body_;
+  CutBody& body_;
   double spacing_;
 };
 

@@ -31,15 +31,16 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
                                  std::shared_ptr<BreakableElasticity<2>> elastic,
                                  const SolidBoundary<2>& boundary,
                                  std::optional<Vector<2>> initial_stress,
-                                 std::vector<CrackFacet<2>> seeds, double fracture_energy)
+                                 std::vector<CrackFacet<2>> seeds,
+                                 FractureEnergy<2> fracture_energy)
     : body_(std::move(body)),
       seeds_(std::move(seeds)),
-      fracture_energy_(fracture_energy),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
           InterfaceForce::port(2),
           {"crack_pressure", "Pa", PortDirection::in},
           {"crack_viscosity", "Pa s", PortDirection::in, PortKind::intensive, PortRole::property},
+          {"crack_leak_off", "m/s^0.5", PortDirection::in, PortKind::intensive, PortRole::property},
           {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, 2},
           {"dilatation", "1", PortDirection::out},
           {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, 4},
@@ -47,6 +48,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
           {"crack_opening", "m", PortDirection::out},
           {"free_crack_opening", "m", PortDirection::out, PortKind::intensive, PortRole::property},
           {"crack_length", "m", PortDirection::out},
+          {"open_crack_length", "m", PortDirection::out},
           {"elastic_energy", "J/m", PortDirection::out, PortKind::extensive,
            PortRole::energy_stored},
           {"external_work", "J/m", PortDirection::out, PortKind::extensive,
@@ -59,7 +61,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
       cracked_(family, body_->spacing(), elastic,
                boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
                seeds_),
-      tips_(*body_, cracked_, fracture_energy) {
+      tips_(*body_, cracked_, std::move(fracture_energy)) {
   const auto mirror = boundary.mirror_condition(*family);
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
@@ -96,6 +98,9 @@ PortView FracturingSolid::port(PortId id) {
     case crack_viscosity:
       crack_viscosity_.resize(facets->count);
       return {facets, crack_viscosity_};
+    case crack_leak_off:
+      crack_leak_off_.resize(facets->count);
+      return {facets, crack_leak_off_};
     case displacement:
       find_unknowns();
       return {points, std::span(unknowns_).first(2 * body_->points().volume.size())};
@@ -134,6 +139,12 @@ PortView FracturingSolid::port(PortId id) {
       crack_length_ = 0.0;
       for (const FaceJump& jump : cracked_.jumps()) crack_length_ += jump.length;
       return {&whole_body, {&crack_length_, 1}};
+    case open_crack_length:
+      open_length_ = 0.0;
+      for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
+        if (faces_.opening[f] > 0.0) open_length_ += cracked_.jumps()[f].length;
+      }
+      return {&whole_body, {&open_length_, 1}};
     case elastic_energy:
       if (!is_steady()) derive();
       return {&whole_body, {&elastic_energy_, 1}};
@@ -277,23 +288,30 @@ double FracturingSolid::conclude(const TimeWindow& window) {
   book_work();
   readiness_before_ = most;
   while (most >= ready) {
-    const double growth = tips_.grow(crack_state());
-    spent_energy_ += fracture_energy_ * growth;
+    const double spent = tips_.grow(crack_state());
+    spent_energy_ += spent;
     last_growth_ = window.end;
     readiness_before_ = 0.0;
     solve_faces();
     book_work();
-    if (wet() || growth == 0.0) break;
+    if (wet() || spent == 0.0) break;
     most = tips_.find_readiness(crack_state());
   }
   return window.end;
 }
 
 CrackState FracturingSolid::crack_state() {
-  return {window_end_, faces_, crack_viscosity_, pore_stress_, [this]() -> std::span<const double> {
+  return {.t = window_end_,
+          .opening = faces_.opening,
+          .pressure = faces_.pressure,
+          .viscosity = crack_viscosity_,
+          .leak_off = crack_leak_off_,
+          .pore_stress = pore_stress_,
+          .unknowns = [this]() -> std::span<const double> {
             find_unknowns();
             return unknowns_;
-          }};
+          },
+          .jumps = [this] { return cracked_.jumps_under(faces_.pressure); }};
 }
 
 void FracturingSolid::visit_state(StateVisitor& visitor) {

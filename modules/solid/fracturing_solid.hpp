@@ -21,18 +21,19 @@ namespace perifrac {
 /// fluid in the crack one tip goes on a window, so that the pressure answers before the next.
 ///
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
-/// [Pa], `crack_viscosity` [Pa s], of the fluid at the facet, 0 where it is dry; out
-/// `crack_opening` [m], and the property `free_crack_opening` [m], what it would be if closed faces
-/// did not press on each other (negative: they pass through one another), with its slope against
-/// crack_pressure, a matrix. `damage` of the points (paper Eq 16), `crack_length` [m] and
-/// `fracture_energy` [J/m], what new faces took.
+/// [Pa], `crack_viscosity` [Pa s] and Carter's `crack_leak_off` [m/s^0.5], of the fluid at the
+/// facet, 0 where it is dry; out `crack_opening` [m], and the property `free_crack_opening` [m],
+/// what it would be if closed faces did not press on each other (negative: they pass through one
+/// another), with its slope against crack_pressure, a matrix. `damage` of the points (paper Eq 16),
+/// `crack_length` [m], of it `open_crack_length` where faces are apart, and `fracture_energy`
+/// [J/m], what new faces took.
 class FracturingSolid final : public PhysicsModule {
  public:
-  /// `fracture_energy`: Gc [J/m^2]; infinite: no crack grows.
+  /// `fracture_energy` infinite: no crack grows.
   FracturingSolid(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
                   std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
                   std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
-                  double fracture_energy);
+                  FractureEnergy<2> fracture_energy);
 
   /// As QuasiStaticSolid's.
   std::string free_motion() const;
@@ -52,6 +53,7 @@ class FracturingSolid final : public PhysicsModule {
     interface_impulse,
     crack_pressure,
     crack_viscosity,
+    crack_leak_off,
     displacement,
     dilatation,
     effective_stress,
@@ -59,6 +61,7 @@ class FracturingSolid final : public PhysicsModule {
     crack_opening,
     free_crack_opening,
     crack_length,
+    open_crack_length,
     elastic_energy,
     external_work,
     fracture_energy,
@@ -81,7 +84,6 @@ class FracturingSolid final : public PhysicsModule {
 
   std::shared_ptr<const Body<2>> body_;
   std::vector<CrackFacet<2>> seeds_;
-  double fracture_energy_;  ///< Gc [J/m^2]
   std::vector<Port> ports_;
   std::vector<Index> plate_unknowns_;
   Eigen::SparseMatrix<double> free_unknowns_;
@@ -106,6 +108,7 @@ class FracturingSolid final : public PhysicsModule {
   double external_work_ = 0.0;
   double spent_energy_ = 0.0;      ///< on new faces [J/m]
   double crack_length_ = 0.0;      ///< made when it is asked for
+  double open_length_ = 0.0;       ///< likewise
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
   double last_growth_ = 0.0;       ///< [s]
   int cuts_ = 0;                   ///< of the window at hand
@@ -113,6 +116,7 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<double> pore_stress_;
   std::vector<double> crack_pressure_;
   std::vector<double> crack_viscosity_;
+  std::vector<double> crack_leak_off_;
   InterfaceForce interface_;
   CrackedBody::Faces faces_;
   Eigen::VectorXd free_opening_;

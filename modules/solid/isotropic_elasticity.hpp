@@ -16,11 +16,12 @@ struct IsotropicElasticity {
   double lame_lambda;    ///< [Pa]
   double shear_modulus;  ///< [Pa]
 
-  /// C : F = lambda tr(F) I + mu (F + F^T).
-  Tensor<D, D> stress(const Tensor<D, D>& gradient) const {
-    double dilatation = 0.0;
+  /// C : F = lambda tr(F) I + mu (F + F^T); also of packets of gradients.
+  template <class Number>
+  std::array<Number, D * D> stress(const std::array<Number, D * D>& gradient) const {
+    Number dilatation{};
     for (int a = 0; a < D; ++a) dilatation += gradient[a * D + a];
-    Tensor<D, D> result;
+    std::array<Number, D * D> result;
     for (int a = 0; a < D; ++a) {
       for (int b = 0; b < D; ++b) {
         result[a * D + b] = shear_modulus * (gradient[a * D + b] + gradient[b * D + a]);

@@ -24,6 +24,11 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
 
   void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
              std::span<double> dilatation) override {
+    if (pore.value.empty() && dilatation.empty() && !initial_stress_) {
+      operator_.apply(u, force);
+      for (const ThinPoint& thin : thin_points_) add_force(thin.stiffness, u, force);
+      return;
+    }
     with_pore_stress(pore, [&](auto pore_stress) {
       if (initial_stress_) {
         apply_with(u, force, dilatation, pore_stress, [&](auto& stress) { add_initial(stress); });
@@ -81,9 +86,8 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
 
   const IsotropicElasticity<D>& law(Index i) const override { return law_at(operator_.law(), i); }
 
-  void gradient(std::span<const double> u, std::span<double> gradient) override {
-    operator_.gradient(u, gradient);
-  }
+  void look_at(std::span<const double> u) override { operator_.look_at(u); }
+  Tensor<D, D> gradient_at(Index i) const override { return operator_.gradient_at(i); }
 
   PointStiffness point_stiffness(Index i) const override {
     const auto thin = find_thin(i);
@@ -135,7 +139,7 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
     operator_.apply(u, force, [&](Index i, const Tensor<D, D>& gradient, Tensor<D, D>& stress) {
       double theta = 0.0;
       for (int a = 0; a < D; ++a) theta += gradient[a * D + a];
-      dilatation[i] = theta;
+      if (!dilatation.empty()) dilatation[i] = theta;
       const double pressure = pore_stress(i, theta);
       for (int a = 0; a < D; ++a) stress[a * D + a] -= pressure;
       add_initial(stress);

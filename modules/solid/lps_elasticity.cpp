@@ -105,7 +105,7 @@ template <class PoreStressAt>
 void LpsElasticity<D>::store_state(std::span<double> dilatation, PoreStressAt&& pore_stress) {
   for_each_point(family_->point_count, [&](Index i) {
     const double theta = dilatation_at(i);
-    dilatation[i] = theta;
+    if (!dilatation.empty()) dilatation[i] = theta;
     volume_state_[i] = dilatation_scale_[i] *
                        (dilatation_stiffness(i) * theta - pore_sign_ * pore_stress(i, theta));
   });

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/geometry/region.hpp"
+#include "core/geometry/scatter.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
 #include "modules/solid/linear_exact_elasticity.hpp"
 #include "modules/solid/lps_elasticity.hpp"
@@ -32,6 +33,9 @@ KeyTable material_keys() {
     key.meaning = "The same in a region of the body, where two constants take the others' place.";
     keys.push_back(key);
   }
+  for (Key& key : scatter_keys("material.scatter", "the stiffness, Poisson's ratio apart,")) {
+    keys.push_back(std::move(key));
+  }
   return keys;
 }
 
@@ -42,13 +46,18 @@ LawByRegion<IsotropicElasticity<D>> read_laws(const Section& section, const Body
   LawByRegion<IsotropicElasticity<D>> law{
       {read_isotropic_elasticity<D>(section, "material")},
       region_of_points<D>(section, body.regions(), body.points())};
-  if (!section.has("regions")) return law;
   for (const std::string& name : section.names("regions")) {
     const std::string path = "regions." + name + ".material";
     law.laws.push_back(section.has(path) ? read_isotropic_elasticity<D>(section, path)
                                          : law.laws.front());
   }
-  return law;
+  const auto scatter = read_scatter<D>(section, "material.scatter");
+  if (!scatter) return law;
+  return scattered(law, *scatter, body.points(), [](IsotropicElasticity<D> rock, double factor) {
+    rock.lame_lambda *= factor;
+    rock.shear_modulus *= factor;
+    return rock;
+  });
 }
 
 /// What Eq 3 makes of a rock as it is printed: K - mu/3 where plane strain has K + mu/3.

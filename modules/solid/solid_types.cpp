@@ -2,12 +2,16 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/geometry/crack_seeds.hpp"
 #include "modules/solid/damage_keys.hpp"
+#include "modules/solid/dynamic_fracture.hpp"
 #include "modules/solid/dynamic_solid.hpp"
 #include "modules/solid/fracturing_solid.hpp"
 #include "modules/solid/material.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
+#include "modules/solid/rigid_slits.hpp"
 #include "modules/solid/rigid_solid.hpp"
 #include "modules/solid/solid_boundary_keys.hpp"
 
@@ -19,21 +23,32 @@ bool has_cracks(const Section& section) {
   return section.scene().has("damage") || section.scene().count("cracks") > 0;
 }
 
-std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
-                                               std::shared_ptr<const Body<2>> body) {
+/// What a scene's cracks that facets make are.
+struct Cracks {
+  std::vector<CrackFacet<2>> seeds;
+  FractureEnergy<2> fracture_energy;
+};
+
+Cracks read_cracks(const Section& section, const Body<2>& body) {
   const Section scene = section.scene();
-  const double fracture_energy = read_fracture_energy(scene);
-  const std::vector<CrackFacet<2>> seeds = read_crack_seeds(scene, body->spacing());
-  if (seeds.empty()) {
+  Cracks cracks{.seeds = read_crack_seeds(scene, body.spacing()),
+                .fracture_energy = read_fracture_energy(scene, body)};
+  if (cracks.seeds.empty()) {
     scene.fail("damage", "no crack to grow", "a list 'cracks' with one crack or more");
   }
+  return cracks;
+}
+
+std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
+                                               std::shared_ptr<const Body<2>> body) {
+  const Cracks cracks = read_cracks(section, *body);
   const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   auto elastic =
       read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
-  auto solid =
-      std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
-                                        read_initial_stress<2>(section), seeds, fracture_energy);
+  auto solid = std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
+                                                 read_initial_stress<2>(section), cracks.seeds,
+                                                 cracks.fracture_energy);
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -41,10 +56,32 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
   return solid;
 }
 
-std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
-                                               std::shared_ptr<const Body<3>>) {
+std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
+                                                     std::shared_ptr<const Body<2>> body) {
+  const Cracks cracks = read_cracks(section, *body);
+  const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
+  auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
+  std::shared_ptr<BreakableElasticity<2>> elastic =
+      read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
+  return std::make_unique<DynamicFracture>(
+      body, family, std::move(elastic), boundary, section.number("density"),
+      section.number("damping"), section.number("integrator.safety"),
+      read_initial_stress<2>(section), cracks.seeds, cracks.fracture_energy);
+}
+
+std::unique_ptr<PhysicsModule> refuse_cracks_in_3d(const Section& section) {
   section.scene().fail(section.scene().has("damage") ? "damage" : "cracks", "cracks in 3D",
                        "dimension: 2");
+}
+
+std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
+                                               std::shared_ptr<const Body<3>>) {
+  return refuse_cracks_in_3d(section);
+}
+
+std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
+                                                     std::shared_ptr<const Body<3>>) {
+  return refuse_cracks_in_3d(section);
 }
 
 template <int D>
@@ -100,11 +137,31 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
         section.number("integrator.safety"), std::move(breaking));
   };
   if (!has_cracks(section)) return make(read_material<D>(section, *body, boundary), nullptr);
+  if (!names_critical_stretch(section.scene())) return make_dynamic_fracture(section, body);
+  if (section.scene().has("crack_fluid")) {
+    section.scene().fail("damage.type", "'critical_stretch' beside fluid in cracks",
+                         "energy_release, whose cracks are facets that fluid may fill");
+  }
   auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<D>> elastic =
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));
   auto breaking = make_breaking<D>(section, *body, family, elastic);
   return make(std::move(elastic), std::move(breaking));
+}
+
+std::unique_ptr<PhysicsModule> make_rigid(const Section& section, const AnyBody& any) {
+  const Section scene = section.scene();
+  if (scene.count("cracks") == 0) return std::make_unique<RigidSolid>();
+  const auto* const body = std::get_if<std::shared_ptr<const Body<2>>>(&any);
+  if (body == nullptr) scene.fail("cracks", "cracks in 3D", "dimension: 2");
+  std::vector<CrackFacet<2>> facets;
+  std::vector<double> opening;
+  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
+    const std::vector<CrackFacet<2>> crack = read_crack(scene, k, (*body)->spacing());
+    facets.insert(facets.end(), crack.begin(), crack.end());
+    opening.resize(facets.size(), scene.number(fmt::format("cracks[{}].opening", k)));
+  }
+  return std::make_unique<RigidSlits>(*body, facets, std::move(opening));
 }
 
 /// Keys of one elastic solid may stand beside another, so that one word swaps them.
@@ -168,9 +225,7 @@ ModuleType rigid_solid_type() {
           .name = "rigid",
           .meaning = "Solid that does not deform: no unknowns, no cost.",
           .keys = rigid_keys(),
-          .make = [](const Section&, const AnyBody&) -> std::unique_ptr<PhysicsModule> {
-            return std::make_unique<RigidSolid>();
-          }};
+          .make = make_rigid};
 }
 
 }  // namespace perifrac

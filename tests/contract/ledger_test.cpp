@@ -94,7 +94,8 @@ TEST(Ledger, AddsEnergyOverModulesSinceTheStart) {
   EXPECT_FALSE(ledger.mass().has_value());
   EXPECT_THAT(
       names_of(ledger.columns()),
-      testing::ElementsAre("energy_stored", "energy_gained", "energy_dissipated", "energy_error"));
+      testing::ElementsAre("energy_stored", "energy_gained", "energy_dissipated", "energy_error",
+                           "elastic", "elastic", "work", "work", "friction", "friction"));
 }
 
 TEST(Ledger, ShowsEachMassWhereThereAreSeveral) {

@@ -81,8 +81,17 @@ const std::vector<Variant>& variants() {
               {"cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]",
                "damage={type: energy_release, fracture_energy: 1 kJ/m^2}"}),
       variant("dynamic_2d", "solid/dynamic", box_2d + dynamic_2d),
+      variant("dynamic_cracked", "solid/dynamic", box_2d + dynamic_2d,
+              {"cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]",
+               "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
+               "solid.confining_stress=[1 MPa, 1 MPa]"}),
+      variant("dynamic_torn", "solid/dynamic", box_2d + dynamic_2d,
+              {"cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]",
+               "damage={type: critical_stretch, fracture_energy: 1 kJ/m^2}"}),
       variant("dynamic_3d", "solid/dynamic", box_3d + dynamic_3d),
       variant("rigid", "solid/rigid", box_2d + rigid),
+      variant("rigid_slits", "solid/rigid", box_2d + rigid,
+              {"cracks=[{name: slit, path: [2 m, 4 m, 6 m, 5 m], opening: 1 mm}]"}),
       variant("darcy_cvode_2d", "pore_flow/darcy", box_2d + darcy),
       variant("darcy_cvode_3d", "pore_flow/darcy", box_3d + darcy),
       variant("darcy_krylov", "pore_flow/darcy", box_2d + darcy,
@@ -253,6 +262,26 @@ TEST(SwapMatrix, EveryCombinationRunsOrIsRefused) {
         }
         expect_to_run(scene, !solid.empty() + !flow.empty(), coupled ? 2 : 0);
       }
+    }
+  }
+}
+
+/// A solid that fluid in its cracks splits, by one word, with and without pores to leak into.
+TEST(SwapMatrix, CracksBesideTheirFluidRunInEverySolid) {
+  for (const std::string& solid : {quasi_static_2d, dynamic_2d}) {
+    for (const char* leak_off : {"none", "carter", "pores"}) {
+      SCOPED_TRACE(solid + leak_off);
+      const bool pores = leak_off == std::string("pores");
+      std::vector<std::string> overrides = {
+          "cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]",
+          "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
+          std::string("crack_fluid.leak_off=") + leak_off, "coupling.iterations.max=20"};
+      if (leak_off == std::string("carter")) {
+        overrides.push_back("crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)");
+      }
+      const Section scene =
+          read_scene_text(box_2d + solid + crack_network + (pores ? darcy : ""), overrides);
+      expect_to_run(scene, pores ? 3 : 2, pores ? 8 : 3);
     }
   }
 }

@@ -4,7 +4,7 @@ import json
 import os
 import unittest
 
-from perifrac_runs import HERE, MANDEL, PERIFRAC, RunTest, SMALL, perifrac, settings
+from perifrac_runs import CONFIGS, HERE, MANDEL, PERIFRAC, RunTest, SMALL, perifrac, settings
 
 
 class CommandLine(RunTest):
@@ -67,6 +67,34 @@ class CommandLine(RunTest):
         self.assertEqual(sizes["pore_flow/pore_pressure"], 800)
         self.assertTrue(perifrac("check", MANDEL, cwd=self.folder).stdout)
         self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_check_says_the_regime_of_a_crack_that_fluid_drives(self):
+        def check(scene, *keys):
+            overrides = [word for key in keys for word in ("--set", key)]
+            done = perifrac("check", CONFIGS / scene, "--json", *overrides)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            return json.loads(done.stdout)
+
+        coarse = "body.spacing=20 mm"
+        said = check("kgd_mixed.yaml", coarse)
+        self.assertEqual(said["regime"]["corner"], "viscosity and toughness; storage")
+        self.assertAlmostEqual(said["regime"]["dimensionless_toughness"], 1.16, delta=1e-3)
+        self.assertAlmostEqual(said["regime"]["length"]["value"], 0.1014, delta=1e-4)
+        self.assertAlmostEqual(said["regime"]["lag_time"]["value"], 2.478e-4, delta=1e-7)
+        self.assertEqual(said["warnings"], [])
+        self.assertIn("regime: viscosity", perifrac("check", CONFIGS / "kgd_mixed.yaml", "--set", coarse).stdout)
+        # Twice the time, and next to no stress: the crack grows too long, and its tip stays dry.
+        far, dry, unresolved = check("kgd_mixed.yaml", coarse, "time.end=0.2 s",
+                                     "solid.confining_stress=[0.1 MPa, 0.1 MPa]")["warnings"]
+        self.assertIn("the reference `kgd` are those of an infinite body", far)
+        self.assertIn("the reference `kgd` has no fluid lag", dry)
+        self.assertIn("too coarse for a fluid lag", unresolved)
+        # A rate into one wing is half of that into two; pumping stops when half is in.
+        one = check("hf_storage.yaml", "body.spacing=5 mm",
+                    "crack_fluid.inlets[0].schedule={times: [50 ms, 50.001 ms], factors: [1, 0]}")
+        self.assertAlmostEqual(one["regime"]["dimensionless_toughness"], 1.1598 / 2**0.25, delta=1e-3)
+        self.assertAlmostEqual(one["regime"]["time"]["value"], 0.05, delta=1e-6)
+        self.assertNotIn("regime", check("mandel.yaml"))
 
     def test_list(self):
         said = json.loads(perifrac("list", "--json").stdout)

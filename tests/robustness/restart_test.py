@@ -67,17 +67,18 @@ class Restart(RunTest):
                 self.assert_same_results(whole, parts)
 
     def test_a_growing_crack_in_parts(self):
-        dry = {"time.end": "20 ms"}
-        pores = {"time.end": "10 ms"}
+        dry = {"body.spacing": "2.5 mm", "time.end": "20 ms"}
+        pores = {"body.spacing": "5 mm", "time.end": "10 ms"}
         cvode = pores | {"pore_flow.integrator.type": "cvode", "coupling.window.largest": "1 ms"}
-        for name, scene, keys in (("dry", "hf_storage", dry), ("explicit pores", "hf_storage_pores", pores),
-                                  ("cvode pores", "hf_storage_pores", cvode)):
+        for name, scene, until, keys in (("dry", "hf_storage", "10 ms", dry),
+                                         ("inertia", "hf_storage", "10 ms", dry | {"solid.type": "dynamic"}),
+                                         ("explicit pores", "hf_storage_pores", "5 ms", pores),
+                                         ("cvode pores", "hf_storage_pores", "5 ms", cvode)):
             with self.subTest(name):
-                keys = keys | {"body.spacing": "2.5 mm" if name == "dry" else "5 mm",
-                               "output.checkpoint_interval": "0 s"}
-                whole = self.run_scene(keys, f"{name}/whole", scene=CONFIGS / f"{scene}.yaml")
-                parts = self.run_scene(keys, f"{name}/parts", "--until", "5 ms", scene=CONFIGS / f"{scene}.yaml")
-                self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], scene=CONFIGS / f"{scene}.yaml")
+                path, keys = CONFIGS / f"{scene}.yaml", keys | {"output.checkpoint_interval": "0 s"}
+                whole = self.run_scene(keys, f"{name}/whole", scene=path)
+                parts = self.run_scene(keys, f"{name}/parts", "--until", until, scene=path)
+                self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], scene=path)
                 self.assert_same_results(whole, parts)
 
     def test_fluids_in_parts(self):

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from perifrac_runs import FLUIDS, RunTest, SMALL, VARIANTS
+from perifrac_runs import CONFIGS, FLUIDS, RunTest, SMALL, VARIANTS
 
 # Enough points for every loop to be shared out.
 FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.times": "[0.02 s]",
@@ -40,6 +40,13 @@ class Threads(RunTest):
             other = self.run_scene(keys, f"{name}/4", "--threads", "4", scene=scene)
             with self.subTest(name):
                 self.assert_same_results(one, other)
+
+    def test_nor_where_a_crack_grows(self):
+        scene = CONFIGS / "hf_storage.yaml"
+        keys = {"body.spacing": "1.25 mm", "time.end": "1.5 ms", "output.interval": "1.5 ms", "solid.type": "dynamic"}
+        one = self.run_scene(keys, "crack/1", "--threads", "1", scene=scene)
+        other = self.run_scene(keys, "crack/4", "--threads", "4", scene=scene)
+        self.assert_same_results(one, other)
 
     def test_nor_where_points_move_come_and_go(self):
         for name, keys in FINE_FLUIDS.items():

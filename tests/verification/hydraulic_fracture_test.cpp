@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -22,6 +23,13 @@ TEST(HfStorage, AgreesWithTheIndependentSolutionOnACoarseLattice) {
   expect_near_reference(run_config("hf_storage", {"body.spacing=2.5 mm"}), 0.02, 0.08);
 }
 
+/// One word makes it a solid with inertia. A facet is 5 % of what the crack has grown to by 25 ms.
+TEST(HfStorage, AgreesWithInertiaToo) {
+  const SceneRun run = run_config("hf_storage", {"body.spacing=2.5 mm", "solid.type=dynamic"});
+  expect_near_reference(run, 0.025, 0.08);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+}
+
 /// The whole chain, crack fluid that leaks into pores of a rock that cracks: the length is that of
 /// rock without pores, which the same volume opens; the pressure is higher by what pores stiffen.
 TEST(HfStoragePores, KeepsItsBalancesOnACoarseLattice) {
@@ -43,6 +51,91 @@ TEST(HfStorage, TurnsFromASlopedNotch) {
       run_config("hf_storage", {"body.spacing=2.5 mm", "time.end=40 ms", "output.interval=40 ms",
                                 "cracks[0].path=[75 mm, 200 mm, 79 mm, 188 mm]"});
   EXPECT_EQ(run.exit_code, 0);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+}
+
+double ledger(const SceneRun& run, const char* entry) {
+  return run.summary["ledger"][entry]["value"];
+}
+
+/// A crack runs 20 mm up to a layer that is too tough for it, and 80 mm to the far side without.
+TEST(Griffith, StopsAtATougherLayer) {
+  EXPECT_NEAR(ledger(run_config("griffith"), "energy_dissipated"), 50.0 * 0.080, 1e-6);
+  const SceneRun run =
+      run_config("griffith", {"body.regions={outer: {from: [40 mm, 0 mm]}}",
+                              "damage.regions={outer: {fracture_energy: 5 kJ/m^2}}"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NEAR(ledger(run, "energy_dissipated"), 50.0 * 0.020, 1e-6);
+}
+
+/// Stiffness and toughness that scatter: another rock by another seed. Loads that grow until the
+/// crack has gone some way, not to the end.
+TEST(Griffith, GrowsInARockThatScatters) {
+  const auto run = [](int seed) {
+    const std::string scatter =
+        "{coefficient_of_variation: 0.3, correlation_length: 10 mm, seed: " + std::to_string(seed) +
+        "}";
+    return run_config("griffith", {"solid.material.scatter=" + scatter, "damage.scatter=" + scatter,
+                                   "solid.boundary.top.normal_displacement=0.4 mm"});
+  };
+  const SceneRun one = run(1), same = run(1), other = run(2);
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_GT(ledger(one, "energy_dissipated"), 0.0);
+  EXPECT_EQ(ledger(one, "energy_dissipated"), ledger(same, "energy_dissipated"));
+  EXPECT_NE(ledger(one, "energy_dissipated"), ledger(other, "energy_dissipated"));
+}
+
+/// Through a slit 26.6 degrees to the lattice, whose pressure rises first.
+TEST(SlitFlow, FollowsTheCubicLaw) {
+  const SceneRun run = run_config("slit_flow");
+  ASSERT_EQ(run.exit_code, 0);
+  for (const auto& row : run.summary["reference"]["table"]) {
+    EXPECT_LE(row["flow_rate_error"], 0.01) << row["time"];
+    EXPECT_LE(row["pressure_error"], 0.01) << row["time"];
+  }
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+}
+
+/// A well that starts slowly, and a tank at the tip of the seed whose pressure rises and falls.
+TEST(Inlets, KeepToTheirSchedulesSideBySide) {
+  const SceneRun run = run_config(
+      "shut_in",
+      {"crack_fluid.inlets=[{name: well, at: [0 mm, 300 mm], rate: 1.6e-4 m^2/s, schedule: {ramp: "
+       "5 "
+       "ms}}, {name: tank, at: [20 mm, 300 mm], holds: pressure, pressure: 1.4 MPa, schedule: "
+       "{times: [0 ms, 10 ms, 20 ms], factors: [0, 1, 0.5]}}]",
+       "time.end=20 ms"});
+  ASSERT_EQ(run.exit_code, 0);
+  const std::vector<double> time = run.column("time [s]");
+  const std::vector<double> tank = run.column("inlet_tank_pressure [Pa]");
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    const double factor = time[k] < 0.01 ? time[k] / 0.01 : 1.5 - time[k] / 0.02;
+    EXPECT_NEAR(tank[k], 1.4e6 * factor, 1.0) << time[k];
+  }
+  EXPECT_GT(run.column("inlet_well_pressure [Pa]").back(), 1e6);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+}
+
+/// Once the well is shut its pressure falls, in the end the crack is closed.
+TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
+  const SceneRun run = run_config("shut_in");
+  ASSERT_EQ(run.exit_code, 0);
+  const std::vector<double> time = run.column("time [s]");
+  const std::vector<double> pressure = run.column("inlet_well_pressure [Pa]");
+  const std::vector<double> open = run.column("open_crack_length [m]");
+  const std::vector<double> length = run.column("crack_length [m]");
+  double highest = 0.0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    highest = std::max(highest, pressure[k]);
+    EXPECT_LE(open[k], length[k] * (1.0 + 1e-12)) << time[k];
+    if (time[k - 1] < 0.0201) continue;
+    EXPECT_LE(pressure[k], pressure[k - 1]) << time[k];
+  }
+  EXPECT_GT(highest, 1.0e6) << "the crack never opened";
+  EXPECT_GT(*std::ranges::max_element(open), 0.0);
+  EXPECT_EQ(open.back(), 0.0);
+  // Contact is found with the fluid: a pass does, and one more where the crack has grown.
+  EXPECT_LE(run.summary["counts"]["most_passes"], 3);
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
 }
 

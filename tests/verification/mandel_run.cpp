@@ -41,8 +41,9 @@ Simulation make_mandel(const std::vector<std::string>& overrides) {
 
 MandelRun run_mandel(const std::vector<std::string>& overrides, const std::string& scene) {
   MandelRun run;
-  const auto [exit_code, summary] = run_config(scene, overrides);
-  run.exit_code = exit_code;
+  const SceneRun of_scene = run_config(scene, overrides);
+  const nlohmann::json& summary = of_scene.summary;
+  run.exit_code = of_scene.exit_code;
   for (const auto& row : summary["reference"]["table"]) {
     run.rows.push_back({row["dimensionless_time"], row["pressure_error"], row["plate_error"]});
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ SceneRun run_config(const std::string& name, const std::vector<std::string>& ove
   request.report = false;
   const int exit_code = run_scene(request);
   std::ifstream file(request.output + "/summary.json");
-  return {exit_code, nlohmann::json::parse(file)};
+  return {exit_code, nlohmann::json::parse(file), request.output};
 }
 
 double SceneRun::largest(const std::string& error, double from, double to) const {
@@ -54,6 +55,24 @@ double SceneRun::history(const std::string& name) const {
   }
   EXPECT_GE(largest, 0.0) << "no " << name;
   return largest;
+}
+
+std::vector<double> SceneRun::column(const std::string& name) const {
+  std::ifstream file(folder / "history.csv");
+  std::string line, cell;
+  std::getline(file, line);
+  std::stringstream header(line);
+  std::vector<std::string> names;
+  while (std::getline(header, cell, ',')) names.push_back(cell);
+  const auto place = std::ranges::find(names, name) - names.begin();
+  EXPECT_LT(place, std::ssize(names)) << "no " << name;
+  std::vector<double> values;
+  while (std::getline(file, line)) {
+    std::stringstream row(line);
+    for (auto k = place; k >= 0; --k) std::getline(row, cell, ',');
+    values.push_back(std::stod(cell));
+  }
+  return values;
 }
 
 }  // namespace perifrac::test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace perifrac::test {
 struct SceneRun {
   int exit_code;
   nlohmann::json summary;
+  std::filesystem::path folder;
 
   /// The largest error of this name among the outputs at dimensionless times `from` to `to`, both
   /// included; fails the test where there is none.
@@ -20,6 +22,8 @@ struct SceneRun {
   double figure(const std::string& name) const;
   /// The largest |computed - exact| of the history of this name.
   double history(const std::string& name) const;
+  /// A column of history.csv, as its header names it; fails the test where there is none.
+  std::vector<double> column(const std::string& name) const;
 };
 
 /// Runs configs/`name`.yaml, which prints its errors, with `--set` overrides as `perifrac run`

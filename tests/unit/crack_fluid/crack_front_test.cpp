@@ -42,6 +42,11 @@ TEST(CrackFront, AtConstantRateIsWhereTheVolumeSaysSo) {
     const auto p = run.values("crack_pressure");
     EXPECT_NEAR(p[0], gradient * front, 1.01 * gradient * dx);
     EXPECT_NEAR(p[1] - p[2], gradient * dx, 1e-6 * gradient * dx);
+    EXPECT_NEAR(run.scalar("fluid_lag"), 60 * dx - front, 1e-8 * front);
+    EXPECT_NEAR(run.scalar("crack_volume"), 60 * dx * w, 1e-14 * 60 * dx * w);
+    EXPECT_NEAR(run.scalar("mean_crack_pressure"), 0.5 * gradient * front, gradient * dx);
+    EXPECT_EQ(run.scalar("inlet_pump_pressure"), p[0]);
+    EXPECT_EQ(run.scalar("inlet_pump_opening"), w);
   }
 }
 
@@ -70,6 +75,21 @@ TEST(CrackFront, DividesEvenlyBetweenEqualArms) {
   const double down = std::accumulate(fill.begin() + 15, fill.end(), 0.0);
   EXPECT_NEAR(up, down, 1e-9);
   EXPECT_NEAR(up, 2.5, 1e-6);
+}
+
+/// A crack that the fluid has not reached does not lag.
+TEST(CrackFront, LagsInTheCracksThatHoldFluid) {
+  CrackRun run(stiff, {rate_inlet({0.5 * dx, 0.0}, 1e-5)});
+  const auto stem = straight_line({0.0, 0.0}, 0.0, dx, 10);
+  run.add_line(straight_line({0.0, 5.0 * dx}, 0.3, dx, 7));
+  run.add_line(stem);
+  run.add_line(straight_line(stem[5], 0.7, dx, 4));
+  run.open(w);
+  EXPECT_EQ(run.scalar("fluid_lag"), 0.0);
+  EXPECT_EQ(run.scalar("mean_crack_pressure"), 0.0);
+  run.advance(0.01, 10);
+  EXPECT_NEAR(run.scalar("wetted_length"), 2.0 * dx, 1e-8 * dx);
+  EXPECT_NEAR(run.scalar("fluid_lag"), 12.0 * dx, 1e-8 * dx);
 }
 
 /// A vapour pressure below zero draws the front on.

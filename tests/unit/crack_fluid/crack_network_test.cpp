@@ -203,6 +203,9 @@ TEST(CrackNetwork, CarterTakesItsVolume) {
   const double volume = 4.0 * 1e-5 * std::sqrt(run.time()) * 10 * dx;
   EXPECT_NEAR(-run.scalar("leaked_crack_fluid_mass"), water.density * volume,
               1e-10 * water.density * volume);
+  EXPECT_NEAR(run.scalar("leak_off_volume"), volume, 1e-10 * volume);
+  const double last = volume - 4.0 * 1e-5 * std::sqrt(run.time() - 0.2) * 10 * dx;
+  EXPECT_NEAR(run.scalar("leak_off_rate"), last / 0.2, 1e-8 * last);
   EXPECT_LT(run.mass_error(), 1e-14);
 }
 

@@ -120,6 +120,24 @@ TEST(CrackedBody, KnowsItsEnergiesWithoutDisplacements) {
               1e-9 * energies.elastic);
 }
 
+/// Fluid that lags the tip: the energy that growth sets free is the mean of J before and after.
+TEST(EnergyRelease, IsThatOfGrowthWhereFluidEndsShortOfTheTip) {
+  const int wet = 12;
+  const auto state = [&](int count, double& energy) {
+    CrackedPlate plate(60, straight_crack({30.0, 30.0}, 0.0, count));
+    ExactCrack exact = crack_in(plate, 0.0, 0.5 * count);
+    plate.pressure = Eigen::VectorXd::Zero(count);
+    plate.pressure.segment((count - wet) / 2, wet).setOnes();
+    energy = 0.5 * plate.pressure.dot(plate.cracked->compliance() * plate.pressure);
+    return plate.tip_load(exact, 1, plate.cracked->unknowns(plate.pressure)).energy_release;
+  };
+  for (const int count : {16, 20}) {
+    double before = 0.0, after = 0.0;
+    const double j = 0.5 * (state(count, before) + state(count + 2, after));
+    EXPECT_NEAR(j, 0.5 * (after - before), 0.03 * j) << count;
+  }
+}
+
 /// Mixed load: J is (K_I^2 + K_II^2) / E', and the crack turns to its right under positive K_II.
 TEST(EnergyRelease, HoldsForBothModes) {
   const int half = 10;

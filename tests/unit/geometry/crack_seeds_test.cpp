@@ -1,6 +1,7 @@
 #include "core/geometry/crack_seeds.hpp"
 
 #include <cmath>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,18 @@ TEST(CrackSeeds, KeepsTheOrderOfTheScene) {
   EXPECT_EQ(facets[1][0][0], 1.0);
 }
 
+TEST(CrackSeeds, ReadsCornersFromAFile) {
+  const std::string path = testing::TempDir() + "crack_corners.csv";
+  std::ofstream(path) << "x,y\n0, 0\n3.4, 0\n3.4, 0.6\n";
+  EXPECT_EQ(read("[{name: a, file: " + path + "}]"),
+            read("[{name: a, path: [0 m, 0 m, 3.4 m, 0 m, 3.4 m, 0.6 m]}]"));
+  std::ofstream(path) << "x,y\n0, 0\n";
+  EXPECT_THROW(read("[{name: a, file: " + path + "}]"), InputError);
+}
+
 TEST(CrackSeeds, RefusesWhatIsNoPath) {
+  EXPECT_THROW(read("[{name: a}]"), InputError);
+  EXPECT_THROW(read("[{name: a, path: [0 m, 0 m, 3 m, 0 m], file: some.csv}]"), InputError);
   EXPECT_THROW(read("[{name: a, path: [0 m, 0 m, 3 m]}]"), InputError);
   EXPECT_THROW(read("[{name: a, path: [0 m, 0 m]}]"), InputError);
   EXPECT_THROW(read("[{name: a, path: [0 m, 0 m, 0.4 m, 0 m]}]"), InputError);

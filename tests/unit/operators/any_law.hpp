@@ -23,8 +23,9 @@ struct AnyLaw {
     }
   }
 
-  Tensor<R, D> stress(const Tensor<R, D>& gradient) const {
-    Tensor<R, D> result{};
+  template <class Number>
+  std::array<Number, R * D> stress(const std::array<Number, R * D>& gradient) const {
+    std::array<Number, R * D> result{};
     for (int k = 0; k < R * D; ++k) {
       for (int l = 0; l < R * D; ++l) result[k] += modulus[k * R * D + l] * gradient[l];
     }

@@ -65,14 +65,14 @@ TEST(IsotropicElasticity, RefusesConstantsThatAreNoSolid) {
 
 TEST(IsotropicElasticity, ObeysHookesLaw) {
   const IsotropicElasticity<3> law{3.0, 2.0};
-  const Tensor<3, 3> pull = law.stress({0.1, 0, 0, 0, 0, 0, 0, 0, 0});
+  const Tensor<3, 3> pull = law.stress(Tensor<3, 3>{0.1, 0, 0, 0, 0, 0, 0, 0, 0});
   EXPECT_DOUBLE_EQ(pull[0], (3.0 + 2.0 * 2.0) * 0.1);
   EXPECT_DOUBLE_EQ(pull[4], 3.0 * 0.1);
   EXPECT_DOUBLE_EQ(pull[8], 3.0 * 0.1);
-  const Tensor<3, 3> shear = law.stress({0, 0.1, 0, 0, 0, 0, 0, 0, 0});
+  const Tensor<3, 3> shear = law.stress(Tensor<3, 3>{0, 0.1, 0, 0, 0, 0, 0, 0, 0});
   EXPECT_DOUBLE_EQ(shear[1], 0.2);
   EXPECT_DOUBLE_EQ(shear[3], 0.2);
-  for (const double s : law.stress({0, 0.1, 0, -0.1, 0, 0, 0, 0, 0})) EXPECT_EQ(s, 0.0);
+  for (const double s : law.stress(Tensor<3, 3>{0, 0.1, 0, -0.1, 0, 0, 0, 0, 0})) EXPECT_EQ(s, 0.0);
   EXPECT_DOUBLE_EQ(law.drained_bulk_modulus(), 3.0 + 4.0 / 3.0);
   EXPECT_DOUBLE_EQ((IsotropicElasticity<2>{3.0, 2.0}.drained_bulk_modulus()), 5.0);
 }

@@ -176,9 +176,10 @@ void expect_free_swelling(int count) {
   solid.start();
   std::ranges::fill(solid.port("pore_stress").value, 0.7);
   solid.step();
-  const auto [points, dilatation, rate, slope] = solid.port("dilatation");
+  const PortView dilatation = solid.port("dilatation");
+  const auto slope = dilatation.slope;
   for (Index i = 0; i < solid.points(); ++i) {
-    EXPECT_NEAR(dilatation[i], 0.7 * slope[i], 1e-12 * 0.7 * slope[i]);
+    EXPECT_NEAR(dilatation.value[i], 0.7 * slope[i], 1e-12 * 0.7 * slope[i]);
   }
   Vector<D> expected;
   expected.fill(0.7 * slope[0] / D);

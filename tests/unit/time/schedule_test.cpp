@@ -37,6 +37,13 @@ TEST(Schedule, IsLinearBetweenTheTimesOfATableAndConstantBeyond) {
   EXPECT_EQ(table.factor(8.0), 0.0);
 }
 
+TEST(Schedule, IntegratesAcrossItsBreaks) {
+  EXPECT_EQ(Schedule().integral(1.0, 3.0), 2.0);
+  EXPECT_EQ(Schedule::ramp(4.0).integral(2.0, 6.0), 1.5 + 2.0);
+  EXPECT_EQ(Schedule::table({1.0, 3.0, 4.0}, {2.0, 6.0, 0.0}).integral(0.0, 5.0), 2.0 + 8.0 + 3.0);
+  EXPECT_EQ(Schedule::growth(2.0).integral(1.0, 3.0), 8.0);
+}
+
 TEST(Schedule, GrowsWithoutEnd) {
   const Schedule growth = Schedule::growth(3.0);
   EXPECT_FALSE(growth.is_constant());

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/regime.hpp"
+#include "app/simulation.hpp"
+#include "core/config/section.hpp"
+
+namespace perifrac {
+
+/// The crack in an infinite body that a scene's crack comes nearest to, when most fluid is in it.
+struct SceneRegime {
+  HydraulicFracture fracture;
+  double time;  ///< in which the inlet's full rate brings as much [s]
+  /// Where what the scene does is not what that crack does, or is resolved too coarsely.
+  std::vector<std::string> warnings;
+};
+
+/// Nothing unless the scene pumps fluid at one inlet, by rate, into a crack that grows by its
+/// fracture energy. Throws InputError.
+std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& simulation);
+
+}  // namespace perifrac

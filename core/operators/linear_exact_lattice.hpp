@@ -1,0 +1,185 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/operators/lattice_bonds.hpp"
+#include "core/operators/mirror_condition.hpp"
+#include "core/operators/shape_tensor.hpp"
+
+namespace perifrac {
+
+/// The law takes packets of gradients.
+template <class Law, int D>
+concept PacketLaw = requires(const Law& law, const std::array<Packet, Law::components * D>& f) {
+  law.stress(f);
+};
+
+/// The force of LinearExactOperator where bonds lie on a lattice, packet by packet: the same sums
+/// in another order. Its own copies lie in the lattice's cells.
+template <int D, class Law>
+class LinearExactLattice {
+ public:
+  static constexpr int R = Law::components;
+
+  /// Nothing where the family is no lattice. `face_points`: those whose state is asked for.
+  static std::optional<LinearExactLattice> find(const Family<D>& family,
+                                                std::span<const Index> face_points) {
+    auto bonds = LatticeBonds<D>::find(family);
+    if (!bonds) return {};
+    return LinearExactLattice(family, std::move(*bonds), face_points);
+  }
+
+  /// Moments, bond stiffness and bonds of these points are new.
+  void update(const Family<D>& family, const FamilyMoments<D>& moments,
+              std::span<const double> bond_stiffness, std::span<const Index> points) {
+    bonds_.update(family, points);
+    take(family, moments, bond_stiffness, points);
+  }
+  void take(const Family<D>& family, const FamilyMoments<D>& moments,
+            std::span<const double> bond_stiffness, std::span<const Index> points) {
+    for (const Index i : points) {
+      const Index c = bonds_.cell_of(i);
+      stiffness_[c] = bond_stiffness[i];
+      for (int k = 0; k < D * D; ++k) inverse_shape_[k][c] = moments.inverse_shape[k][i];
+    }
+    for (Index node = family.point_count; node < family.node_count(); ++node) {
+      stiffness_[bonds_.cell_of(node)] = bond_stiffness[node];
+    }
+  }
+
+  /// Force -dE/du on the real points, R blocks, from the field on all nodes; writes `state` on
+  /// ghosts, their sources and the face points.
+  void apply(const Law& law, const MirrorCondition<D, R>& mirror, const std::vector<double>& field,
+             std::vector<double>& state, std::span<double> result) {
+    spread(field);
+    bonds_.for_each_packet([&](Index c) { store_state(law, c); });
+    fill_ghosts(mirror, state);
+    bonds_.for_each_packet([&](Index c) { store_force(c, result); });
+  }
+
+ private:
+  template <int K>
+  using Packets = std::array<Packet, K>;
+
+  LinearExactLattice(const Family<D>& family, LatticeBonds<D> bonds,
+                     std::span<const Index> face_points)
+      : bonds_(std::move(bonds)),
+        points_(family.point_count),
+        nodes_(family.node_count()),
+        seen_(face_points.begin(), face_points.end()),
+        node_of_(bonds_.cell_count(), -1),
+        stiffness_(bonds_.cell_count(), 0.0),
+        volume_(stiffness_) {
+    field_.fill(stiffness_);
+    state_.fill(stiffness_);
+    inverse_shape_.fill(stiffness_);
+    for (Index node = 0; node < nodes_; ++node) node_of_[bonds_.cell_of(node)] = node;
+    for (Index i = 0; i < points_; ++i) volume_[bonds_.cell_of(i)] = family.volume[i];
+    seen_.insert(seen_.end(), family.ghost_source.begin(), family.ghost_source.end());
+    std::ranges::sort(seen_);
+    const auto twice = std::ranges::unique(seen_);
+    seen_.erase(twice.begin(), twice.end());
+  }
+
+  void spread(const std::vector<double>& field) {
+    const Index count = bonds_.cell_count();
+#pragma omp parallel for schedule(static) if (points_ >= points_worth_threads)
+    for (Index c = 0; c < count; ++c) {
+      const Index node = node_of_[c];
+      if (node < 0) continue;
+      for (int r = 0; r < R; ++r) field_[r][c] = field[static_cast<std::size_t>(r) * nodes_ + node];
+    }
+  }
+
+  Packets<R * D> times_inverse_shape(const Packets<R * D>& t, Index c) const {
+    Packets<R * D> result{};
+    for (int r = 0; r < R; ++r) {
+      for (int b = 0; b < D; ++b) {
+        for (int e = 0; e < D; ++e) {
+          result[r * D + b] += t[r * D + e] * load(&inverse_shape_[e * D + b][c]);
+        }
+      }
+    }
+    return result;
+  }
+
+  void store_state(const Law& law, Index c) {
+    Packets<R> own;
+    for (int r = 0; r < R; ++r) own[r] = load(&field_[r][c]);
+    const Packets<R* D> moment = bonds_.template sum_over_bonds<R * D>(
+        c, [&](Index j, const Vector<D>& xi, const Packet& w) {
+          Packets<R * D> t;
+          for (int r = 0; r < R; ++r) {
+            const Packet difference = w * (load(&field_[r][j]) - own[r]);
+            for (int b = 0; b < D; ++b) t[r * D + b] = difference * xi[b];
+          }
+          return t;
+        });
+    const Packets<R* D> f = times_inverse_shape(moment, c);
+    const Packets<R* D> stress = times_inverse_shape(law.stress(f), c);
+    const Packet s = load(&stiffness_[c]);
+    for (int k = 0; k < R * D; ++k) {
+      const Packet value = stress[k] - s * f[k];
+      std::memcpy(&state_[k][c], &value, sizeof value);
+    }
+  }
+
+  void fill_ghosts(const MirrorCondition<D, R>& mirror, std::vector<double>& state) {
+    for (int k = 0; k < R * D; ++k) {
+      double* const block = state.data() + static_cast<std::size_t>(k) * nodes_;
+      for (const Index i : seen_) block[i] = state_[k][bonds_.cell_of(i)];
+    }
+    mirror.fill_conjugate(state);
+    for (int k = 0; k < R * D; ++k) {
+      const double* const block = state.data() + static_cast<std::size_t>(k) * nodes_;
+      for (Index node = points_; node < nodes_; ++node) {
+        state_[k][bonds_.cell_of(node)] = block[node];
+      }
+    }
+  }
+
+  void store_force(Index c, std::span<double> result) const {
+    Packets<R> own;
+    Packets<R * D> own_state;
+    for (int r = 0; r < R; ++r) own[r] = load(&field_[r][c]);
+    for (int k = 0; k < R * D; ++k) own_state[k] = load(&state_[k][c]);
+    const Packet own_stiffness = load(&stiffness_[c]);
+    Packets<R> force =
+        bonds_.template sum_over_bonds<R>(c, [&](Index j, const Vector<D>& xi, const Packet& w) {
+          Packets<R> t;
+          const Packet stiffness = own_stiffness + load(&stiffness_[j]);
+          for (int r = 0; r < R; ++r) {
+            t[r] = stiffness * (load(&field_[r][j]) - own[r]);
+            for (int b = 0; b < D; ++b) {
+              t[r] += (own_state[r * D + b] + load(&state_[r * D + b][j])) * xi[b];
+            }
+            t[r] *= w;
+          }
+          return t;
+        });
+    const Packet volume = load(&volume_[c]);
+    for (int r = 0; r < R; ++r) {
+      force[r] *= volume;
+      for (int l = 0; l < packet_size; ++l) {
+        const Index i = bonds_.point(c + l);
+        if (i >= 0) result[static_cast<std::size_t>(r) * points_ + i] = -force[r][l];
+      }
+    }
+  }
+
+  LatticeBonds<D> bonds_;
+  Index points_;
+  Index nodes_;
+  std::vector<Index> seen_;     ///< points whose state others ask for
+  std::vector<Index> node_of_;  ///< by cell
+  std::array<std::vector<double>, R> field_;
+  std::array<std::vector<double>, R * D> state_;
+  std::array<std::vector<double>, D * D> inverse_shape_;
+  std::vector<double> stiffness_;  ///< of bonds
+  std::vector<double> volume_;
+};
+
+}  // namespace perifrac

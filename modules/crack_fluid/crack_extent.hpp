@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+#include "modules/crack_fluid/crack_graph.hpp"
+#include "modules/crack_fluid/crack_liquid.hpp"
+
+namespace perifrac {
+
+/// What of a crack its fluid has taken, over all facets.
+struct CrackExtent {
+  double volume = 0.0;         ///< [m^2]
+  double wetted_length = 0.0;  ///< [m]
+  double fluid_lag = 0.0;      ///< length without fluid of cracks that hold some [m]
+  double mean_pressure = 0.0;  ///< over the wetted length; 0 where there is none [Pa]
+};
+
+/// `unknown` is v of crack_liquid.hpp [Pa], `aperture` in [m].
+CrackExtent crack_extent(const CrackGraph& graph, const CrackLiquid& liquid,
+                         std::span<const double> unknown, std::span<const double> aperture);
+
+}  // namespace perifrac

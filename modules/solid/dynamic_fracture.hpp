@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "modules/solid/crack_dynamics.hpp"
+#include "modules/solid/crack_tips.hpp"
+#include "modules/solid/dynamic_solid.hpp"
+
+namespace perifrac {
+
+/// The dynamic solid with cracks that grow (plane strain): by one facet of a spacing where
+/// CrackTips says so, at the end of a step.
+///
+/// Ports: those of DynamicSolid, without breaking; and on the facets of the cracks (`crack`): in
+/// `crack_pressure` [Pa], `crack_viscosity` [Pa s]; out `crack_opening` [m], which it foretells
+/// over a step, with its slope d(opening)/d(crack_pressure), a matrix. `damage` of the points
+/// (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what growth took.
+class DynamicFracture final : public DynamicSolid<2> {
+ public:
+  /// As DynamicSolid and CutBody. `fracture_energy` infinite: no crack grows.
+  DynamicFracture(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
+                  std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
+                  double density, double damping, double safety,
+                  std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
+                  FractureEnergy<2> fracture_energy);
+
+  PortView port(PortId id) override;
+  void initialize(double t) override;
+  void prepare(const TimeWindow& window) override;
+  double advance(const TimeWindow& window) override;
+  double conclude(const TimeWindow& window) override;
+  void visit_state(StateVisitor& visitor) override;
+  void on_restored(double t) override;
+
+ private:
+  double scalar(PortId id) override;
+  CrackState crack_state();
+  void foretell(double t, double step);
+
+  double damping_;
+  std::vector<CrackFacet<2>> seeds_;
+  BondState<2>& bonds_;
+  CrackDynamics cracks_;
+  CrackTips tips_;
+  PortId first_port_;  ///< of those that cracks add
+
+  std::vector<double> crack_pressure_;   ///< empty until somebody links it
+  std::vector<double> crack_viscosity_;  ///< likewise
+  double crack_length_ = 0.0;            ///< made when it is asked for
+};
+
+}  // namespace perifrac
