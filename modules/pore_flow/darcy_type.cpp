@@ -161,6 +161,11 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
   std::vector<std::uint8_t> region = region_of_points<D>(section, body->regions(), body->points());
   PoreMaterials materials{read_pore_materials(section, fluid), region};
   Discretisation<D> space = discretise<D>(section, *body, boundary, fluid, std::move(region));
+  const Section scene = section.scene();
+  if (space.flow->family().curved && (scene.has("damage") || scene.count("cracks") > 0)) {
+    section.fail("boundary", "bonds that break beside a mirrored sphere",
+                 "a sphere that it does not name");
+  }
   std::unique_ptr<PoreStorage> storage;
   if (fluid.is_linear()) {
     storage = std::make_unique<LinearStorage>(std::move(materials));
