@@ -73,7 +73,8 @@ std::string ElasticDynamics<D>::place(std::size_t unknown) const {
 template <int D>
 void ElasticDynamics<D>::set_pore_stress(const PoreStressInput& input) {
   pore_ = input;
-  if (std::ranges::equal(input.slope, pore_slope_)) return;
+  // Going back to before the first window takes the reference away again.
+  if (!reference_slope_.empty() && std::ranges::equal(input.slope, pore_slope_)) return;
   if (reference_slope_.empty()) {
     if (std::ranges::all_of(input.slope, [](double s) { return s == 0.0; })) return;
     reference_slope_.assign(input.slope.begin(), input.slope.end());
