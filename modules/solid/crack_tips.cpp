@@ -13,8 +13,8 @@ namespace {
 /// the tip acts as if it lay so much, in spacings, ahead of the end of the last facet: found from
 /// uniform pressure.
 constexpr double tip_offset = -0.12;
-/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity asks
-/// for is taken in the middle of it.
+/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity
+/// asks for is taken in the middle of it.
 constexpr double viscous_offset = tip_offset + 0.5;
 
 /// A turn below this is rounding [rad].
