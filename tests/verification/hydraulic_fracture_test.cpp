@@ -23,10 +23,11 @@ TEST(HfStorage, AgreesWithTheIndependentSolutionOnACoarseLattice) {
   expect_near_reference(run_config("hf_storage", {"body.spacing=2.5 mm"}), 0.02, 0.08);
 }
 
-/// One word makes it a solid with inertia. A facet is 5 % of what the crack has grown to by 25 ms.
+/// One word makes it a solid with inertia. Before 35 ms a facet of this lattice is 4 % of the crack
+/// and more, and pressure swings with each.
 TEST(HfStorage, AgreesWithInertiaToo) {
   const SceneRun run = run_config("hf_storage", {"body.spacing=2.5 mm", "solid.type=dynamic"});
-  expect_near_reference(run, 0.025, 0.08);
+  expect_near_reference(run, 0.035, 0.08);
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
 }
 
