@@ -27,6 +27,7 @@ std::span<double> view(Eigen::VectorXd& values) {
 enum CrackPort : PortId {
   crack_pressure,
   crack_viscosity,
+  crack_leak_off,
   damage,
   crack_opening,
   free_crack_opening,
@@ -56,6 +57,7 @@ DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
   for (const Port& port : std::initializer_list<Port>{
            {"crack_pressure", "Pa", in},
            {"crack_viscosity", "Pa s", in, PortKind::intensive, PortRole::property},
+           {"crack_leak_off", "m/s^0.5", in, PortKind::intensive, PortRole::property},
            {"damage", "1", out},
            {"crack_opening", "m", out},
            {"free_crack_opening", "m", out, PortKind::intensive, PortRole::property},
@@ -74,6 +76,9 @@ PortView DynamicFracture::port(PortId id) {
     case crack_viscosity:
       crack_viscosity_.resize(facets->count);
       return {facets, crack_viscosity_};
+    case crack_leak_off:
+      crack_leak_off_.resize(facets->count);
+      return {facets, crack_leak_off_};
     case damage:
       damage_.resize(body_->points().size());
       find_damage(cracks_.family(), damage_);
@@ -144,6 +149,8 @@ CrackState DynamicFracture::crack_state() {
           .opening = cracks_.opening(),
           .pressure = cracks_.pressure(),
           .viscosity = crack_viscosity_,
+          .leak_off = crack_leak_off_,
+          .pore_stress = {},
           .unknowns = [this]() -> std::span<const double> { return system_->unknowns(); },
           .jumps = [this] { return cracks_.jumps_at(system_->unknowns()); },
           .inertia =

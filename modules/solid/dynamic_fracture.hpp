@@ -13,9 +13,10 @@ namespace perifrac {
 /// CrackTips says so, at the end of a step.
 ///
 /// Ports: those of DynamicSolid, without breaking; and on the facets of the cracks (`crack`): in
-/// `crack_pressure` [Pa], `crack_viscosity` [Pa s]; out `crack_opening` [m], which it foretells
-/// over a step, with its slope d(opening)/d(crack_pressure), a matrix. `damage` of the points
-/// (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what growth took.
+/// `crack_pressure` [Pa], `crack_viscosity` [Pa s], `crack_leak_off` [m/s^0.5]; out `crack_opening`
+/// [m], which it foretells over a step, with its slope d(opening)/d(crack_pressure), a matrix.
+/// `damage` of the points (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what
+/// growth took.
 class DynamicFracture final : public DynamicSolid<2> {
  public:
   /// As DynamicSolid and CutBody. `fracture_energy` infinite: no crack grows.
@@ -47,6 +48,7 @@ class DynamicFracture final : public DynamicSolid<2> {
 
   std::vector<double> crack_pressure_;   ///< empty until somebody links it
   std::vector<double> crack_viscosity_;  ///< likewise
+  std::vector<double> crack_leak_off_;   ///< likewise
   double crack_length_ = 0.0;            ///< made when it is asked for
 };
 

@@ -106,11 +106,14 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
 Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
                                  std::span<const Vector<2>> jumps) const {
   Vector<2> sum{};
-  if (corner == tip.place) return sum;
+  const auto is_at = [&](const Vector<2>& x) {
+    return std::hypot(x[0] - corner[0], x[1] - corner[1]) < 1e-6 * spacing_;
+  };
+  if (is_at(tip.place)) return sum;
   int count = 0;
   for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
-    if (facet[0] != corner && facet[1] != corner) continue;
+    if (!is_at(facet[0]) && !is_at(facet[1])) continue;
     ++count;
     for (int a = 0; a < 2; ++a) sum[a] += jumps[f][a];
   }
