@@ -11,17 +11,14 @@ drawn (--only) stay.
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
+import fracture_figures
+from drawing import MARKS, Errors, panels, save
 from runs import SCHEMES, Frame, Runs
 from solutions import Mandel, Seepage, Terzaghi
 
@@ -34,47 +31,6 @@ SLAB = Mandel(lame_lambda=4e8, shear_modulus=4e8, storage=0.3 / 2e9 + 0.7 / 1e10
 SLAB_HEIGHT = 20.0
 SPECIMEN = Seepage(length=50.0, storage=0.306 / 22e6, mobility=1.02e-11 / 1e-3, head=98.1e3, ramp=40.0)
 PROFILE_TIMES = [1.0, 5.0, 10.0, 20.0, 40.0]
-MARKS = ["o", "s", "^", "D", "v", "P"]
-
-
-class Errors:
-    """What errors.csv will hold."""
-
-    def __init__(self):
-        self.rows: list[list[str]] = []
-
-    def add(self, figure: str, scheme: str, case: str, computed: np.ndarray, exact: np.ndarray) -> None:
-        off = np.abs(np.asarray(computed) - np.asarray(exact)).ravel()
-        off = off[np.isfinite(off)]
-        if off.size:
-            self.rows.append([figure, scheme, case, f"{off.max():.2e}", f"{np.sqrt((off**2).mean()):.2e}"])
-
-    def write(self, path: Path) -> None:
-        drawn = {row[0] for row in self.rows}
-        if path.exists():
-            with path.open(newline="", encoding="utf-8") as stream:
-                self.rows += [row for row in list(csv.reader(stream))[1:] if row[0] not in drawn]
-        self.rows.sort(key=lambda row: int(row[0]))
-        with path.open("w", newline="", encoding="utf-8") as stream:
-            writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow(["figure", "scheme", "case", "largest error", "root mean square"])
-            writer.writerows(self.rows)
-
-
-def panels(count: int, title: str, height: float = 4.2, **keywords):
-    figure, axes = plt.subplots(1, count, figsize=(5.2 * count, height), squeeze=False, **keywords)
-    figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
-    for axis in axes[0]:
-        axis.spines[["top", "right"]].set_visible(False)
-        axis.grid(color="#e3e7eb", linewidth=0.7)
-    return figure, list(axes[0])
-
-
-def save(figure, images: Path, name: str) -> None:
-    figure.tight_layout()
-    figure.savefig(images / f"{name}.png", dpi=130)
-    plt.close(figure)
-    print(images / f"{name}.png")
 
 
 def column_profile(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
@@ -348,6 +304,7 @@ def fig15(runs: Runs, images: Path, errors: Errors) -> None:
 
 
 FIGURES = {f.__name__: f for f in (fig05, fig06, fig07, fig09, fig10, fig11, fig12, fig13, fig14, fig15)}
+FIGURES |= fracture_figures.FIGURES
 
 
 def main() -> None:

@@ -47,6 +47,8 @@ _SHOWN = ["output.times=[70 s, 140 s, 500 s, 1000 s, 2000 s]", "output.history_i
 SCHEMES["head"] = Scheme("perifrac", "constant_head.yaml", _SHOWN, 20.0)
 SCHEMES["head_exchange"] = Scheme("exchange: paper", "constant_head.yaml", [*_SHOWN, "interface.exchange=paper", "ledger.mass_error=10"], 20.0)  # fmt: skip
 SCHEMES["head_force"] = Scheme("force: one_sided", "constant_head.yaml", [*_SHOWN, "interface.force=one_sided"], 20.0, "500 s")  # fmt: skip
+# Hydraulic fracture, without the paper's own scheme.
+SCHEMES["storage"] = Scheme("perifrac", "hf_storage_pores.yaml", ["output.interval=1 ms"])
 
 
 @dataclass

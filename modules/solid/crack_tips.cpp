@@ -13,8 +13,8 @@ namespace {
 /// the tip acts as if it lay so much, in spacings, ahead of the end of the last facet: found from
 /// uniform pressure.
 constexpr double tip_offset = -0.12;
-/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity asks
-/// for is taken further on. Chosen between 0.1 and 0.38, the middle of the facet, by
+/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity
+/// asks for is taken further on. Chosen between 0.1 and 0.38, the middle of the facet, by
 /// docs/decisions/0012-cracks-are-facets.md.
 constexpr double viscous_offset = 0.25;
 

@@ -1,0 +1,154 @@
+"""The paper's figures of its storage-dominated hydraulic fracture, 18 to 21, from runs of perifrac alone.
+
+The paper's own scheme, with points of fluid in the crack, is not run here.
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from drawing import Errors, panels, plt, save
+from runs import CONFIGS, Frame, Runs
+
+TIMES = [0.005, 0.025, 0.050, 0.100]  # [s] of figures 18 and 19
+NOTCH = 0.014  # [m], the slit it begins with
+
+
+def table(name: str) -> dict[str, np.ndarray]:
+    """A reference beside its scene, by column."""
+    with (CONFIGS / name).open(newline="", encoding="utf-8") as stream:
+        header, *rows = list(csv.reader(stream))
+    return {c.split(" [")[0]: v for c, v in zip(header, np.array(rows, dtype=float).T)}
+
+
+def cracks_at(runs: Runs, name: str, when: float) -> Frame:
+    return min(runs.frames(name, "crack"), key=lambda frame: abs(frame.time - when))
+
+
+def maps(title: str):
+    """Four maps of the specimen side by side."""
+    figure, axes = plt.subplots(1, 4, figsize=(13.0, 4.8), layout="constrained")
+    figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    return figure, list(axes)
+
+
+def draw_field(axis, frame: Frame, value: np.ndarray, limits: tuple[float, float], colours: str):
+    axis.set_aspect("equal")
+    axis.grid(False)
+    axis.set_xticks([])
+    x, y = 1e3 * frame.points[:, 0], 1e3 * frame.points[:, 1]
+    return axis.scatter(x, y, c=value, s=4e4 / x.size, marker="s", linewidths=0, vmin=limits[0], vmax=limits[1], cmap=colours)
+
+
+def draw_pressure(runs: Runs, name: str, images: Path, figure_name: str, title: str) -> None:
+    figure, axes = maps(title)
+    image = None
+    for axis, when in zip(axes, TIMES):
+        body, crack = runs.frame_at(name, when), cracks_at(runs, name, when)
+        limits = (0.0, 1e-3 * float(max(f.fields["crack_pressure"].max() for f in runs.frames(name, "crack")[1:])))
+        draw_field(axis, body, 1e-3 * body.fields["pore_pressure"], limits, "viridis")
+        image = axis.scatter(*(1e3 * crack.points[:, :2].T), c=1e-3 * crack.fields["crack_pressure"], s=7,
+                             vmin=limits[0], vmax=limits[1], cmap="viridis", linewidths=0)  # fmt: skip
+        axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
+    figure.colorbar(image, ax=axes, shrink=0.8, label="kPa")
+    figure.savefig(images / f"{figure_name}.png", dpi=130)
+    print(images / f"{figure_name}.png")
+
+
+def fig18(runs: Runs, images: Path, errors: Errors) -> None:
+    """Pressure in the crack and the pores, storage-dominated."""
+    draw_pressure(runs, "storage", images, "fig18", "Fig 18: fluid and pore pressure, storage-dominated")
+
+
+def fig19(runs: Runs, images: Path, errors: Errors) -> None:
+    """Damage, storage-dominated."""
+    figure, axes = maps("Fig 19: damage, storage-dominated")
+    image = None
+    for axis, when in zip(axes, TIMES):
+        body = runs.frame_at("storage", when)
+        image = draw_field(axis, body, body.fields["damage"], (0.0, 0.6), "magma_r")
+        axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
+    figure.colorbar(image, ax=axes, shrink=0.8)
+    figure.savefig(images / "fig19.png", dpi=130)
+    print(images / "fig19.png")
+
+
+def leak_off_velocity(history: dict[str, np.ndarray]) -> np.ndarray:
+    """Mean over both faces of what is wet [m/s]."""
+    return history["leak_off_rate"] / (2.0 * np.maximum(history["wetted_length"], 1e-6))
+
+
+def carter_velocity(history: dict[str, np.ndarray], conductance: float) -> np.ndarray:
+    """Of Carter's law for the mean pressure of the moment, as the paper has it: the mean over the crack, each
+    part since it was wetted. `conductance`: sqrt(mobility * storage / pi) [m/(Pa sqrt(s))]."""
+    when, length, pressure = history["time"], history["wetted_length"], history["mean_crack_pressure"]
+    velocity = np.full(when.size, np.nan)
+    for n in range(2, when.size):
+        since = when[n] - 0.5 * (when[1 : n + 1] + when[:n])
+        wetted = np.maximum(np.diff(length[: n + 1]), 0.0)
+        if wetted.sum() > 0.0:
+            velocity[n] = conductance * pressure[n] * (wetted / np.sqrt(since)).sum() / wetted.sum()
+    return velocity
+
+
+def compare_velocities(axis, runs: Runs, name: str, conductance: float, errors: Errors, figure: str) -> None:
+    history = runs.history(name)
+    ms = 1e3 * history["time"]
+    computed, carter = leak_off_velocity(history), carter_velocity(history, conductance)
+    axis.plot(ms, 1e3 * computed, color="C0", lw=1.2, label="perifrac")
+    axis.plot(ms, 1e3 * carter, "k--", lw=1.0, label="Carter at the mean pressure")
+    axis.set_ylim(0.0, 1.5e3 * np.nanmax(computed[ms > 10.0]))
+    axis.set_xlabel("time [ms]")
+    axis.set_ylabel("mean leak-off velocity [mm/s]")
+    axis.legend(fontsize=8, frameon=False)
+    late = (ms >= 20.0) & np.isfinite(carter)
+    errors.add(figure, "perifrac", "leak-off velocity over Carter's, from 20 ms", (computed / carter)[late], np.ones(late.sum()))
+
+
+def compare_lengths(axis, runs: Runs, name: str, exact: dict[str, np.ndarray], errors: Errors, figure: str) -> None:
+    history = runs.history(name)
+    axis.plot(1e3 * history["time"], 1e3 * (history["crack_length"] - NOTCH), color="C1", lw=1.2, label="perifrac")
+    axis.plot(1e3 * exact["time"], 1e3 * (exact["crack_length"] - NOTCH), "k-", lw=1.0, label="this specimen, marched by other means")
+    axis.set_xlabel("time [ms]")
+    axis.set_ylabel("growth [mm]")
+    axis.legend(fontsize=8, frameon=False)
+    late = exact["time"] >= 0.020
+    computed = np.interp(exact["time"], history["time"], history["crack_length"])
+    errors.add(figure, "perifrac", "length over the marched one, from 20 ms", (computed / exact["crack_length"])[late], np.ones(late.sum()))  # fmt: skip
+
+
+STORAGE_CONDUCTANCE = np.sqrt(1.02e-12 * (0.1 / 2.2e9 + 1.0 / 840e6) / np.pi)
+
+
+def fig20(runs: Runs, images: Path, errors: Errors) -> None:
+    """Leak-off velocity and growth over time, storage-dominated."""
+    figure, axes = panels(2, "Fig 20: leak-off velocity and growth, storage-dominated")
+    compare_velocities(axes[0], runs, "storage", STORAGE_CONDUCTANCE, errors, "20")
+    compare_lengths(axes[1], runs, "storage", table("hf_storage_reference.csv"), errors, "20")
+    save(figure, images, "fig20")
+
+
+def fig21(runs: Runs, images: Path, errors: Errors) -> None:
+    """What is where of the fluid that was pumped in."""
+    history = runs.history("storage")
+    figure, axes = panels(2, "Fig 21: mass of fluid, storage-dominated")
+    ms = 1e3 * history["time"]
+    pumped = history["injected_crack_fluid_mass"]
+    in_pores = -history["leaked_crack_fluid_mass"]
+    axes[0].plot(ms, pumped, "k-", lw=1.0, label="pumped in")
+    axes[0].plot(ms, history["crack_fluid_stored_mass"], label="in the crack")
+    axes[0].plot(ms, in_pores, label="leaked into the pores")
+    axes[0].set_ylabel("mass [kg/m]")
+    axes[0].legend(fontsize=8, frameon=False)
+    axes[1].plot(ms, history["fluid_mass_error"], "k-", lw=1.0)
+    axes[1].set_ylabel("mass made or lost, over all that flowed")
+    for axis in axes:
+        axis.set_xlabel("time [ms]")
+    errors.add("21", "perifrac", "mass made or lost over what flowed", history["fluid_mass_error"], np.zeros(ms.size))
+    save(figure, images, "fig21")
+
+
+FIGURES = {f.__name__: f for f in (fig18, fig19, fig20, fig21)}
