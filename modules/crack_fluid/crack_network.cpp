@@ -231,12 +231,20 @@ void CrackNetwork::initialize(double) {
   std::ranges::fill(unknown_, liquid_.empty());
   std::ranges::fill(settled_, liquid_.empty());
   std::ranges::fill(aperture_, liquid_.residual_aperture);
+  face_work_.clear();
   has_begun_ = 0;
   injected_ = leaked_ = work_ = dissipation_ = {};
   leak_off_rate_ = 0.0;
 }
 
 double CrackNetwork::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
+
+/// Where nothing flows, as the window begins.
+LubricationStep CrackNetwork::at_rest(const TimeWindow& window) const {
+  return {.time = {window.begin, window.begin},
+          .opening = {opening_, opening_rate_, opening_slope_, window.end},
+          .mass = mass_};
+}
 
 /// Cracks of the start, now that their opening is known. Their fluid counts as injected.
 void CrackNetwork::fill_at_start(const TimeWindow& window) {
@@ -247,10 +255,7 @@ void CrackNetwork::fill_at_start(const TimeWindow& window) {
       if (box.contains({facets.position[0][f], facets.position[1][f]})) unknown_[f] = pressure;
     }
   }
-  const LubricationStep at_rest{.time = {window.begin, window.begin},
-                                .opening = {opening_, opening_rate_, opening_slope_, window.end},
-                                .mass = mass_};
-  lubrication_.evaluate(at_rest, vector_of(unknown_));
+  lubrication_.evaluate(at_rest(window), vector_of(unknown_));
   for (std::size_t f = 0; f < mass_.size(); ++f) {
     if (!liquid_.is_full(unknown_[f])) continue;
     mass_[f] = lubrication_.residual()[f];
@@ -264,6 +269,10 @@ double CrackNetwork::advance(const TimeWindow& window) {
   match_facets();
   if (mass_.empty()) return window.end;
   if (has_begun_ == 0) fill_at_start(window);
+  if (!face_work_.knows_all_of(lubrication_)) {
+    lubrication_.evaluate(at_rest(window), vector_of(unknown_));
+    face_work_.add_new(lubrication_);
+  }
   if (leak_off_) leak_off_->begin_window(window);
   const double leaked_before = leak_off_volume();
   std::int64_t parts = 1;
@@ -331,27 +340,32 @@ bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
                        time.begin, "no balance of mass, in however short a step,");
 }
 
-/// What has moved is what counts: mass is kept to rounding whatever Newton left over. Enthalpy is
-/// the mean of begin and end, so that fluid and a linear solid exchange the same work; a facet that
-/// was held closed begins to open at the pressure that holds it.
+/// What has moved is what counts: mass is kept to rounding whatever Newton left over. What comes in
+/// has the mean enthalpy of beginning and end; where a facet was not full, what it received by
+/// mass. What inlets bring and facets did not receive has gone into the flow.
 void CrackNetwork::book(const Eigen::VectorXd& v) {
   const bool is_sink = leak_off_ && leak_off_->is_sink();
+  const auto energy_of = [&](double mass, double unknown) {
+    return mass * liquid_.internal_energy(liquid_.pressure(unknown));
+  };
   for (std::size_t f = 0; f < mass_.size(); ++f) {
     const double inflow = lubrication_.inflow()[f];
     const double outflow = lubrication_.outflow()[f];
     const double leaked = lubrication_.leaked()[f];
-    const double pressure = liquid_.pressure(v[f]);
-    double first = liquid_.pressure(unknown_[f]);
-    const double answer = lubrication_.opening_slope()(f, f);
-    if (!liquid_.is_full(unknown_[f]) && answer > 0.0) {
-      first = std::clamp(pressure - lubrication_.opening()[f] / answer, first, pressure);
+    const double more = inflow - outflow - leaked;
+    const double received = energy_of(mass_[f] + more, v[f]) - energy_of(mass_[f], unknown_[f]) +
+                            face_work_.book(lubrication_, static_cast<Index>(f));
+    const double last = liquid_.enthalpy(liquid_.pressure(v[f]));
+    double enthalpy = 0.5 * (liquid_.enthalpy(liquid_.pressure(unknown_[f])) + last);
+    if (!liquid_.is_full(unknown_[f])) {
+      enthalpy = more > 0.0 ? std::clamp(received / more, 0.0, std::max(last, 0.0)) : 0.0;
     }
-    const double enthalpy = 0.5 * (liquid_.enthalpy(first) + liquid_.enthalpy(pressure));
-    mass_[f] += inflow - outflow - leaked;
+    mass_[f] += more;
     injected_.add(inflow);
     leaked_.add(-leaked);
-    work_.add(enthalpy * (is_sink ? inflow - leaked : inflow));
-    dissipation_.add(enthalpy * (is_sink ? outflow : outflow + leaked));
+    const double brought = enthalpy * (is_sink ? inflow - leaked : inflow);
+    work_.add(brought);
+    dissipation_.add(brought - received);
     unknown_[f] = v[f];
     aperture_[f] = lubrication_.aperture()[f];
   }
@@ -366,6 +380,7 @@ void CrackNetwork::visit_state(StateVisitor& visitor) {
   visitor.visit("crack_pressure", unknown_);
   visitor.visit("crack_pressure_settled", settled_);
   visitor.visit("crack_aperture", aperture_);
+  face_work_.visit_state(visitor);
   visitor.visit("crack_has_begun", has_begun_);
   injected_.visit_state(visitor, "injected_crack_fluid_mass");
   leaked_.visit_state(visitor, "leaked_crack_fluid_mass");

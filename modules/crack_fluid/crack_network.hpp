@@ -9,6 +9,7 @@
 #include "core/operators/compensated_sum.hpp"
 #include "modules/crack_fluid/crack_extent.hpp"
 #include "modules/crack_fluid/crack_inlets.hpp"
+#include "modules/crack_fluid/face_work.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/lubrication.hpp"
 #include "modules/crack_fluid/pore_leak_off.hpp"
@@ -87,6 +88,7 @@ class CrackNetwork final : public PhysicsModule {
   std::vector<double> filled_from_neighbours() const;
   bool step(const TimeWindow& time, const TimeWindow& window);
   void book(const Eigen::VectorXd& v);
+  LubricationStep at_rest(const TimeWindow& window) const;
   std::vector<double>& field(Quantity quantity);
   void find_flow_rate();
   void set_where_wet(std::vector<double>& field, double value) const;
@@ -116,6 +118,7 @@ class CrackNetwork final : public PhysicsModule {
   std::vector<double> unknown_;   ///< v of crack_liquid.hpp [Pa]
   std::vector<double> settled_;   ///< v after the last window of some length: where Newton begins
   std::vector<double> aperture_;  ///< [m]
+  FaceWork face_work_;
   // State, since the start.
   std::int64_t has_begun_ = 0;
   CompensatedSum injected_, leaked_, work_, dissipation_;

@@ -1,5 +1,6 @@
 #include "modules/crack_fluid/lubrication.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/solvers/complementarity.hpp"
@@ -40,6 +41,20 @@ void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v
   let_in(step, v);
 }
 
+bool Lubrication::is_beside_full(Index f) const {
+  for (std::size_t k = 0; k < graph_.joint_count(); ++k) {
+    const auto joint = graph_.joint(k);
+    const auto is = [&](Index facet) {
+      return std::ranges::any_of(joint, [&](const auto& at) { return at.facet == facet; });
+    };
+    if (!is(f)) continue;
+    for (const auto& at : joint) {
+      if (at.facet != f && is_full(at.facet)) return true;
+    }
+  }
+  return false;
+}
+
 void Lubrication::open(const LubricationStep& step) {
   const CrackOpening& given = step.opening;
   opening_.noalias() = given.slope * pressure_;
@@ -48,10 +63,12 @@ void Lubrication::open(const LubricationStep& step) {
     largest = std::max(largest, std::abs(opening_[f]));
     opening_[f] += given.value[f] + given.rate[f] * (step.time.end - given.end);
   }
+  face_pressure_ = pressure_;
   opening_slope_ = given.slope;
   if (opening_.minCoeff() >= 0.0) return;
   const Complementarity contact = solve_complementarity(opening_slope_, opening_, 1e-14 * largest);
   opening_ = contact.y;
+  face_pressure_ += contact.x;
   opening_slope_ = response_with_held(opening_slope_, contact.held);
 }
 

@@ -72,6 +72,7 @@ class Lubrication {
   const Eigen::VectorXd& rounding() const { return rounding_; }  ///< of the residual, a bound
   const Eigen::VectorXd& aperture() const { return aperture_; }  ///< [m]
   const Eigen::VectorXd& opening() const { return opening_; }    ///< may be below the residual
+  const Eigen::VectorXd& face_pressure() const { return face_pressure_; }  ///< with contact's [Pa]
   /// d(opening) / d(pressure), with the faces closed that are closed [m/Pa].
   const Eigen::MatrixXd& opening_slope() const { return opening_slope_; }
   const Eigen::VectorXd& capacity() const { return capacity_; }   ///< rho_0 length aperture
@@ -79,6 +80,8 @@ class Lubrication {
   const Eigen::VectorXd& inflow() const { return inflow_; }       ///< by inlets [kg/m]
   /// What flows and leaks out over the step, inlets apart [kg/m].
   const Eigen::VectorXd& outflow() const { return outflow_; }
+  bool is_full(Index f) const { return fill_[f] >= 1.0; }
+  bool is_beside_full(Index f) const;
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& v) const;
 
   /// Calls use(a, b, flux) for every pair of branches that meet, flux [kg/(m s)] from a to b.
@@ -112,7 +115,7 @@ class Lubrication {
   CrackLiquid liquid_{};
   CrackGraph graph_;
 
-  Eigen::VectorXd pressure_, fill_, opening_, aperture_, capacity_;
+  Eigen::VectorXd pressure_, fill_, opening_, face_pressure_, aperture_, capacity_;
   Eigen::MatrixXd opening_slope_;
   Eigen::VectorXd residual_, rounding_, outflow_, inflow_;
   LeakedFluid leaked_;                               ///< its by_pressure is part of by_pressure_

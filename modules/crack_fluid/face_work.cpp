@@ -1,0 +1,45 @@
+#include "modules/crack_fluid/face_work.hpp"
+
+namespace perifrac {
+
+void FaceWork::clear() { facets_.clear(); }
+
+void FaceWork::add_new(const Lubrication& before) {
+  for (Index f = static_cast<Index>(facets_.size()); f < before.graph().facet_count(); ++f) {
+    const double pressure = before.face_pressure()[f];
+    const bool follows = pressure > 0.0 && !before.is_full(f) && before.is_beside_full(f);
+    facets_.push_back({follows ? 0.0 : before.aperture()[f], pressure, follows});
+  }
+}
+
+bool FaceWork::knows_all_of(const Lubrication& now) const {
+  return static_cast<Index>(facets_.size()) == now.graph().facet_count();
+}
+
+double FaceWork::book(const Lubrication& now, Index f) {
+  Facet& facet = facets_[f];
+  const double aperture = now.aperture()[f], pressure = now.face_pressure()[f];
+  if (facet.fluid_follows) {
+    if (!now.is_full(f)) return 0.0;
+    facet.pressure = pressure;
+  }
+  const double mean = 0.5 * (facet.pressure + pressure);
+  const double work = now.graph().length(f) * mean * (aperture - facet.aperture);
+  facet = {aperture, pressure, false};
+  return work;
+}
+
+void FaceWork::visit_state(StateVisitor& visitor) {
+  std::vector<double> numbers;
+  for (const Facet& facet : facets_) {
+    numbers.insert(numbers.end(),
+                   {facet.aperture, facet.pressure, facet.fluid_follows ? 1.0 : 0.0});
+  }
+  visitor.visit("face_work", numbers);
+  facets_.resize(numbers.size() / 3);
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    facets_[f] = {numbers[3 * f], numbers[3 * f + 1], numbers[3 * f + 2] != 0.0};
+  }
+}
+
+}  // namespace perifrac

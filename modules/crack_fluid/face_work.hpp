@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "core/state/state_visitor.hpp"
+#include "modules/crack_fluid/lubrication.hpp"
+
+namespace perifrac {
+
+/// What fluid does to the faces of a crack, step by step: the mean of the pressure on a facet
+/// before and after, that of contact included, times what its aperture has grown. Between a linear
+/// body and its cracks that is exact, in the sum over all facets, however far they open.
+///
+/// A new facet whose dry faces would stay closed beside a full one is opened by fluid that follows
+/// the tip, under the pressure that it comes to hold.
+class FaceWork {
+ public:
+  void clear();
+  /// Takes facets that are new as they are before the step.
+  void add_new(const Lubrication& before);
+  bool knows_all_of(const Lubrication& now) const;
+
+  /// Work on facet f since the last time [J/m].
+  double book(const Lubrication& now, Index f);
+
+  void visit_state(StateVisitor& visitor);
+
+ private:
+  struct Facet {
+    double aperture;     ///< [m]
+    double pressure;     ///< on the faces [Pa]
+    bool fluid_follows;  ///< and has not come yet
+  };
+  std::vector<Facet> facets_;
+};
+
+}  // namespace perifrac
