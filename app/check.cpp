@@ -1,8 +1,11 @@
 #include "app/check.hpp"
 
+#include <chrono>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/forecast.hpp"
 #include "app/output_times.hpp"
 #include "app/recorder.hpp"
 #include "app/scene_keys.hpp"
@@ -86,6 +89,54 @@ void print_regime(const nlohmann::json& regime) {
   }
 }
 
+/// Of both wings, where they are in the body.
+std::optional<double> facets_to_come(const Simulation& simulation,
+                                     const std::optional<SceneRegime>& regime) {
+  if (!regime) return {};
+  const double length = expected_crack(regime->fracture, regime->time).length;
+  return std::visit(
+      [&](const auto& body) {
+        return static_cast<double>(body->bond_state().facets().size()) + length / body->spacing();
+      },
+      simulation.body);
+}
+
+nlohmann::json forecast_json(const Forecast& forecast) {
+  const auto& parts = forecast.seconds_by_part;
+  const auto largest =
+      std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
+  nlohmann::json by_part = nlohmann::json::object();
+  for (const auto& [name, seconds] : parts) by_part[name] = seconds;
+  nlohmann::json result = {{"seconds", forecast.seconds},
+                           {"seconds_by_part", by_part},
+                           {"most_in", largest->first},
+                           {"windows", forecast.windows},
+                           {"peak_memory", forecast.memory},
+                           {"trial",
+                            {{"time", forecast.trial_time},
+                             {"seconds", forecast.trial_seconds},
+                             {"is_whole", forecast.is_whole}}}};
+  if (forecast.failure) result["failure"] = *forecast.failure;
+  return result;
+}
+
+void print_forecast(const nlohmann::json& forecast) {
+  fmt::print("  run time: {:.3g} s, {} windows, {:.0f} MB, without writing results; most in {}\n",
+             forecast["seconds"].get<double>(), forecast["windows"].get<long>(),
+             forecast["peak_memory"].get<double>() / 1e6, forecast["most_in"].get<std::string>());
+  for (const auto& [part, seconds] : forecast["seconds_by_part"].items()) {
+    fmt::print("    {:<24} {:>10.3g} s\n", part, seconds.get<double>());
+  }
+  const auto& trial = forecast["trial"];
+  if (!trial["is_whole"].get<bool>()) {
+    fmt::print("    from a trial to t = {:.3g} s, {:.1f} s long\n", trial["time"].get<double>(),
+               trial["seconds"].get<double>());
+  }
+  if (forecast.contains("failure")) {
+    fmt::print("  warning: a run stops: {}\n", forecast["failure"].get<std::string>());
+  }
+}
+
 void print(const nlohmann::json& result) {
   const auto& counts = result["counts"];
   fmt::print("{}: fine\n", result["scene"].get<std::string>());
@@ -102,6 +153,7 @@ void print(const nlohmann::json& result) {
                array["count"].get<long>(), array["bytes"].get<long>());
   }
   if (result.contains("regime")) print_regime(result["regime"]);
+  if (result.contains("forecast")) print_forecast(result["forecast"]);
   for (const auto& warning : result["warnings"]) {
     fmt::print("  warning: {}\n", warning.get<std::string>());
   }
@@ -109,13 +161,14 @@ void print(const nlohmann::json& result) {
 
 }  // namespace
 
-int check_scene(const std::string& scene_file, const std::vector<std::string>& overrides,
-                bool json) {
+int check_scene(const std::string& scene_file, const std::vector<std::string>& overrides, bool json,
+                double trial_seconds) {
+  const auto begin = std::chrono::steady_clock::now();
   const Section scene = read_scene(scene_file, overrides, scene_catalogue());
   Simulation simulation = make_simulation(scene);
   CouplingManager& manager = *simulation.manager;
   initialize(scene, simulation);
-  read_output_times(scene.at("output"), simulation.end);
+  const std::vector<double> outputs = read_output_times(scene.at("output"), simulation.end);
   const Recorder recorder(scene, "", simulation);
   ArrayList list;
   manager.visit_state(list);
@@ -124,9 +177,16 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
       {"effects", effects(scene)},    {"links", links_of(manager)},
       {"counts", counts(simulation)}, {"family_bytes", family_bytes(simulation)},
       {"arrays", list.arrays},        {"warnings", manager.warnings()}};
-  if (const std::optional<SceneRegime> regime = regime_of(scene, simulation)) {
+  const std::optional<SceneRegime> regime = regime_of(scene, simulation);
+  if (regime) {
     result["regime"] = regime_json(*regime);
     for (const std::string& warning : regime->warnings) result["warnings"].push_back(warning);
+  }
+  if (trial_seconds > 0.0) {
+    const double building =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result["forecast"] = forecast_json(
+        forecast(simulation, outputs, trial_seconds, building, facets_to_come(simulation, regime)));
   }
   if (json) {
     fmt::print("{}", json_text(result));

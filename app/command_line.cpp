@@ -26,6 +26,7 @@ struct Request {
   int threads = 0;
   std::string folder;
   bool page = false;
+  double trial = 2.0;  ///< [s]
 };
 
 void add_scene_options(CLI::App& verb, Request& request) {
@@ -52,11 +53,22 @@ void add_run_options(CLI::App& verb, Request& request) {
   verb.add_flag("!--no-report", request.run.report, "make no picture and no page");
 }
 
+void add_check_options(CLI::App& verb, Request& request) {
+  add_scene_options(verb, request);
+  verb.add_option("--trial", request.trial,
+                  "try the first windows for so long, to foretell the run's time; 0: do not")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 1e6));
+  verb.add_option("--threads", request.threads, "threads that the run will have")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+}
+
 int dispatch(const CLI::App& app, const Request& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);
   if (app.got_subcommand("check")) {
-    return check_scene(request.run.scene, request.run.overrides, request.run.json);
+    return check_scene(request.run.scene, request.run.overrides, request.run.json, request.trial);
   }
   if (app.got_subcommand("report")) return make_report(request.folder, false);
   return request.page ? print_reference_page() : list_modules(request.run.json);
@@ -68,7 +80,7 @@ int parse_and_dispatch(int argc, char** argv) {
   app.require_subcommand(0, 1);  // with (1) a wrong verb would be called a missing one
   Request request;
   add_run_options(*app.add_subcommand("run", "run a scene"), request);
-  add_scene_options(*app.add_subcommand("check", "say what a scene calls for; run nothing"),
+  add_check_options(*app.add_subcommand("check", "say what a scene calls for, and will take"),
                     request);
   CLI::App& report = *app.add_subcommand("report", "make the picture and the page of a run");
   report.add_option("folder", request.folder, "folder of a run")->required()->type_name("DIR");

@@ -25,13 +25,6 @@ const char* word(RunOutcome outcome) {
   }
 }
 
-/// The most memory that the process ever held [bytes].
-long peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024 * usage.ru_maxrss;
-}
-
 nlohmann::json ledger_summary(const Ledger& ledger) {
   nlohmann::json result = nlohmann::json::object();
   for (const LedgerColumn& column : ledger.columns()) {
@@ -67,6 +60,12 @@ nlohmann::json modules_summary(const Section& scene, const CouplingManager& mana
 }
 
 }  // namespace
+
+long peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * usage.ru_maxrss;
+}
 
 std::vector<std::string> effects(const Section& scene) {
   std::vector<std::string> result;

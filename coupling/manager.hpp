@@ -56,7 +56,10 @@ class CouplingManager {
   /// All modules' fields as `<module>/<field>` and the manager's own as `coupling/<field>`.
   void visit_state(StateVisitor& visitor);
 
-  double time() const { return time_; }        ///< [s]
+  double time() const { return time_; }  ///< [s]
+  const WindowSchedule& schedule() const { return schedule_; }
+  /// The shortest of the modules' own; infinity where no window asks for it [s].
+  double stable_time_step() const;
   std::int64_t step() const { return step_; }  ///< windows since the start, restarts included
   std::span<const ModuleSlot> modules() const { return modules_; }
   std::span<const Link> links() const { return links_; }
@@ -64,8 +67,6 @@ class CouplingManager {
   const CouplingWork& work() const { return solver_->work(); }
 
  private:
-  /// The shortest of the modules' own; infinity where no window asks for it.
-  double stable_time_step() const;
   std::vector<std::string> one_pass_warnings() const;
 
   CouplingOptions options_;

@@ -1,4 +1,4 @@
-"""The paper's figures of its storage-dominated hydraulic fracture, 18 to 21, from runs of perifrac alone.
+"""The paper's figures of its hydraulic fractures, 18 to 25, from runs of perifrac alone.
 
 The paper's own scheme, with points of fluid in the crack, is not run here.
 """
@@ -151,4 +151,74 @@ def fig21(runs: Runs, images: Path, errors: Errors) -> None:
     save(figure, images, "fig21")
 
 
-FIGURES = {f.__name__: f for f in (fig18, fig19, fig20, fig21)}
+def fig22(runs: Runs, images: Path, errors: Errors) -> None:
+    """Pressure in the crack and the pores, leak-off dominated."""
+    draw_pressure(runs, "leak_off", images, "fig22", "Fig 22: fluid and pore pressure, leak-off dominated")
+
+
+LEAK_OFF_CONDUCTANCE = np.sqrt(1.02e-11 * (0.1 / 2.2e9 + 1.0 / 4.8e9) / np.pi)
+
+
+def fig23(runs: Runs, images: Path, errors: Errors) -> None:
+    """Leak-off velocity over time, leak-off dominated: into pores, and by Carter's law."""
+    figure, axes = panels(1, "Fig 23: leak-off velocity, leak-off dominated")
+    compare_velocities(axes[0], runs, "leak_off", LEAK_OFF_CONDUCTANCE, errors, "23")
+    save(figure, images, "fig23")
+
+
+def fig24(runs: Runs, images: Path, errors: Errors) -> None:
+    """Growth, leak-off dominated, beside the solutions with leak-off and without."""
+    figure, axes = panels(1, "Fig 24: growth, leak-off dominated")
+    marched = table("hf_leakoff_reference.csv")
+    compare_lengths(axes[0], runs, "carter", marched, errors, "24")
+    axes[0].lines[0].set_label("perifrac, Carter's law")
+    axes[0].lines[1].set_label("this specimen with Carter's law, marched by other means")
+    into_pores, no_leak_off = runs.history("leak_off"), runs.history("no_leak_off")
+    axes[0].plot(1e3 * into_pores["time"], 1e3 * (into_pores["crack_length"] - NOTCH), color="C0", lw=1.2,
+                 label="perifrac, into pores")  # fmt: skip
+    axes[0].plot(1e3 * no_leak_off["time"], 1e3 * (no_leak_off["crack_length"] - NOTCH), color="0.6", lw=1.2,
+                 label="perifrac, nothing leaks")  # fmt: skip
+    axes[0].legend(fontsize=8, frameon=False)
+    save(figure, images, "fig24")
+
+
+def major_stress(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
+    """The largest principal stress of every point [Pa] and its angle to x."""
+    xx, xy, yx, yy = np.asarray(frame.fields["effective_stress"]).reshape(-1, 4).T
+    shear = 0.5 * (xy + yx)
+    return 0.5 * (xx + yy) + np.hypot(0.5 * (xx - yy), shear), 0.5 * np.arctan2(2.0 * shear, xx - yy)
+
+
+def fig25(runs: Runs, images: Path, errors: Errors) -> None:
+    """A crack that meets a natural one: pressure, damage, major principal stress and its direction."""
+    moments = [0.005, 0.015, 0.030, 0.100]
+    figure, axes = plt.subplots(len(moments), 3, figsize=(9.0, 3.6 * len(moments)), layout="constrained")
+    figure.suptitle("Fig 25: a natural fracture", x=0.01, ha="left", fontsize=11, fontweight="bold")
+    cracks = runs.frames("natural", "crack")
+    highest = 1e-6 * max(float(f.fields["crack_pressure"].max()) for f in cracks if f.time >= moments[0])
+    for row, when in zip(axes, moments):
+        body, crack = runs.frame_at("natural", when), cracks_at(runs, "natural", when)
+        x, y = 1e3 * body.points[:, 0], 1e3 * body.points[:, 1]
+        pressure = row[0].scatter(*(1e3 * crack.points[:, :2].T), c=1e-6 * crack.fields["crack_pressure"], s=5,
+                                  vmin=0.0, vmax=highest, cmap="viridis", linewidths=0)  # fmt: skip
+        damage = draw_field(row[1], body, body.fields["damage"], (0.0, 0.6), "magma_r")
+        stress, angle = major_stress(body)
+        near = (np.abs(x - 70.0) < 22.0) & (np.abs(y - 165.0) < 30.0)
+        arrows = row[2].quiver(x[near], y[near], np.cos(angle[near]), np.sin(angle[near]), 1e-6 * stress[near],
+                               pivot="mid", headwidth=0, headlength=0, headaxislength=0, scale=45, width=0.004,
+                               cmap="coolwarm", clim=(-3.0, 3.0))  # fmt: skip
+        for axis in row:
+            axis.set_aspect("equal")
+            axis.set_xticks([])
+            axis.grid(False)
+        row[0].set_xlim(x.min(), x.max())
+        row[0].set_ylim(y.min(), y.max())
+        row[0].set_ylabel(f"{1e3 * when:g} ms")
+    for column, (image, label) in enumerate([(pressure, "pressure [MPa]"), (damage, "damage"),
+                                             (arrows, "major principal stress [MPa]")]):  # fmt: skip
+        figure.colorbar(image, ax=axes[:, column], shrink=0.5, location="bottom", label=label)
+    figure.savefig(images / "fig25.png", dpi=110)
+    print(images / "fig25.png")
+
+
+FIGURES = {f.__name__: f for f in (fig18, fig19, fig20, fig21, fig22, fig23, fig24, fig25)}

@@ -49,6 +49,10 @@ SCHEMES["head_exchange"] = Scheme("exchange: paper", "constant_head.yaml", [*_SH
 SCHEMES["head_force"] = Scheme("force: one_sided", "constant_head.yaml", [*_SHOWN, "interface.force=one_sided"], 20.0, "500 s")  # fmt: skip
 # Hydraulic fracture, without the paper's own scheme.
 SCHEMES["storage"] = Scheme("perifrac", "hf_storage_pores.yaml", ["output.interval=1 ms"])
+SCHEMES["leak_off"] = Scheme("into pores", "hf_leakoff_pores.yaml")
+SCHEMES["carter"] = Scheme("Carter's law", "hf_leakoff.yaml")
+SCHEMES["no_leak_off"] = Scheme("nothing leaks", "hf_leakoff.yaml", ["crack_fluid.leak_off_coefficient=0"])
+SCHEMES["natural"] = Scheme("perifrac", "hf_natural_fracture.yaml")
 
 
 @dataclass

@@ -9,10 +9,6 @@ namespace perifrac {
 
 namespace {
 
-/// The facet whose opening is held against the tip's asymptote is the last but one. On the lattice
-/// the tip acts as if it lay so much, in spacings, ahead of the end of the last facet: found from
-/// uniform pressure.
-constexpr double tip_offset = -0.12;
 /// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity
 /// asks for is taken further on. Chosen between 0.1 and 0.38, the middle of the facet, by
 /// docs/decisions/0012-cracks-are-facets.md.
@@ -87,7 +83,11 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
     const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
     const TipFluid fluid{state.viscosity[at.before],
                          state.leak_off.empty() ? 0.0 : state.leak_off[at.before]};
-    return state.opening[at.before] / tip_law.opening(s + tip_offset * body_.spacing(),
+    // Opening ends to go as sqrt(s) where the crack's other end makes itself felt: as that of a
+    // crack of half length l under uniform pressure, sqrt(s (1 - s / 2l)), whose K_I at fixed
+    // volume goes as l^-1.5.
+    const double by_length = (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing();  // 1 / l
+    return state.opening[at.before] / tip_law.opening(s * (1.0 - 0.5 * s * by_length),
                                                       s + viscous_offset * body_.spacing(), fluid,
                                                       speed);
   }

@@ -1,0 +1,179 @@
+#include "app/forecast.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include "app/summary.hpp"
+#include "core/errors.hpp"
+
+namespace perifrac {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Of all threads so far [s]: other programs slow a window down, but cost it no processor time.
+double processor_time() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// A window of the trial.
+struct Trial {
+  double length;                ///< [s]
+  std::vector<double> seconds;  ///< in every module, and in what couples them
+  Index facets;                 ///< that cracks gained in it
+};
+
+Index facet_count(const Simulation& simulation) {
+  return std::visit(
+      [](const auto& body) {
+        return body ? static_cast<Index>(body->bond_state().facets().size()) : Index{0};
+      },
+      simulation.body);
+}
+
+/// Wall time in every module so far, and in all.
+std::vector<double> spent(const CouplingManager& manager, Clock::time_point begin) {
+  std::vector<double> seconds;
+  for (const ModuleSlot& slot : manager.modules()) seconds.push_back(slot.seconds);
+  seconds.push_back(since(begin));
+  return seconds;
+}
+
+/// Since `before`; the last entry becomes what is not in the modules.
+std::vector<double> spent_since(std::span<const double> before, std::vector<double> now) {
+  for (std::size_t k = 0; k < now.size(); ++k) now[k] -= before[k];
+  for (std::size_t k = 0; k + 1 < now.size(); ++k) now.back() -= now[k];
+  return now;
+}
+
+/// How many steps a part takes in a window: one, or as many as a module's own stable step asks for.
+std::vector<double> steps_in(const CouplingManager& manager, double length) {
+  std::vector<double> steps;
+  for (const ModuleSlot& slot : manager.modules()) {
+    steps.push_back(std::max(1.0, length / slot.module->stable_time_step()));
+  }
+  steps.push_back(1.0);
+  return steps;
+}
+
+/// What a step costs every part, and a facet all of them [s].
+struct Cost {
+  std::vector<double> step;
+  double facet = 0.0;
+};
+
+/// Means over windows in which no crack grew; a facet costs what the others took more.
+Cost cost_of(const CouplingManager& manager, std::span<const Trial> trial) {
+  const std::size_t parts = manager.modules().size() + 1;
+  std::vector<double> seconds(parts, 0.0), steps(parts, 0.0);
+  for (const Trial& window : trial) {
+    if (window.facets > 0) continue;
+    const std::vector<double> taken = steps_in(manager, window.length);
+    for (std::size_t k = 0; k < parts; ++k) {
+      seconds[k] += window.seconds[k];
+      steps[k] += taken[k];
+    }
+  }
+  Cost cost;
+  for (std::size_t k = 0; k < parts; ++k) {
+    cost.step.push_back(steps[k] > 0.0 ? seconds[k] / steps[k] : 0.0);
+  }
+  double facets = 0.0, more = 0.0;
+  for (const Trial& window : trial) {
+    if (window.facets == 0) continue;
+    facets += window.facets;
+    const std::vector<double> taken = steps_in(manager, window.length);
+    for (std::size_t k = 0; k < parts; ++k) more += window.seconds[k] - cost.step[k] * taken[k];
+  }
+  if (facets > 0.0) cost.facet = std::max(0.0, more / facets);
+  return cost;
+}
+
+/// Windows that nothing cuts, from where the simulation stands to the last output.
+template <class Use>
+void for_each_window_to_come(const CouplingManager& manager, std::span<const double> outputs,
+                             Use&& use) {
+  WindowSchedule schedule = manager.schedule();
+  const double stable = manager.stable_time_step();
+  double t = manager.time();
+  for (const double output : outputs) {
+    while (t < output) {
+      const double end = schedule.end(t, output);
+      use(end - t);
+      t = end;
+      schedule.grow(stable);
+    }
+  }
+}
+
+}  // namespace
+
+Forecast forecast(Simulation& simulation, std::span<const double> outputs, double trial_seconds,
+                  double building_seconds, std::optional<double> facets_to_come) {
+  CouplingManager& manager = *simulation.manager;
+  const Clock::time_point begin = Clock::now();
+  const double processors_before = processor_time();
+  const std::vector<double> at_start = spent(manager, begin);
+  std::vector<Trial> trial;
+  Forecast result{};
+  auto output = outputs.begin();
+  try {
+    manager.settle();
+    while (output != outputs.end() && processor_time() - processors_before < trial_seconds) {
+      const double t = manager.time();
+      const Index facets = facet_count(simulation);
+      const std::vector<double> before = spent(manager, begin);
+      manager.advance(*output);
+      trial.push_back({manager.time() - t, spent_since(before, spent(manager, begin)),
+                       facet_count(simulation) - facets});
+      if (manager.time() != *output) continue;
+      manager.restart_point();  // as a run does
+      ++output;
+    }
+  } catch (const NumericalError& error) {
+    result.failure = error.what();
+  }
+  result.trial_time = manager.time();
+  result.trial_seconds = since(begin);
+  result.is_whole = output == outputs.end();
+  result.windows = manager.step();
+
+  std::vector<double> parts = spent_since(at_start, spent(manager, begin));
+  if (!result.is_whole && !result.failure) {
+    // What the first windows take is of their own: caches fill, iterations find their pace.
+    const std::span all(trial);
+    const Cost cost = cost_of(manager, all.subspan(all.size() / 2));
+    for_each_window_to_come(manager, outputs, [&](double length) {
+      const std::vector<double> steps = steps_in(manager, length);
+      for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * steps[k];
+      ++result.windows;
+    });
+    const double facets = facets_to_come.value_or(0.0) - facet_count(simulation);
+    parts[parts.size() - 2] += cost.facet * std::max(0.0, facets);  // the solid is the last module
+  }
+  // As if nothing else ran: one thread is then never kept waiting.
+  const double used = processor_time() - processors_before;
+  const double quiet = std::min(1.0, used / result.trial_seconds);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const bool is_module = k < manager.modules().size();
+    result.seconds_by_part.emplace_back(is_module ? manager.modules()[k].name : "coupling",
+                                        parts[k]);
+  }
+  result.seconds_by_part.emplace_back("building", building_seconds);
+  for (auto& [name, seconds] : result.seconds_by_part) {
+    seconds *= quiet;
+    result.seconds += seconds;
+  }
+  result.memory = peak_memory();
+  return result;
+}
+
+}  // namespace perifrac
