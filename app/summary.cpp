@@ -4,11 +4,12 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <omp.h>
 
+#include "app/build_info.hpp"
 #include "app/register_modules.hpp"
 #include "app/version.hpp"
 #include "core/io/atomic_file.hpp"
-#include "core/solvers/sparse_cholesky.hpp"
 
 namespace perifrac {
 
@@ -25,11 +26,15 @@ const char* word(RunOutcome outcome) {
   }
 }
 
-/// The most memory that the process ever held [bytes].
-long peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024 * usage.ru_maxrss;
+/// What the process has used of this machine so far.
+rusage usage() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return used;
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 nlohmann::json ledger_summary(const Ledger& ledger) {
@@ -60,6 +65,7 @@ nlohmann::json modules_summary(const Section& scene, const CouplingManager& mana
     result.push_back({{"name", slot.name},
                       {"type", scene.word(slot.name + ".type")},
                       {"wall_time", slot.seconds},
+                      {"cpu_time", slot.cpu_seconds},
                       {"advances", slot.advances},
                       {"statistics", statistics(*slot.module)}});
   }
@@ -98,24 +104,28 @@ nlohmann::json counts(const Simulation& simulation) {
 
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const std::string& scene_text, Simulation& simulation,
-                         const Reference* reference, RunOutcome outcome, double seconds) {
+                         const Reference* reference, RunOutcome outcome, const WallTime& wall) {
   const CouplingManager& manager = *simulation.manager;
-  nlohmann::json result = {
-      {"scene",
-       {{"title", scene.has("title") ? scene.text("title") : ""},
-        {"path", scene_file},
-        {"text", scene_text}}},
-      {"version", version},
-      {"build", {{"sparse factor", SparseCholesky::backend()}, {"compiler", __VERSION__}}},
-      {"dimension", scene.integer("dimension")},
-      {"outcome", word(outcome)},
-      {"time", {{"value", manager.time()}, {"unit", "s"}}},
-      {"effects", effects(scene)},
-      {"counts", counts(simulation)},
-      {"modules", modules_summary(scene, manager)},
-      {"wall_time", seconds},
-      {"peak_memory", peak_memory()},
-      {"ledger", ledger_summary(manager.ledger())}};
+  const rusage used = usage();
+  nlohmann::json result = {{"scene",
+                            {{"title", scene.has("title") ? scene.text("title") : ""},
+                             {"path", scene_file},
+                             {"text", scene_text}}},
+                           {"version", version},
+                           {"build", build_info()},
+                           {"machine", machine_info()},
+                           {"dimension", scene.integer("dimension")},
+                           {"outcome", word(outcome)},
+                           {"time", {{"value", manager.time()}, {"unit", "s"}}},
+                           {"effects", effects(scene)},
+                           {"counts", counts(simulation)},
+                           {"modules", modules_summary(scene, manager)},
+                           {"wall_time", wall.whole},
+                           {"output_time", wall.output},
+                           {"cpu_time", seconds(used.ru_utime) + seconds(used.ru_stime)},
+                           {"threads", omp_get_max_threads()},
+                           {"peak_memory", 1024 * used.ru_maxrss},
+                           {"ledger", ledger_summary(manager.ledger())}};
   result["counts"]["windows"] = manager.step();
   result["counts"]["passes"] = manager.work().passes;
   result["counts"]["most_passes"] = manager.work().most_passes;

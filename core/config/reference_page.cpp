@@ -24,6 +24,8 @@ std::string kind_name(KeyType type) {
       return "vector";
     case KeyType::numbers:
       return "numbers";
+    case KeyType::tree:
+      return "list or map";
   }
   return {};
 }
