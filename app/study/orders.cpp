@@ -27,14 +27,14 @@ std::optional<double> power(std::span<const double> x, std::span<const double> y
 }
 
 std::vector<double> crossings(std::span<const double> x, std::span<const double> a,
-                              std::span<const double> b) {
+                              std::span<const double> b, double blur) {
   std::vector<double> places;
   double last_x = 0.0, last_gap = 0.0;
   bool begun = false;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!usable(x[i]) || !usable(a[i]) || !usable(b[i])) continue;
     const double at = std::log(x[i]), gap = std::log(a[i] / b[i]);
-    if (gap == 0.0) continue;  // on the line: the next one says whether it crosses
+    if (std::abs(gap) <= std::log(blur)) continue;  // the next one says whether it crosses
     if (begun && (gap > 0.0) != (last_gap > 0.0)) {
       places.push_back(std::exp(last_x + (at - last_x) * last_gap / (last_gap - gap)));
     }

@@ -11,8 +11,9 @@ namespace perifrac {
 std::optional<double> power(std::span<const double> x, std::span<const double> y);
 
 /// The places along x at which two curves cross, straight lines between the logarithms. x rises.
+/// Where they lie apart by less than the factor `blur`, neither is taken to be the larger one.
 std::vector<double> crossings(std::span<const double> x, std::span<const double> a,
-                              std::span<const double> b);
+                              std::span<const double> b, double blur = 1.0);
 
 /// Richardson's extrapolation from three values at h r^2, h r and h, by the distances of
 /// neighbours: `coarse` between the first two, `fine` between the last two. The limit lies

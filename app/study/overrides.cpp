@@ -79,7 +79,7 @@ std::string SceneKeys::unit(const std::string& key) const {
 std::string file_name_part(const std::string& name) {
   std::string part;
   for (const char c : name) {
-    if (c == ' ') continue;
+    if (c == ' ' || c == '^') continue;
     const bool kept =
         std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_' || c == '+';
     part += kept ? c : '_';

@@ -51,7 +51,7 @@ class SceneKeys {
   KeyNode tree_;
 };
 
-/// `name` as a part of the name of a file: blanks fall out, other signs become '_'.
+/// `name` as a part of the name of a file: blanks and '^' fall out, other signs become '_'.
 std::string file_name_part(const std::string& name);
 
 }  // namespace perifrac

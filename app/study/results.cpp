@@ -10,6 +10,11 @@ namespace perifrac {
 
 namespace {
 
+// Wall times nearer to each other than this factor are taken for equal.
+constexpr double blur = 1.15;
+// Errors below it come from rounding: they have no order.
+constexpr double rounding = 1e-11;
+
 class Conclusion {
  public:
   Conclusion(const Study& study, StudyResults& results) : study_(study), results_(results) {}
@@ -114,10 +119,11 @@ class Conclusion {
     std::vector<double> errors, costs;
     for (const std::size_t i : members) {
       order.numbers.push_back(number(i));
-      errors.push_back(*results_.points[i].error.error);
+      const double error = *results_.points[i].error.error;
+      errors.push_back(error > rounding ? error : 0.0);
       costs.push_back(results_.points[i].cost.median);
     }
-    order.error = power(order.numbers, errors);
+    if (!study_.axes[along].problem) order.error = power(order.numbers, errors);
     order.cost = power(order.numbers, costs);
     if (members.size() > 1) results_.orders.push_back(std::move(order));
   }
@@ -144,11 +150,14 @@ class Conclusion {
                           one.others[k].first,
                           {one.others[k].second, other.others[k].second},
                           same,
-                          crossings(places, first, second)};
+                          crossings(places, first, second, blur)};
     if (crossing.places.empty()) return;
     // The one that costs less below comes first.
-    if (!places.empty() && first.front() > second.front())
-      std::swap(crossing.values.first, crossing.values.second);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (first[i] < second[i] * blur && second[i] < first[i] * blur) continue;
+      if (first[i] > second[i]) std::swap(crossing.values.first, crossing.values.second);
+      break;
+    }
     results_.crossings.push_back(std::move(crossing));
   }
 

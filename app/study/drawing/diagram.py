@@ -145,7 +145,7 @@ def subtitle(study: Study) -> str:
 
 
 def write_picture(study: Study, path: Path) -> None:
-    with plt.rc_context(STYLE | {"svg.hashsalt": "perifrac"}):
+    with plt.rc_context(STYLE | {"svg.hashsalt": "perifrac", "svg.fonttype": "none"}):
         figure = plt.figure(figsize=INCHES, dpi=DOTS_PER_INCH)
         figure.set_layout_engine("constrained", rect=(0.005, 0.005, 0.99, 0.89), wspace=0.06)
         figure.text(0.012, 0.985, study.data["title"], fontsize=13, fontweight="bold", va="top", parse_math=False)

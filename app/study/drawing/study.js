@@ -15,6 +15,11 @@ function decade(value) {
   return Math.abs(exponent - Math.round(exponent)) < 1e-9 ? `10${superscript(Math.round(exponent))}` : "";
 }
 
+// uPlot asks with the limits of the data for all there is, with others where it was zoomed in.
+function zoomed(low, high, values, all) {
+  return low === Math.min(...values) && high === Math.max(...values) ? all : [low, high];
+}
+
 class StudyChart {
   constructor(chart) {
     this.chart = chart;
@@ -57,30 +62,27 @@ class StudyChart {
     if (!drawn.length) return;
     // uPlot gets the points for its scales only; a margin keeps them off the edges.
     const xs = this.points.map((point) => point.x), ys = drawn.map((point) => point.y);
-    const range = (values, above) => [Math.min(...values) / 1.6, Math.max(...values) * above];
+    const margin = (values, above) => [Math.min(...values) / 1.6, Math.max(...values) * above];
+    const known = drawn.map((point) => point.x);
     const width = this.holder.clientWidth;
     this.plot = new uPlot({
       width, height: Math.max(320, Math.min(480, 0.55 * width)),
       legend: { show: false },
-      scales: { x: { time: false, distr: 3, range: (_, low, high) => this.zoom("x", low, high, range(xs, 1.6)) },
-        y: { distr: 3, range: (_, low, high) => this.zoom("y", low, high, range(ys, 3)) } },
+      scales: { x: { time: false, distr: 3, range: (_, low, high) => zoomed(low, high, known, margin(xs, 1.6)) },
+        y: { distr: 3, range: (_, low, high) => zoomed(low, high, ys, margin(ys, 3)) } },
       axes: [this.axis(this.chart.xLabel, 36), this.axis(this.chart.yLabel, 58)],
       series: [{}, { paths: () => null, points: { show: false } }],
       cursor: { drag: { x: true, y: true }, points: { show: false } },
       hooks: { draw: [(plot) => this.paint(plot)], setCursor: [(plot) => this.read(plot)] },
-    }, [drawn.map((point) => point.x), ys], this.area);
+    }, [known, ys], this.area);
   }
 
-  // Zoomed in, uPlot's own limits hold; else all points.
-  zoom(scale, low, high, all) {
-    const select = this.plot?.select;
-    return select && select.width > 0 ? [low, high] : all;
-  }
-
+  // What has no error stands at the upper edge, an error of 0 at the lower one.
   place(plot, point) {
     const x = plot.valToPos(point.x, "x", true);
-    const y = point.y > 0 ? plot.valToPos(point.y, "y", true) : plot.bbox.top + 12 * devicePixelRatio;
-    return [x, y];
+    if (point.y > 0) return [x, plot.valToPos(point.y, "y", true)];
+    const edge = 12 * devicePixelRatio;
+    return [x, point.y === null ? plot.bbox.top + edge : plot.bbox.top + plot.bbox.height - edge];
   }
 
   paint(plot) {
@@ -124,7 +126,7 @@ class StudyChart {
     const context = plot.ctx, size = 4.5 * devicePixelRatio;
     const [x, y] = this.place(plot, point);
     context.beginPath();
-    if (!(point.y > 0)) {
+    if (point.y === null) {
       context.moveTo(x - size, y - size); context.lineTo(x + size, y + size);
       context.moveTo(x - size, y + size); context.lineTo(x + size, y - size);
       context.stroke();

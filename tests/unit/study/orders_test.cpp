@@ -40,6 +40,12 @@ TEST(crossings, that_only_touch_are_none) {
   EXPECT_THAT(crossings(x, a, b), IsEmpty());
 }
 
+TEST(crossings, of_curves_too_near_to_tell_are_none) {
+  const std::vector<double> x = {1.0, 2.0, 4.0, 8.0}, a = {1.05, 0.95, 1.02, 3.0}, b(4, 1.0);
+  EXPECT_THAT(crossings(x, a, b), testing::SizeIs(2));
+  EXPECT_THAT(crossings(x, a, b, 1.1), IsEmpty());
+}
+
 TEST(extrapolate, finds_order_and_limit_of_a_power) {
   const auto f = [](double h) { return 5.0 + 0.3 * h * h * h; };
   const auto found = extrapolate(f(4.0) - f(2.0), f(2.0) - f(1.0), 2.0);
