@@ -22,7 +22,7 @@ def block(name, folder):
     build = next(iter(study["builds"]), {})
     table = (folder / "table.md").read_text(encoding="utf-8").rstrip()
     lines = [f"    perifrac study configs/studies/{name}.yaml", "", f"![{study['title']}](images/study_{name}.svg)", ""]
-    lines += [f"- {sentence}" for sentence in study["sentences"]]
+    lines += [f"- {sentence}" for sentence in study["sentences"] if not sentence.startswith("Power of")]
     lines += ["", f"<details><summary>All variants ({machine.get('processor', '')}, {machine.get('cores', '')} cores, "
               f"commit {build.get('commit', '')})</summary>", "", table, "", "</details>"]  # fmt: skip
     return "\n".join(lines)

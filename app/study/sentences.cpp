@@ -10,8 +10,10 @@ namespace perifrac {
 
 namespace {
 
-std::string factor_text(double factor) {
-  return factor < 9.95 ? fmt::format("{:.1f}", factor) : fmt::format("{:.0f}", factor);
+std::string takes(double factor) {
+  if (factor < 1.05) return "takes as long";
+  return factor < 9.95 ? fmt::format("takes {:.1f} times as long", factor)
+                       : fmt::format("takes {:.0f} times as long", factor);
 }
 
 std::string where(const Choice& choice) {
@@ -31,7 +33,7 @@ class Speaker {
                                    name(best), time_text(cost(best)));
     if (entry.reaching.size() > 1) {
       const std::size_t next = entry.reaching[1];
-      text += fmt::format("; the next, {}, takes {} times as long", name(next), times(next, best));
+      text += fmt::format("; the next, {}, {}", name(next), longer(next, best));
     } else {
       text += "; no other one does";
     }
@@ -39,12 +41,11 @@ class Speaker {
   }
 
   std::string order(const ObservedOrder& order) const {
-    std::string text = order.axis + where(order.others) + ":";
-    if (order.error) text += fmt::format(" the error goes with its power {:.1f}", *order.error);
-    if (order.cost) {
-      text += fmt::format("{} the cost with {:.1f}", order.error ? "," : "", *order.cost);
-    }
-    return text + ".";
+    std::vector<std::string> parts;
+    if (order.error) parts.push_back(fmt::format("error by {:.1f}", *order.error));
+    if (order.cost) parts.push_back(fmt::format("cost by {:.1f}", *order.cost));
+    return fmt::format("Power of {}{}: {}.", order.axis, where(order.others),
+                       fmt::join(parts, ", "));
   }
 
   std::string crossing(const CostCrossing& crossing) const {
@@ -82,9 +83,7 @@ class Speaker {
  private:
   const std::string& name(std::size_t i) const { return results_.points[i].variant->name; }
   double cost(std::size_t i) const { return results_.points[i].cost.median; }
-  std::string times(std::size_t i, std::size_t best) const {
-    return factor_text(cost(i) / cost(best));
-  }
+  std::string longer(std::size_t i, std::size_t best) const { return takes(cost(i) / cost(best)); }
 
   std::string none(const Ranking& ranking, const std::string& accuracy,
                    const std::string& problem) const {
@@ -102,8 +101,8 @@ class Speaker {
       if (!point) {
         parts.push_back(label + " does not reach it");
       } else if (*point != best && (entry.reaching.size() < 2 || *point != entry.reaching[1])) {
-        parts.push_back(fmt::format("with {} it takes {} times as long ({})", label,
-                                    times(*point, best), name(*point)));
+        parts.push_back(
+            fmt::format("with {} it {} ({})", label, longer(*point, best), name(*point)));
       }
     }
     return parts.empty() ? "" : fmt::format(" Of {}: {}.", study_.compared, fmt::join(parts, "; "));
@@ -135,7 +134,9 @@ std::vector<std::string> sentences(const Study& study, const StudyResults& resul
     }
   }
   for (const CostCrossing& crossing : results.crossings) said.push_back(speaker.crossing(crossing));
-  for (const ObservedOrder& order : results.orders) said.push_back(speaker.order(order));
+  for (const ObservedOrder& order : results.orders) {
+    if (order.error || order.cost) said.push_back(speaker.order(order));
+  }
   std::ranges::move(speaker.failures(), std::back_inserter(said));
   if (!left_out.empty()) {
     said.push_back(fmt::format("Left out by the study: {}.", fmt::join(left_out, ", ")));

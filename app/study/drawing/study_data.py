@@ -34,11 +34,11 @@ class Study:
 
     def numeric(self, problem: bool) -> str | None:
         names = [a["name"] for a in self.data["axes"] if a["numeric"] and a["problem"] == problem]
-        return names[0] if names else None
+        return names[-1] if names else None
 
     @property
     def line_axis(self) -> str | None:
-        """The axis along which points are joined."""
+        """The axis along which points are joined: of those with numbers the innermost."""
         return self.numeric(problem=False) or self.numeric(problem=True)
 
     @property
