@@ -10,8 +10,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import NullLocator
 
-from picture import FAINT, INK, PALETTE, STYLE
+from picture import FAINT, PALETTE, STYLE
 from study_data import Curve, Study
 
 INCHES, DOTS_PER_INCH = (10.0, 4.6), 160
@@ -131,10 +132,21 @@ def draw_side(axes: Axes, study: Study) -> None:
     axes.set_yscale("log", nonpositive="clip")
     places = study.axes[axis]["numbers"]
     axes.set_xticks(places, [f"{place:g}" for place in places], fontsize=7 if len(places) > 6 else None)
-    axes.minorticks_off()
+    axes.xaxis.set_minor_locator(NullLocator())
     ylabel = study.cost_label if problem else study.error_label
     axes.set(title="Cost" if problem else "Order", xlabel=with_unit(study, axis), ylabel=ylabel)
-    axes.legend(loc="best", fontsize=7)
+    draw_legend(axes)
+
+
+def draw_legend(axes: Axes) -> None:
+    """Many curves get a legend of their own room, above them."""
+    count = len(axes.get_legend_handles_labels()[0])
+    if count <= 8:
+        axes.legend(loc="best", fontsize=7)
+        return
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high * (high / low) ** 0.45)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.94), fontsize=5.5, ncols=2, labelspacing=0.25)
 
 
 def subtitle(study: Study) -> str:
@@ -156,6 +168,6 @@ def write_picture(study: Study, path: Path) -> None:
         if panels == 2:
             draw_side(figure.add_subplot(1, 2, 2), study)
         if study.ranked and (panels == 1 or study.side_axis != study.line_axis or len(left.lines) == 0):
-            left.legend(loc="best", fontsize=7, labelcolor=INK)
+            draw_legend(left)
         figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
         plt.close(figure)
