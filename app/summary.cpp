@@ -48,8 +48,11 @@ nlohmann::json ledger_summary(const Ledger& ledger) {
 }
 
 /// What the module's solvers did, those that did nothing left out.
-nlohmann::json statistics(PhysicsModule& module) {
+nlohmann::json statistics(const ModuleSlot& slot) {
   nlohmann::json result = nlohmann::json::object();
+  PhysicsModule& module = *slot.module;
+  if (slot.factors.factorisations > 0) result["factorisations"] = slot.factors.factorisations;
+  if (slot.factors.solves > 0) result["solves"] = slot.factors.solves;
   const auto ports = module.ports();
   for (std::size_t id = 0; id < ports.size(); ++id) {
     if (ports[id].role != PortRole::work) continue;
@@ -67,7 +70,7 @@ nlohmann::json modules_summary(const Section& scene, const CouplingManager& mana
                       {"wall_time", slot.seconds},
                       {"cpu_time", slot.cpu_seconds},
                       {"advances", slot.advances},
-                      {"statistics", statistics(*slot.module)}});
+                      {"statistics", statistics(slot)}});
   }
   return result;
 }

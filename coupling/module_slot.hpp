@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/module/physics_module.hpp"
+#include "core/solvers/sparse_cholesky.hpp"
 
 namespace perifrac {
 
@@ -17,10 +18,11 @@ struct ModuleSlot {
   std::unique_ptr<PhysicsModule> module;
   std::int64_t advances = 0;  ///< calls of advance(), those that were taken back included
   double seconds = 0.0;       ///< wall time in the module [s]
+  CholeskyWork factors{};     ///< what sparse factors did in the module
   double cpu_seconds = 0.0;   ///< of all threads meanwhile [s]
 };
 
-/// Counts the time of its own life as the module's.
+/// Counts the time of its own life, and what factors do meanwhile, as the module's.
 class ModuleTime {
  public:
   explicit ModuleTime(ModuleSlot& slot) : slot_(slot) {}
@@ -29,6 +31,9 @@ class ModuleTime {
   ~ModuleTime() {
     slot_.seconds += std::chrono::duration<double>(Clock::now() - start_).count();
     slot_.cpu_seconds += cpu_clock() - cpu_start_;
+    const CholeskyWork work = SparseCholesky::work();
+    slot_.factors.factorisations += work.factorisations - work_start_.factorisations;
+    slot_.factors.solves += work.solves - work_start_.solves;
   }
 
  private:
@@ -43,6 +48,7 @@ class ModuleTime {
   ModuleSlot& slot_;
   Clock::time_point start_ = Clock::now();
   double cpu_start_ = cpu_clock();
+  CholeskyWork work_start_ = SparseCholesky::work();
 };
 
 /// Shows the state of each module, its fields named `<module>/<field>`.
