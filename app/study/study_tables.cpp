@@ -65,6 +65,40 @@ Row work_names(const StudyResults& results) {
   return names;
 }
 
+Row csv_header(const Study& study, const Row& work) {
+  Row header = {"variant"};
+  for (const StudyAxis& axis : study.axes) header.push_back(axis.name);
+  for (const char* name :
+       {"status", "error", "cost [s]", "cost least [s]", "cost most [s]", "wall_time [s]",
+        "cpu_time [s]", "output_time [s]", "peak_memory [B]", "threads", "runs"}) {
+    header.push_back(name);
+  }
+  header.insert(header.end(), work.begin(), work.end());
+  header.push_back("message");
+  return header;
+}
+
+Row csv_row(const Study& study, const StudyPoint& point, const Row& work) {
+  Row row = {point.variant->name};
+  for (std::size_t a = 0; a < study.axes.size(); ++a) row.push_back(label_of(study, point, a));
+  row.push_back(word(point.record->status));
+  row.push_back(point.is_ranked() ? number(*point.error.error) : "");
+  for (const double value :
+       {point.cost.median, point.cost.least, point.cost.most, point.wall.median, point.cpu_time,
+        point.output_time, point.peak_memory}) {
+    row.push_back(point.record->runs.empty() ? "" : number(value));
+  }
+  row.push_back(std::to_string(point.variant->threads));
+  row.push_back(std::to_string(point.record->runs.size()));
+  const auto done = work_of(point);
+  for (const std::string& name : work) {
+    const auto entry = std::ranges::find(done, name, &std::pair<std::string, std::string>::first);
+    row.push_back(entry == done.end() ? "" : entry->second);
+  }
+  row.push_back(point.record->message);
+  return row;
+}
+
 /// What papers show: axes first.
 Row paper_header(const Study& study) {
   Row row;
@@ -135,37 +169,9 @@ Row each(const Row& row, std::string (*escape)(const std::string&)) {
 }  // namespace
 
 std::string csv_table(const Study& study, const StudyResults& results) {
-  Row header = {"variant"};
-  for (const StudyAxis& axis : study.axes) header.push_back(axis.name);
-  for (const char* name :
-       {"status", "error", "cost [s]", "cost least [s]", "cost most [s]", "wall_time [s]",
-        "cpu_time [s]", "output_time [s]", "peak_memory [B]", "threads", "runs"}) {
-    header.push_back(name);
-  }
-  const Row names = work_names(results);
-  header.insert(header.end(), names.begin(), names.end());
-  header.push_back("message");
-  std::string text = csv_line(header);
-  for (const StudyPoint& point : results.points) {
-    Row row = {point.variant->name};
-    for (std::size_t a = 0; a < study.axes.size(); ++a) row.push_back(label_of(study, point, a));
-    row.push_back(word(point.record->status));
-    row.push_back(point.is_ranked() ? number(*point.error.error) : "");
-    for (const double value :
-         {point.cost.median, point.cost.least, point.cost.most, point.wall.median, point.cpu_time,
-          point.output_time, point.peak_memory}) {
-      row.push_back(point.record->runs.empty() ? "" : number(value));
-    }
-    row.push_back(std::to_string(point.variant->threads));
-    row.push_back(std::to_string(point.record->runs.size()));
-    const auto work = work_of(point);
-    for (const std::string& name : names) {
-      const auto entry = std::ranges::find(work, name, &std::pair<std::string, std::string>::first);
-      row.push_back(entry == work.end() ? "" : entry->second);
-    }
-    row.push_back(point.record->message);
-    text += csv_line(row);
-  }
+  const Row work = work_names(results);
+  std::string text = csv_line(csv_header(study, work));
+  for (const StudyPoint& point : results.points) text += csv_line(csv_row(study, point, work));
   return text;
 }
 
