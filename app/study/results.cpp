@@ -11,7 +11,7 @@ namespace perifrac {
 namespace {
 
 // Wall times nearer to each other than this factor are taken for equal.
-constexpr double blur = 1.15;
+constexpr double blur = 1.25;
 // Errors below it come from rounding: they have no order.
 constexpr double rounding = 1e-11;
 
