@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <system_error>
@@ -17,34 +17,27 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// What the process finds at its start, freed with this object.
-class SpawnSettings {
- public:
-  explicit SpawnSettings(const ProcessCommand& command) {
-    posix_spawn_file_actions_init(&files);
-    posix_spawnattr_init(&attributes);
-    if (command.quiet) {
-      posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    }
-    if (!command.log.empty()) {
-      posix_spawn_file_actions_addopen(&files, STDERR_FILENO, command.log.c_str(),
-                                       O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    }
-    if (command.own_group) {
-      posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-      posix_spawnattr_setpgroup(&attributes, 0);
-    }
-  }
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
+void open_as(int descriptor, const char* path, int flags) {
+  const int opened = open(path, flags, 0644);
+  if (opened >= 0 && opened != descriptor) dup2(opened, descriptor);
+}
 
-  posix_spawn_file_actions_t files;
-  posix_spawnattr_t attributes;
-};
+/// Turns this copy of ours into the program; tells `failure` what hinders it. Nothing in here takes
+/// memory or locks: other threads may have been in the middle of that.
+[[noreturn]] void become(const ProcessCommand& command, char* const* arguments, pid_t parent,
+                         int failure) {
+  if (command.own_group) setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(1);  // it ended before it could matter
+  if (command.quiet) open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
+  if (!command.log.empty()) {
+    open_as(STDERR_FILENO, command.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
+  }
+  execvp(arguments[0], arguments);
+  const int error = errno;
+  [[maybe_unused]] const ssize_t told = write(failure, &error, sizeof error);
+  _exit(1);
+}
 
 }  // namespace
 
@@ -53,9 +46,18 @@ Process::Process(const ProcessCommand& command) : own_group_(command.own_group) 
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  const SpawnSettings settings(command);
-  const int error = posix_spawnp(&pid_, arguments[0], &settings.files, &settings.attributes,
-                                 arguments.data(), environ);
+  // Closes by itself where the program takes over: what comes through is why it did not.
+  int failure[2];
+  if (pipe2(failure, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
+  const pid_t parent = getpid();
+  pid_ = fork();
+  if (pid_ == 0) become(command, arguments.data(), parent, failure[1]);
+  int error = pid_ < 0 ? errno : 0;
+  close(failure[1]);
+  if (pid_ > 0 && read(failure[0], &error, sizeof error) == sizeof error) {
+    waitpid(pid_, nullptr, 0);
+  }
+  close(failure[0]);
   if (error != 0) throw std::system_error(error, std::generic_category(), words[0]);
 }
 

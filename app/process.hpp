@@ -26,7 +26,8 @@ struct ProcessEnd {
   double peak_memory = 0.0;  ///< [bytes]
 };
 
-/// A process that we started. It is killed with this object if it still runs.
+/// A process that we started. It is killed with this object if it still runs, and asked to stop
+/// (SIGTERM) by the system where we end without that.
 class Process {
  public:
   /// Throws std::system_error where it cannot be started.

@@ -3,8 +3,8 @@
 Usage: study_test.py PERIFRAC
 """
 import csv
+import fcntl
 import json
-import os
 import signal
 import subprocess
 import time
@@ -107,6 +107,23 @@ class StudyTest(RunTest):
         again = self.finish()
         self.assertIn("6 kept from before", again.stderr)
         self.assertEqual({name: self.record(name).stat().st_mtime_ns for name in names}, before)
+
+    def test_killed_outright_it_takes_its_runs_along_and_goes_on(self):
+        begun = self.folder / "out/variants/endless/history.csv"
+        process = subprocess.Popen([PERIFRAC, *self.options], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.wait_for(begun.exists, process)
+        process.kill()
+        process.wait()
+        with open(begun.parent / ".lock", encoding="utf-8") as lock:
+            end = time.monotonic() + 20
+            while True:
+                try:
+                    fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    break
+                except BlockingIOError:
+                    self.assertLess(time.monotonic(), end, "the run goes on")
+                    time.sleep(0.05)
+        self.assertEqual(self.stop(signal.SIGINT), 130)
 
     def test_leaves_tables_and_pictures(self):
         self.finish("--jobs", "2")
