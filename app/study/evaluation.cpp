@@ -24,11 +24,15 @@ HistoryTable history_of(const StudyOptions& options, const Variant& variant) {
   return HistoryTable(folder_of(options, variant) / "history.csv");
 }
 
-/// Wall time [s] that counts as the cost of a run; NaN where the module is not in it.
-double cost_of(const nlohmann::json& run, const std::string& what) {
-  if (what == "run") return run["wall_time"].get<double>() - run["output_time"].get<double>();
+/// Time [s] that counts as the cost of a run; NaN where the module is not in it.
+double cost_of(const nlohmann::json& run, const Study& study) {
+  const char* const time = study.cpu_cost ? "cpu_time" : "wall_time";
+  if (study.cost_of == "run") {
+    const double output = study.cpu_cost ? 0.0 : run["output_time"].get<double>();
+    return run[time].get<double>() - output;
+  }
   for (const auto& module : run["modules"]) {
-    if (module["name"] == what) return module["wall_time"];
+    if (module["name"] == study.cost_of) return module[time];
   }
   return std::nan("");
 }
@@ -54,7 +58,7 @@ StudyPoint take(const Study& study, const Variant& variant, const VariantRecord&
     return spread_of(runs, [&](const nlohmann::json& run) { return run.value(key, 0.0); });
   };
   const auto cost = [&](const nlohmann::json& run) {
-    return done ? cost_of(run, study.cost_of) : run["elapsed"].get<double>();
+    return done ? cost_of(run, study) : run[study.cpu_cost ? "cpu_time" : "elapsed"].get<double>();
   };
   point.cost = spread_of(runs, cost);
   point.wall = done ? of("wall_time") : of("elapsed");

@@ -176,6 +176,7 @@ Study read_study(const std::string& file) {
               .skipped = {},
               .error = {},
               .cost_of = section.word("cost.of"),
+              .cpu_cost = section.word("cost.time") == "cpu",
               .compared = {},
               .accuracies = {},
               .repetitions = section.integer("repetitions"),

@@ -50,6 +50,7 @@ struct Study {
   std::vector<Combination> skipped;
   ErrorMeasure error;
   std::string cost_of;
+  bool cpu_cost;         ///< CPU time is the cost, else wall time
   std::string compared;  ///< name of an axis
   std::vector<double> accuracies;
   int repetitions;

@@ -158,7 +158,7 @@ Json study_json(const Study& study, const StudyResults& results, const StudyOpti
           {"axes", axes_json(study)},
           {"compare", study.compared},
           {"error", error_json(study.error)},
-          {"cost", study.cost_of},
+          {"cost", {{"of", study.cost_of}, {"time", study.cpu_cost ? "cpu" : "wall"}}},
           {"accuracies", study.accuracies},
           {"variants", variants},
           {"left_out", left_out},

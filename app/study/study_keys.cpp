@@ -111,8 +111,13 @@ KeyTable cost_keys() {
            .type = KeyType::word,
            .fallback = "run",
            .words = {"run", "fluid", "crack_fluid", "pore_flow", "solid"},
-           .meaning = "Whose wall time is the cost: the whole run's without output, or one "
-                      "module's."}};
+           .meaning = "Whose time is the cost: the whole run's, or one module's."},
+          {.path = "time",
+           .type = KeyType::word,
+           .fallback = "wall",
+           .words = {"wall", "cpu"},
+           .meaning = "wall: as it passes; of the whole run without output. cpu: of all threads, "
+                      "output included; for machines that do other things meanwhile."}};
 }
 
 KeyTable budget_keys() {

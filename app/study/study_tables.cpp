@@ -103,7 +103,8 @@ Row csv_row(const Study& study, const StudyPoint& point, const Row& work) {
 Row paper_header(const Study& study) {
   Row row;
   for (const StudyAxis& axis : study.axes) row.push_back(axis.name);
-  for (const char* name : {"error", "wall time", "times the cheapest", "memory"})
+  for (const char* name :
+       {"error", study.cpu_cost ? "CPU time" : "wall time", "times the cheapest", "memory"})
     row.push_back(name);
   return row;
 }

@@ -79,8 +79,10 @@ class Study:
 
     @property
     def cost_label(self) -> str:
-        of = self.data["cost"]
-        return "wall time without output [s]" if of == "run" else f"wall time in {of.replace('_', ' ')} [s]"
+        of, cpu = self.data["cost"]["of"], self.data["cost"]["time"] == "cpu"
+        if of == "run":
+            return "CPU time [s]" if cpu else "wall time without output [s]"
+        return f"{'CPU' if cpu else 'wall'} time in {of.replace('_', ' ')} [s]"
 
     @property
     def error_label(self) -> str:
