@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper permeability toughness bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper study study-quick toughness bench clean
 
 SCENE ?= configs/hf_storage.yaml
 BUILD := build/release
@@ -14,7 +14,8 @@ help:
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
 	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
-	@echo 'make permeability  explicit against cvode, 1e-20 to 1e-8 m^2: docs/permeability.md'
+	@echo 'make study-quick  error against wall time of explicit and implicit pore flow'
+	@echo 'make study  every study of configs/studies; writes the pictures of docs/studies.md anew'
 
 install:
 	@tools/install
@@ -49,8 +50,13 @@ paper: perifrac
 docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md
 
-permeability: perifrac
-	tests/verification/permeability.py $(PERIFRAC) --page docs/permeability.md
+# Studies go on where they were stopped. FRESH=--fresh runs everything again, as on another machine.
+study-quick: perifrac
+	$(PERIFRAC) study configs/studies/explicit_or_implicit.yaml $(FRESH)
+
+study: perifrac
+	@for file in configs/studies/*.yaml; do $(PERIFRAC) study $$file $(FRESH) || exit; done
+	@/usr/bin/python3 docs/collect_studies.py runs
 
 toughness: configure
 	@cmake --build --preset release --target verification_toughness

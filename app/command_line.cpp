@@ -11,6 +11,7 @@
 #include "app/list.hpp"
 #include "app/report.hpp"
 #include "app/run.hpp"
+#include "app/study/study.hpp"
 #include "app/version.hpp"
 #include "core/errors.hpp"
 
@@ -23,6 +24,7 @@ constexpr int failure = 1;
 
 struct Request {
   RunRequest run;
+  StudyRequest study;
   int threads = 0;
   std::string folder;
   bool page = false;
@@ -64,12 +66,28 @@ void add_check_options(CLI::App& verb, Request& request) {
       ->check(CLI::Range(1, 1024));
 }
 
+void add_study_options(CLI::App& verb, StudyRequest& study) {
+  verb.add_option("study", study.file, "study file (YAML)")->required();
+  verb.add_option("--output", study.output, "folder for results; runs/<study>")->type_name("DIR");
+  verb.add_option("--jobs", study.jobs, "variants at a time; those that run together are slower")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  verb.add_option("--launcher", study.launcher,
+                  "words before the command of every run, as in 'srun -n1'")
+      ->type_name("WORDS");
+  verb.add_flag("--retry", study.retry, "run again what did not end well");
+  verb.add_flag("--fresh", study.fresh, "run everything again");
+  verb.add_flag("!--no-report", study.report, "make no picture and no page");
+  verb.add_flag("--json", study.json, "machine-readable output");
+}
+
 int dispatch(const CLI::App& app, const Request& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);
   if (app.got_subcommand("check")) {
     return check_scene(request.run.scene, request.run.overrides, request.run.json, request.trial);
   }
+  if (app.got_subcommand("study")) return run_study(request.study);
   if (app.got_subcommand("report")) return make_report(request.folder, false);
   return request.page ? print_reference_page() : list_modules(request.run.json);
 }
@@ -82,6 +100,9 @@ int parse_and_dispatch(int argc, char** argv) {
   add_run_options(*app.add_subcommand("run", "run a scene"), request);
   add_check_options(*app.add_subcommand("check", "say what a scene calls for, and will take"),
                     request);
+  add_study_options(
+      *app.add_subcommand("study", "run the variants of a scene; what accuracy costs"),
+      request.study);
   CLI::App& report = *app.add_subcommand("report", "make the picture and the page of a run");
   report.add_option("folder", request.folder, "folder of a run")->required()->type_name("DIR");
   CLI::App& list = *app.add_subcommand("list", "modules and keys");
@@ -94,7 +115,7 @@ int parse_and_dispatch(int argc, char** argv) {
     throw InputError(std::string("perifrac: ") + error.what() + "; see perifrac --help");
   }
   if (app.get_subcommands().empty()) {
-    throw InputError("perifrac: a verb is missing; expected run, check, report or list");
+    throw InputError("perifrac: a verb is missing; expected run, check, study, report or list");
   }
   return dispatch(app, request);
 }

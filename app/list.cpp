@@ -5,6 +5,7 @@
 
 #include "app/register_modules.hpp"
 #include "app/scene_keys.hpp"
+#include "app/study/study_keys.hpp"
 #include "core/config/reference_page.hpp"
 
 namespace perifrac {
@@ -56,6 +57,9 @@ int list_modules(bool json) {
 
 int print_reference_page() {
   fmt::print("{}", reference_page(scene_catalogue()));
+  fmt::print(
+      "\n# Studies\n\nWhat a file of `perifrac study` may say ([studies.md](studies.md)).\n{}",
+      reference_tables(study_catalogue()));
   return 0;
 }
 

@@ -15,6 +15,19 @@ double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Adds the time of its own life.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += wall_clock() - start_; }
+
+ private:
+  double& seconds_;
+  double start_ = wall_clock();
+};
+
 }  // namespace
 
 Recorder::Recorder(const Section& scene, std::string scene_text, Simulation& simulation)
@@ -47,6 +60,7 @@ void Recorder::open(const OutputFolder& folder, const std::optional<Checkpoint>&
     write_checkpoint(false);
     std::filesystem::remove(folder_ / "summary.json");
   }
+  const Stopwatch watch(seconds_);
   std::vector<HistoryColumn> columns = probes_.columns();
   for (const LedgerColumn& column : simulation_.manager->ledger().columns()) {
     columns.push_back({column.name, column.unit});
@@ -65,6 +79,7 @@ void Recorder::open(const OutputFolder& folder, const std::optional<Checkpoint>&
 void Recorder::record_window() {
   const double time = simulation_.manager->time();
   if (time < next_row_) return;
+  const Stopwatch watch(seconds_);
   // Rows keep to multiples of the interval, whatever the windows.
   if (history_interval_ > 0.0) {
     next_row_ = history_interval_ * (std::floor(time / history_interval_ * (1 + 1e-12)) + 1.0);
@@ -79,6 +94,7 @@ void Recorder::record_window() {
 }
 
 void Recorder::record_output() {
+  const Stopwatch watch(seconds_);
   const double time = simulation_.manager->time();
   write_frames(time);
   if (reference_ && time > 0.0) reference_->record_output(time);
@@ -112,6 +128,7 @@ void Recorder::write_checkpoint(bool if_due) {
   if (!last_ || last_->step == step_on_disk_) return;
   const double now = wall_clock();
   if (if_due && step_on_disk_ >= 0 && now - disk_time_ < checkpoint_interval_) return;
+  const Stopwatch watch(seconds_);
   perifrac::write_checkpoint(folder_, *last_);
   step_on_disk_ = last_->step;
   disk_time_ = now;

@@ -47,6 +47,7 @@ class Recorder {
   /// Throws NumericalError at the first value that is not finite.
   void check_finite();
 
+  double seconds() const { return seconds_; }  ///< wall time [s] of all that is written
   const Reference* reference() const { return reference_.get(); }  ///< null without one
 
  private:
@@ -62,6 +63,7 @@ class Recorder {
   double checkpoint_interval_;
   double next_row_ = 0.0;
 
+  double seconds_ = 0.0;
   std::filesystem::path folder_;
   std::optional<History> history_;
   std::map<std::string, FrameSeries> frames_;  ///< by point set

@@ -184,7 +184,8 @@ int run_scene(const RunRequest& request) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const nlohmann::json summary =
-      summarize(scene, request.scene, text, simulation, recorder.reference(), outcome, seconds);
+      summarize(scene, request.scene, text, simulation, recorder.reference(), outcome,
+                {.whole = seconds, .output = recorder.seconds()});
   write_summary(folder.path(), summary);
   if (request.json) {
     fmt::print("{}", json_text(summary));

@@ -4,11 +4,12 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <omp.h>
 
+#include "app/build_info.hpp"
 #include "app/register_modules.hpp"
 #include "app/version.hpp"
 #include "core/io/atomic_file.hpp"
-#include "core/solvers/sparse_cholesky.hpp"
 
 namespace perifrac {
 
@@ -25,6 +26,17 @@ const char* word(RunOutcome outcome) {
   }
 }
 
+/// What the process has used of this machine so far.
+rusage usage() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return used;
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 nlohmann::json ledger_summary(const Ledger& ledger) {
   nlohmann::json result = nlohmann::json::object();
   for (const LedgerColumn& column : ledger.columns()) {
@@ -36,8 +48,11 @@ nlohmann::json ledger_summary(const Ledger& ledger) {
 }
 
 /// What the module's solvers did, those that did nothing left out.
-nlohmann::json statistics(PhysicsModule& module) {
+nlohmann::json statistics(const ModuleSlot& slot) {
   nlohmann::json result = nlohmann::json::object();
+  PhysicsModule& module = *slot.module;
+  if (slot.factors.factorisations > 0) result["factorisations"] = slot.factors.factorisations;
+  if (slot.factors.solves > 0) result["solves"] = slot.factors.solves;
   const auto ports = module.ports();
   for (std::size_t id = 0; id < ports.size(); ++id) {
     if (ports[id].role != PortRole::work) continue;
@@ -53,19 +68,16 @@ nlohmann::json modules_summary(const Section& scene, const CouplingManager& mana
     result.push_back({{"name", slot.name},
                       {"type", scene.word(slot.name + ".type")},
                       {"wall_time", slot.seconds},
+                      {"cpu_time", slot.cpu_seconds},
                       {"advances", slot.advances},
-                      {"statistics", statistics(*slot.module)}});
+                      {"statistics", statistics(slot)}});
   }
   return result;
 }
 
 }  // namespace
 
-long peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024 * usage.ru_maxrss;
-}
+long peak_memory() { return 1024 * usage().ru_maxrss; }
 
 std::vector<std::string> effects(const Section& scene) {
   std::vector<std::string> result;
@@ -97,24 +109,28 @@ nlohmann::json counts(const Simulation& simulation) {
 
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const std::string& scene_text, Simulation& simulation,
-                         const Reference* reference, RunOutcome outcome, double seconds) {
+                         const Reference* reference, RunOutcome outcome, const WallTime& wall) {
   const CouplingManager& manager = *simulation.manager;
-  nlohmann::json result = {
-      {"scene",
-       {{"title", scene.has("title") ? scene.text("title") : ""},
-        {"path", scene_file},
-        {"text", scene_text}}},
-      {"version", version},
-      {"build", {{"sparse factor", SparseCholesky::backend()}, {"compiler", __VERSION__}}},
-      {"dimension", scene.integer("dimension")},
-      {"outcome", word(outcome)},
-      {"time", {{"value", manager.time()}, {"unit", "s"}}},
-      {"effects", effects(scene)},
-      {"counts", counts(simulation)},
-      {"modules", modules_summary(scene, manager)},
-      {"wall_time", seconds},
-      {"peak_memory", peak_memory()},
-      {"ledger", ledger_summary(manager.ledger())}};
+  const rusage used = usage();
+  nlohmann::json result = {{"scene",
+                            {{"title", scene.has("title") ? scene.text("title") : ""},
+                             {"path", scene_file},
+                             {"text", scene_text}}},
+                           {"version", version},
+                           {"build", build_info()},
+                           {"machine", machine_info()},
+                           {"dimension", scene.integer("dimension")},
+                           {"outcome", word(outcome)},
+                           {"time", {{"value", manager.time()}, {"unit", "s"}}},
+                           {"effects", effects(scene)},
+                           {"counts", counts(simulation)},
+                           {"modules", modules_summary(scene, manager)},
+                           {"wall_time", wall.whole},
+                           {"output_time", wall.output},
+                           {"cpu_time", seconds(used.ru_utime) + seconds(used.ru_stime)},
+                           {"threads", omp_get_max_threads()},
+                           {"peak_memory", peak_memory()},
+                           {"ledger", ledger_summary(manager.ledger())}};
   result["counts"]["windows"] = manager.step();
   result["counts"]["passes"] = manager.work().passes;
   result["counts"]["most_passes"] = manager.work().most_passes;

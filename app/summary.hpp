@@ -13,10 +13,16 @@ namespace perifrac {
 
 enum class RunOutcome { done, failed, stopped };
 
+/// Wall times [s] of a run.
+struct WallTime {
+  double whole;
+  double output;  ///< of it, in history, frames, checkpoints and the comparison with a reference
+};
+
 /// What summary.json holds; its keys are described in app/report/README.md.
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const std::string& scene_text, Simulation& simulation,
-                         const Reference* reference, RunOutcome outcome, double seconds);
+                         const Reference* reference, RunOutcome outcome, const WallTime& wall);
 
 /// JSON as text. Bytes of a scene that are not UTF-8 are replaced: they must not cost the results.
 std::string json_text(const nlohmann::json& json);

@@ -2,11 +2,13 @@
 
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <memory>
 #include <span>
 #include <string>
 
 #include "core/module/physics_module.hpp"
+#include "core/solvers/sparse_cholesky.hpp"
 
 namespace perifrac {
 
@@ -16,20 +18,37 @@ struct ModuleSlot {
   std::unique_ptr<PhysicsModule> module;
   std::int64_t advances = 0;  ///< calls of advance(), those that were taken back included
   double seconds = 0.0;       ///< wall time in the module [s]
+  CholeskyWork factors{};     ///< what sparse factors did in the module
+  double cpu_seconds = 0.0;   ///< of all threads meanwhile [s]
 };
 
-/// Counts the time of its own life as the module's.
+/// Counts the time of its own life, and what factors do meanwhile, as the module's.
 class ModuleTime {
  public:
   explicit ModuleTime(ModuleSlot& slot) : slot_(slot) {}
   ModuleTime(const ModuleTime&) = delete;
   ModuleTime& operator=(const ModuleTime&) = delete;
-  ~ModuleTime() { slot_.seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  ~ModuleTime() {
+    slot_.seconds += std::chrono::duration<double>(Clock::now() - start_).count();
+    slot_.cpu_seconds += cpu_clock() - cpu_start_;
+    const CholeskyWork work = SparseCholesky::work();
+    slot_.factors.factorisations += work.factorisations - work_start_.factorisations;
+    slot_.factors.solves += work.solves - work_start_.solves;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  static double cpu_clock() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+
   ModuleSlot& slot_;
   Clock::time_point start_ = Clock::now();
+  double cpu_start_ = cpu_clock();
+  CholeskyWork work_start_ = SparseCholesky::work();
 };
 
 /// Shows the state of each module, its fields named `<module>/<field>`.

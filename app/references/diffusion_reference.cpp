@@ -22,7 +22,17 @@ struct Slab {
   double initial;   ///< pressure [Pa]
   double pressure;  ///< from t = 0 on at the drained end [Pa]
   double diffusivity;
+  std::vector<double> weight;  ///< of the fluid at rest, d(pressure)/d(coordinate) [Pa/m]
+  std::vector<double> top;     ///< where it is 0
 
+  /// What depth adds to the pressure of fluid at rest.
+  double by_depth(const PointSet& points, Index i) const {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < weight.size(); ++a) {
+      sum += weight[a] * (points.position[a][i] - top[a]);
+    }
+    return sum;
+  }
   double length() const { return std::abs(drained - sealed); }
   double time_scale() const { return length() * length() / diffusivity; }
   double at(double x, double t) const {
@@ -31,11 +41,30 @@ struct Slab {
   }
 };
 
+/// Gravity must leave the fluid at rest: only the drop of pressure diffuses then.
+void add_weight(const Section& scene, const std::string& face, Slab& slab) {
+  if (!writes(scene, "gravity")) return;
+  const Section flow = scene.at("pore_flow");
+  require_word(scene, problem, "pore_flow.initial_state", {"hydrostatic"});
+  if (!flow.boolean(face + ".hydrostatic")) {
+    scene.fail("reference.type", "this scene is not " + problem,
+               fmt::format("pore_flow.{}.hydrostatic: true", face));
+  }
+  const std::vector<double> size = scene.numbers("body.size");
+  for (const double gravity : scene.numbers("gravity")) {
+    slab.weight.push_back(flow.number("fluid.density") * gravity);
+    slab.top.push_back(gravity > 0.0 ? 0.0 : size[slab.top.size()]);
+  }
+  if (slab.weight[slab.axis] != 0.0) {
+    scene.fail("reference.type", "this scene is not " + problem, "gravity across the flow");
+  }
+}
+
 Slab read_slab(const Section& scene) {
   require_word(scene, problem, "body.shape", {"box"});
   require_word(scene, problem, "pore_flow.type", {"darcy"});
   require_absent(scene, problem,
-                 {"solid.regions", "pore_flow.regions", "gravity", "pore_flow.initial_gradient"});
+                 {"solid.regions", "pore_flow.regions", "pore_flow.initial_gradient"});
   if (scene.has("solid") && scene.word("solid.type") != "rigid") {
     scene.fail("reference.type", "this scene is not " + problem, "no solid, or solid.type: rigid");
   }
@@ -60,12 +89,16 @@ Slab read_slab(const Section& scene) {
   if (flow.number("initial_pressure") == flow.number(face + ".pressure")) {
     scene.fail("pore_flow.initial_pressure", "nothing would flow", "not the pressure on the face");
   }
-  return {.axis = axis,
-          .sealed = low ? size : 0.0,
-          .drained = low ? -beyond : size + beyond,
-          .initial = flow.number("initial_pressure"),
-          .pressure = flow.number(face + ".pressure"),
-          .diffusivity = pore.mobility / pore.storage};
+  Slab slab{.axis = axis,
+            .sealed = low ? size : 0.0,
+            .drained = low ? -beyond : size + beyond,
+            .initial = flow.number("initial_pressure"),
+            .pressure = flow.number(face + ".pressure"),
+            .diffusivity = pore.mobility / pore.storage,
+            .weight = {},
+            .top = {}};
+  add_weight(scene, face, slab);
+  return slab;
 }
 
 }  // namespace
@@ -80,9 +113,10 @@ std::unique_ptr<Reference> make_diffusion_reference(const Section& scene,
   auto reference =
       std::make_unique<Reference>("diffusion", "Diffusion from one face", slab.time_scale());
   reference->add(Reference::Error{
-      "pressure_error", largest_error(pressure, 0, points_inside(scene, points),
-                                      std::abs(slab.initial - slab.pressure),
-                                      [=](Index i, double t) { return exact(x[i], t); })});
+      "pressure_error",
+      largest_error(pressure, 0, points_inside(scene, points),
+                    std::abs(slab.initial - slab.pressure),
+                    [=](Index i, double t) { return exact(x[i], t) + slab.by_depth(points, i); })});
   const std::vector<Index> row =
       points_along(scene, points, slab.axis, std::vector(points.dimension, 0.0));
   for (const double part : {0.25, 0.5, 0.75, 1.0}) {
@@ -91,9 +125,12 @@ std::unique_ptr<Reference> make_diffusion_reference(const Section& scene,
     reference->add(Reference::History{part == 1.0 ? "pore pressure at the sealed end"
                                                   : fmt::format("pore pressure at {} L", part),
                                       "Pa", value_at(pressure, point),
-                                      [=, at = x[point]](double t) { return exact(at, t); }});
+                                      [=, at = x[point], depth = slab.by_depth(points, point)](
+                                          double t) { return exact(at, t) + depth; }});
   }
-  reference->add(profile_along(row, points, slab.axis, "pore pressure", "Pa", pressure, exact));
+  reference->add(profile_along(row, points, slab.axis, "pore pressure", "Pa", pressure,
+                               [=, depth = slab.by_depth(points, row.front())](
+                                   double at, double t) { return exact(at, t) + depth; }));
   return reference;
 }
 

@@ -19,7 +19,8 @@ struct SectionKeys {
   bool optional = false;
 };
 
-/// All that a scene may say. The top level must declare an integer `dimension`, 2 or 3.
+/// All that a scene, or another file of ours, may say. Where keys are vectors or have a unit by
+/// dimension, the top level declares an integer `dimension`, 2 or 3.
 using Catalogue = std::vector<SectionKeys>;
 
 }  // namespace perifrac

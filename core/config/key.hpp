@@ -13,6 +13,7 @@ enum class KeyType {
   text,     ///< free text
   vector,   ///< a list of quantities, one a dimension of space
   numbers,  ///< a list of quantities of any length
+  tree,     ///< any list or map, for who declares the key to read
 };
 
 /// One line of the table of scene keys: all that is known of a key, declared once, where it is

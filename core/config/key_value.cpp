@@ -102,11 +102,18 @@ std::string describe_value(const Key& key, int dimension) {
       return fmt::format("a list of {}, each {}", dimension, describe_quantity(unit) + range);
     case KeyType::numbers:
       return fmt::format("a list, each {}", describe_quantity(unit) + range);
+    case KeyType::tree:
+      return "a list or a map";
   }
   return {};
 }
 
 KeyValue read_value(const Key& key, const YamlNode& node, const std::string& path, int dimension) {
+  if (key.type == KeyType::tree) {
+    if (node.children.empty())
+      refuse(node, path, describe_kind(node) + "; expected a list or a map with something in it");
+    return node;
+  }
   const bool wants_list = key.type == KeyType::vector || key.type == KeyType::numbers;
   const auto wanted = wants_list ? YamlNode::Kind::list : YamlNode::Kind::scalar;
   if (node.kind != wanted) {
@@ -136,6 +143,8 @@ KeyValue read_value(const Key& key, const YamlNode& node, const std::string& pat
                            expected_one_of(key.words, node.text)));
       }
       return node.text;
+    case KeyType::tree:
+      break;  // read above
   }
   return {};
 }

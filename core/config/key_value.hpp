@@ -10,7 +10,8 @@
 namespace perifrac {
 
 /// What a key holds once read, in SI; a group of further keys holds nothing itself.
-using KeyValue = std::variant<std::monostate, double, int, bool, std::string, std::vector<double>>;
+using KeyValue =
+    std::variant<std::monostate, double, int, bool, std::string, std::vector<double>, YamlNode>;
 
 /// Reads and checks the value of `key` that stands at `path`. Throws InputError.
 KeyValue read_value(const Key& key, const YamlNode& node, const std::string& path, int dimension);

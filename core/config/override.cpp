@@ -46,21 +46,26 @@ YamlNode& member(YamlNode& map, const std::string& segment, const std::string& p
 
 }  // namespace
 
+void set_key(YamlNode& scene, const std::string& path, YamlNode value) {
+  const std::string place = value.key_place;
+  YamlNode* node = &scene;
+  for (const std::string& segment : path_segments(path)) {
+    if (segment.empty()) refuse(place, "an empty name in the key", "names between the dots");
+    node = segment[0] == '[' ? &item(*node, segment, place) : &member(*node, segment, place);
+  }
+  value.key = node->key;
+  *node = std::move(value);
+}
+
 void apply_override(YamlNode& scene, const std::string& assignment) {
   const std::string place = "--set " + printable(assignment);
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
     refuse(place, "not an assignment", "key=value, such as pore_flow.porosity=0.2");
   }
-  YamlNode* node = &scene;
-  for (const std::string& segment : path_segments(assignment.substr(0, equals))) {
-    if (segment.empty()) refuse(place, "an empty name in the key", "names between the dots");
-    node = segment[0] == '[' ? &item(*node, segment, place) : &member(*node, segment, place);
-  }
   YamlNode value = parse_yaml_text(assignment.substr(equals + 1), place);
-  value.key = node->key;
   value.key_place = place;
-  *node = std::move(value);
+  set_key(scene, assignment.substr(0, equals), std::move(value));
 }
 
 }  // namespace perifrac

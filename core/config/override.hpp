@@ -11,4 +11,7 @@ namespace perifrac {
 /// what it puts there are placed at `--set key=value`. Throws InputError.
 void apply_override(YamlNode& scene, const std::string& assignment);
 
+/// The same with a value that stands in a file: messages are placed where it stands there.
+void set_key(YamlNode& scene, const std::string& path, YamlNode value);
+
 }  // namespace perifrac

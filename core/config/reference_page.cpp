@@ -24,6 +24,8 @@ std::string kind_name(KeyType type) {
       return "vector";
     case KeyType::numbers:
       return "numbers";
+    case KeyType::tree:
+      return "list or map";
   }
   return {};
 }
@@ -82,6 +84,11 @@ std::string reference_page(const Catalogue& catalogue) {
       "A quantity may carry a unit (`0.21 MPa`); a bare number is in the unit given here. "
       "`N/m|N` means the first in 2D, the second in 3D. In a key, `*` stands for a name of your "
       "choice and `[]` for the items of a list.\n";
+  return page + reference_tables(catalogue);
+}
+
+std::string reference_tables(const Catalogue& catalogue) {
+  std::string page;
   for (const SectionKeys& entry : grouped(catalogue)) {
     const std::string title = entry.section.empty() ? "Top level" : code(entry.section);
     page += fmt::format("\n## {}{}\n\n", title,

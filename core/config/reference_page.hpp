@@ -28,4 +28,7 @@ std::vector<KeyReference> list_keys(const Catalogue& catalogue);
 /// The page `docs/configuration.md`.
 std::string reference_page(const Catalogue& catalogue);
 
+/// Its tables alone, a heading a section.
+std::string reference_tables(const Catalogue& catalogue);
+
 }  // namespace perifrac

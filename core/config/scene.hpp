@@ -5,6 +5,7 @@
 
 #include "core/config/catalogue.hpp"
 #include "core/config/section.hpp"
+#include "core/config/yaml_tree.hpp"
 
 namespace perifrac {
 
@@ -13,5 +14,8 @@ namespace perifrac {
 /// Throws InputError, which names `file:line:column` or `--set key=value`, for the first mistake.
 Section read_scene(const std::string& path, const std::vector<std::string>& overrides,
                    const Catalogue& catalogue);
+
+/// The second half of it: `written` was read from the file at `path`.
+Section check_tree(const YamlNode& written, const std::string& path, const Catalogue& catalogue);
 
 }  // namespace perifrac

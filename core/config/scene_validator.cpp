@@ -43,9 +43,10 @@ class Validator {
     require_map(written, scene_.keys, "", "");
     check_names(root);
     const KeyNode* dimension = scene_.keys.child("dimension");
-    if (dimension == nullptr) throw std::logic_error("no key 'dimension' at the top level");
-    read_child(root, *dimension);  // units and lengths of vectors follow it
-    dimension_ = std::get<int>(scene_.entries.at("dimension").value);
+    if (dimension != nullptr) {
+      read_child(root, *dimension);  // units and lengths of vectors follow it
+      dimension_ = std::get<int>(scene_.entries.at("dimension").value);
+    }
     read_map(root);
   }
 

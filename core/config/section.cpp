@@ -52,6 +52,10 @@ std::vector<double> Section::numbers(std::string_view path) const {
   return value<std::vector<double>>(path, "a list of numbers");
 }
 
+const YamlNode& Section::tree(std::string_view path) const {
+  return value<YamlNode>(path, "a tree");
+}
+
 std::vector<std::string> Section::names(std::string_view path) const {
   const auto entry = tree_->entries.find(full_path(path));
   return entry == tree_->entries.end() ? std::vector<std::string>{} : entry->second.children;

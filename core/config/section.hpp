@@ -8,6 +8,7 @@
 namespace perifrac {
 
 struct SceneTree;
+struct YamlNode;
 
 /// A read-only view of a part of a validated scene: units are SI, defaults are filled in, ranges
 /// hold. Paths are relative to the section (`material.youngs_modulus`, `probes[0].at`). Asking for
@@ -27,6 +28,7 @@ class Section {
   /// A text that names a file, taken from the folder of the scene.
   std::string file(std::string_view path) const;
   std::vector<double> numbers(std::string_view path) const;     ///< vector and numbers
+  const YamlNode& tree(std::string_view path) const;            ///< as written
   std::vector<std::string> names(std::string_view path) const;  ///< children, in the file's order
   std::size_t count(std::string_view path) const;               ///< items of a list; 0 if absent
   Section at(std::string_view path) const;

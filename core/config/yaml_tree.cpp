@@ -1,6 +1,7 @@
 #include "core/config/yaml_tree.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -151,6 +152,26 @@ YamlNode parse(std::istream& text, TreeBuilder builder) {
   return builder.take();
 }
 
+/// Plain where YAML takes it as the same text wherever it stands, else between double quotes.
+std::string scalar_text(const std::string& text) {
+  constexpr const char* plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-/^*()% ";
+  const bool starts_plainly =
+      !text.empty() && (std::isalnum(static_cast<unsigned char>(text[0])) ||
+                        (text[0] == '-' && text.size() > 1 && text[1] != ' '));
+  const bool is_null = text == "null" || text == "Null" || text == "NULL";
+  if (starts_plainly && !is_null && text.back() != ' ' &&
+      text.find_first_not_of(plain) == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c == '\n' ? std::string("\\n") : std::string(1, c);
+  }
+  return quoted + '"';
+}
+
 }  // namespace
 
 const YamlNode* YamlNode::child(const std::string& name) const {
@@ -164,6 +185,19 @@ std::string describe_kind(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::null) return "has no value";
   if (node.kind == YamlNode::Kind::scalar) return in_quotes(node.text) + " is a single value";
   return node.kind == YamlNode::Kind::list ? "is a list" : "is a map";
+}
+
+std::string yaml_text(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::null) return "";
+  if (node.kind == YamlNode::Kind::scalar) return scalar_text(node.text);
+  const bool map = node.kind == YamlNode::Kind::map;
+  std::string text;
+  for (const YamlNode& child : node.children) {
+    if (!text.empty()) text += ", ";
+    if (map) text += scalar_text(child.key) + ": ";
+    text += yaml_text(child);
+  }
+  return map ? "{" + text + "}" : "[" + text + "]";
 }
 
 YamlNode parse_yaml_file(const std::string& path) {

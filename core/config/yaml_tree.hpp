@@ -22,6 +22,9 @@ struct YamlNode {
 /// What stands there instead of what should: `is a list`, `'4 m' is a single value`.
 std::string describe_kind(const YamlNode& node);
 
+/// The node on one line, which reads back as the same.
+std::string yaml_text(const YamlNode& node);
+
 /// Reads one YAML document. Throws InputError for bad syntax, duplicate keys (yaml-cpp itself keeps
 /// them silently), aliases and a second document. No text gives a null node.
 YamlNode parse_yaml_file(const std::string& path);

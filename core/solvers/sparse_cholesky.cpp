@@ -1,6 +1,7 @@
 #include "core/solvers/sparse_cholesky.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 
@@ -9,6 +10,12 @@
 #include "core/solvers/cholesky_backend.hpp"
 
 namespace perifrac {
+
+namespace {
+
+std::atomic<std::int64_t> factorisations = 0, solves = 0;
+
+}  // namespace
 
 NotPositiveDefinite::NotPositiveDefinite(Eigen::Index row)
     : std::runtime_error(fmt::format("the matrix is not positive definite (row {})", row)),
@@ -32,14 +39,18 @@ void SparseCholesky::factor(const Eigen::SparseMatrix<double>& a) {
     starts_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
     rows_.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
   }
+  factorisations.fetch_add(1, std::memory_order_relaxed);
   if (const auto row = backend_->factor(a)) throw NotPositiveDefinite(*row);
 }
 
 void SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b,
                            Eigen::Ref<Eigen::MatrixXd> x) const {
   assert(b.rows() == x.rows() && b.cols() == x.cols());
+  solves.fetch_add(1, std::memory_order_relaxed);
   backend_->solve(b, x);
 }
+
+CholeskyWork SparseCholesky::work() { return {factorisations, solves}; }
 
 const char* SparseCholesky::backend() { return CholeskyBackend::name(); }
 

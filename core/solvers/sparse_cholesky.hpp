@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -23,6 +24,12 @@ class NotPositiveDefinite : public std::runtime_error {
   Eigen::Index row_;
 };
 
+/// What all factors of this process have done so far.
+struct CholeskyWork {
+  std::int64_t factorisations = 0;
+  std::int64_t solves = 0;  ///< calls, whatever the number of right-hand sides
+};
+
 /// Direct solution of A x = b, A sparse, symmetric and positive definite. Gives the same bits at
 /// any number of threads. One object serves one thread at a time.
 class SparseCholesky {
@@ -39,6 +46,8 @@ class SparseCholesky {
 
   /// x = A^-1 b, one column a right-hand side; x has the shape of b and does not overlap it.
   void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) const;
+
+  static CholeskyWork work();
 
   /// Which library factors: the licence of a binary depends on it.
   static const char* backend();
