@@ -16,8 +16,9 @@ bool names(const Section& scene, const std::string& section) {
 /// Repeating a window changes the steps that CVODE chooses, and its answer by its own tolerance:
 /// iterations cannot agree any better.
 void refuse_unreachable_tolerance(const Section& scene) {
-  if (scene.integer("coupling.iterations.max") == 1 || !names(scene, "solid") ||
-      !names(scene, "pore_flow") || scene.word("pore_flow.integrator.type") != "cvode") {
+  if (!scene.has("coupling.iterations.max") || scene.integer("coupling.iterations.max") == 1 ||
+      !names(scene, "solid") || !names(scene, "pore_flow") ||
+      scene.word("pore_flow.integrator.type") != "cvode") {
     return;
   }
   const double wanted = scene.number("coupling.iterations.tolerance");

@@ -35,16 +35,17 @@ constexpr int most_redos = 50;
 }  // namespace
 
 WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
-                           AccelerationType acceleration)
+                           const CouplingOptions& options)
     : modules_(modules),
       links_(links),
-      acceleration_(make_acceleration(acceleration)),
+      acceleration_(make_acceleration(options.acceleration)),
+      may_cut_(options.retries > 0 && options.window == WindowType::schedule),
       watches_(links.size()) {}
 
 double WindowSolver::solve(const TimeWindow& window, const Iterations& iterations) {
   const bool alone = modules_.size() == 1;
-  if (may_go_back(iterations))
-    begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
+  is_saved_ = may_go_back(iterations);
+  if (is_saved_) begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
 
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
@@ -59,16 +60,25 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   if (reached < window.end) ++work_.events;
   for (Link& link : links_) link.accept();
   if (iterations.max == 1) watch(reached - window.begin);
-  work_.most_passes = std::max(work_.most_passes, work_.passes - passes_before);
+  const std::int64_t passes = work_.passes - passes_before;
+  work_.most_passes = std::max(work_.most_passes, passes);
+  was_easy_ = iterations.max == 1 || 2 * passes <= iterations.max;
   ++work_.windows;
   return reached;
 }
 
 bool WindowSolver::may_go_back(const Iterations& iterations) const {
   if (modules_.size() == 1) return false;
-  return (iterations.max > 1 && std::ranges::any_of(links_, &Link::predicts)) ||
+  return may_cut_ || (iterations.max > 1 && std::ranges::any_of(links_, &Link::predicts)) ||
          std::ranges::any_of(modules_,
                              [](const ModuleSlot& slot) { return slot.module->may_end_windows(); });
+}
+
+bool WindowSolver::cut(double t) {
+  if (!is_saved_) return false;
+  go_back(t);
+  ++work_.cuts;
+  return true;
 }
 
 double WindowSolver::conclude(const TimeWindow& window, double reached) {

@@ -93,6 +93,19 @@ TEST(Splits, FixedStressInOnePassWarnsOfAStrongCoupling) {
                   .empty());
 }
 
+TEST(Splits, IteratesByItselfWhereOnePassWouldNotHold) {
+  for (const double value : {5.0, 50.0}) {
+    CouplingOptions left_out = options(0.1, Split::fixed_stress, 1, AccelerationType::anderson);
+    left_out.max_iterations.reset();
+    left_out.tolerance = 1e-4;
+    Consolidation consolidation(strength(value), left_out);
+    EXPECT_TRUE(consolidation.manager.warnings().empty());
+    EXPECT_EQ(consolidation.manager.most_passes(), value < 10.0 ? 1 : 20);
+    consolidation.run(1.0);
+    EXPECT_LT(consolidation.content_error(1.0), 2e-2) << value;
+  }
+}
+
 TEST(Splits, DrainedConvergesBelowStrengthOne) {
   Consolidation consolidation(strength(0.8), options(0.1, Split::drained, 200));
   EXPECT_TRUE(consolidation.manager.warnings().empty());
