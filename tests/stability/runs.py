@@ -29,6 +29,8 @@ class Run:
     def _read(self, folder):
         with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
             self.summary = json.load(file)
+        if not os.path.exists(os.path.join(folder, "history.csv")):
+            return  # it failed before anything was there
         with open(os.path.join(folder, "history.csv"), encoding="utf-8") as file:
             rows = list(csv.reader(file))
         self.names = [re.sub(r" \[[^]]*\]$", "", name) for name in rows[0]]

@@ -1,0 +1,62 @@
+#!/usr/bin/python3
+"""Runs hard cases in every combination of modules that they admit, and holds each to a bound and to
+an accuracy.
+
+Usage: stability.py PERIFRAC [--page FILE] [--quick] [--only WORD]
+
+Fails where a case does not do what is expected of it: a default scheme to hold, a scheme for
+comparison to fail. --quick runs a few cases, --only those whose name or modules hold WORD; --page
+writes what was found as a page.
+"""
+import argparse
+import os
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import stiffness
+from case import Outcome
+from runs import run
+
+
+def outcome(perifrac, case):
+    begin = time.monotonic()
+    one = run(perifrac, case.scene, case.settings)
+    bounds, accuracy = case.measure(one) if one.done else ([], [])
+    return Outcome(case, bounds, accuracy, "" if one.done else one.complaint, one.code,
+                   time.monotonic() - begin)
+
+
+def line(found):
+    case = found.case
+    verdict = "as expected" if found.as_expected else "NOT AS EXPECTED"
+    figures = ", ".join(str(figure) for figure in found.bounds + found.accuracy) or found.complaint
+    return f"{verdict}  {case.group}: {case.name}; {case.modules}: {figures}  ({found.seconds:.1f} s)"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("perifrac")
+    parser.add_argument("--page")
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--only")
+    arguments = parser.parse_args()
+    perifrac = os.path.abspath(arguments.perifrac)
+    cases = [case for group in (stiffness,) for case in group.cases()]
+    if arguments.quick:
+        cases = [case for case in cases if case.quick]
+    if arguments.only:
+        cases = [case for case in cases if arguments.only in f"{case.group}: {case.name}; {case.modules}"]
+    found = []
+    with ThreadPoolExecutor(2) as pool:
+        for one in pool.map(lambda case: outcome(perifrac, case), cases):
+            found.append(one)
+            if sys.stdout.isatty() or not one.as_expected or arguments.only:
+                print(line(one), flush=True)
+    wrong = [one for one in found if not one.as_expected]
+    print(f"{len(found)} cases, {len(wrong)} not as expected")
+    sys.exit(1 if wrong else 0)
+
+
+if __name__ == "__main__":
+    main()
