@@ -62,8 +62,10 @@ const KeyTable& coupling_keys() {
       {.path = "iterations.max",
        .type = KeyType::integer,
        .range = "[1, inf)",
-       .meaning = "Passes over the modules in a window; 1: one pass on extrapolated inputs. Left "
-                  "out: 1, or 20 where the modules depend on each other too strongly for one"},
+       .meaning =
+           "Passes over the modules in a window; 1: one pass on extrapolated inputs. Left "
+           "out: 1, and 20 with fixed_stress in windows whose inputs were not as foretold, or "
+           "in all where the modules depend on each other too strongly for one"},
       {.path = "iterations.tolerance",
        .range = "(0, 1)",
        .fallback = "1e-4",

@@ -27,8 +27,8 @@ struct CouplingOptions {
   double largest_window;  ///< [s]
   int retries = 0;        ///< how often a window that failed is tried again, half as long
   Split split = Split::automatic;
-  /// 1: one pass a window, on extrapolated inputs; nothing: that, unless modules depend on each
-  /// other so strongly that it would not hold.
+  /// 1: one pass a window, on extrapolated inputs; nothing: as many as it takes, and one where that
+  /// will do.
   std::optional<int> max_iterations = 1;
   double tolerance = 1e-6;  ///< relative change of what is exchanged, per link
   AccelerationType acceleration = AccelerationType::none;

@@ -39,7 +39,7 @@ void CouplingManager::initialize(double t) {
     schedule_ = WindowSchedule(options_.window, options_.first_window, options_.window_growth,
                                options_.largest_window);
   }
-  if (!options_.max_iterations && too_strong_for_one_pass()) iterations_.max = enough_passes;
+  if (!options_.max_iterations) iterations_ = own_iterations();
   solver_ = std::make_unique<WindowSolver>(modules_, links_, options_);
   ledger_.start();
   time_ = t;
@@ -52,6 +52,18 @@ bool CouplingManager::split_is_unusable() const {
          std::ranges::none_of(pairs, [&](const CoupledPair& pair) {
            return links_[pair.first].uses_slope() || links_[pair.second].uses_slope();
          });
+}
+
+/// Fixed stress mends what was foretold wrongly, by a jump or in a window too long: all that is
+/// smooth is foretold to 1e-2. An undrained split, and windows of one step, stay as they are.
+Iterations CouplingManager::own_iterations() const {
+  constexpr double foretold = 0.03;
+  if (too_strong_for_one_pass()) return {enough_passes, options_.tolerance};
+  const bool can = std::ranges::any_of(links_, [](const Link& link) {
+    return link.predicts() && link.uses_slope() && !link.holds();
+  });
+  if (!can || options_.window == WindowType::one_step) return {1, options_.tolerance};
+  return {enough_passes, options_.tolerance, foretold};
 }
 
 /// Fixed stress on extrapolated inputs, once a window: measured, it holds at a strength of 8 and

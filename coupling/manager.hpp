@@ -34,6 +34,9 @@ class CouplingManager {
   /// True where modules depend on each other and none of them can use the split that was asked for.
   bool split_is_unusable() const;
 
+  /// The first pair for which one pass a window will probably not hold; nothing where it will.
+  std::optional<CoupledPair> too_strong_for_one_pass() const;
+
   /// What will probably fail, one sentence each, from the state as initialised.
   std::vector<std::string> warnings() const;
 
@@ -71,8 +74,8 @@ class CouplingManager {
   double cut(double end, double stop, const NumericalError& error);
   /// The shortest of the modules' own; infinity where no window asks for it.
   double stable_time_step() const;
-  /// The first pair for which one pass a window will probably not hold; null where it will.
-  std::optional<CoupledPair> too_strong_for_one_pass() const;
+  /// How often windows are repeated where the scene leaves it open.
+  Iterations own_iterations() const;
   std::vector<std::string> one_pass_warnings() const;
 
   CouplingOptions options_;

@@ -59,8 +59,9 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   }
   if (reached < window.end) ++work_.events;
   for (Link& link : links_) link.accept();
-  if (iterations.max == 1) watch(reached - window.begin);
   const std::int64_t passes = work_.passes - passes_before;
+  const bool one_pass = iterations.max == 1 || (iterations.at_once > 0.0 && passes == 1);
+  if (one_pass) watch(reached - window.begin);
   work_.most_passes = std::max(work_.most_passes, passes);
   was_easy_ = iterations.max == 1 || 2 * passes <= iterations.max;
   ++work_.windows;
@@ -100,6 +101,7 @@ double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterati
     if (reached < window.end || iterations.max == 1 || has_converged(iterations.tolerance)) {
       return reached;
     }
+    if (passes == 1 && is_enough_at_once(iterations.at_once)) return reached;
     if (passes == 1) weigh_links();
     if (watch.is_diverging(weighted_mismatch())) fail(window.end, passes, "diverges");
     if (passes == iterations.max) fail(window.end, passes, "does not converge");
@@ -146,6 +148,12 @@ bool WindowSolver::has_converged(double tolerance) const {
     if (link.predicts() && !(link.mismatch().relative() <= tolerance)) return false;
   }
   return true;
+}
+
+bool WindowSolver::is_enough_at_once(double tolerance) const {
+  return tolerance > 0.0 && std::ranges::all_of(links_, [tolerance](const Link& link) {
+           return !link.predicts() || !link.uses_slope() || link.mismatch().relative() <= tolerance;
+         });
 }
 
 void WindowSolver::watch(double length) {

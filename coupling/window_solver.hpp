@@ -19,6 +19,8 @@ namespace perifrac {
 struct Iterations {
   int max;           ///< 1: one pass, whatever the mismatch
   double tolerance;  ///< largest relative mismatch of any lagged link
+  /// The same after the first pass, of those links that send a slope; 0: no exception is made.
+  double at_once = 0.0;
 };
 
 /// What the exchange cost in this process.
@@ -72,6 +74,8 @@ class WindowSolver {
   void go_back(double t);
 
   bool has_converged(double tolerance) const;
+  /// What was predicted was so near that the first pass will do.
+  bool is_enough_at_once(double tolerance) const;
   /// Fixes, for this window, the sizes that make the lagged links' values comparable.
   void weigh_links();
   double weighted_mismatch() const;

@@ -14,6 +14,7 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+import steps
 import stiffness
 from case import Outcome
 from runs import run
@@ -42,7 +43,7 @@ def main():
     parser.add_argument("--only")
     arguments = parser.parse_args()
     perifrac = os.path.abspath(arguments.perifrac)
-    cases = [case for group in (stiffness,) for case in group.cases()]
+    cases = [case for group in (stiffness, steps) for case in group.cases()]
     if arguments.quick:
         cases = [case for case in cases if case.quick]
     if arguments.only:
