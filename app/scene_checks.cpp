@@ -71,6 +71,10 @@ void check_exchange(const Section& scene) {
 }  // namespace
 
 void check_sections_together(const Section& scene) {
+  if (scene.count("cracks") > 0 && !names(scene, "solid")) {
+    scene.fail("cracks", "the scene has no section 'solid', whose bonds they cut",
+               "a solid, of type: rigid where nothing is to deform");
+  }
   refuse_unreachable_tolerance(scene);
   check_interface(scene);
   check_exchange(scene);

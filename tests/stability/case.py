@@ -39,6 +39,7 @@ class Case:
     known: str = ""
     ours: bool = False
     refused: str = ""
+    fine: dict = None  # settings of a second run to compare with, which `measure` then gets too
     quick: bool = False
 
 

@@ -9,21 +9,35 @@ comparison to fail. --quick runs a few cases, --only those whose name or modules
 writes what was found as a page.
 """
 import argparse
+import functools
 import os
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+import geometry
+import long_runs
 import steps
 import stiffness
 from case import Outcome
 from runs import run
 
 
+@functools.lru_cache(maxsize=None)
+def cached_run(perifrac, scene, settings):
+    return run(perifrac, scene, dict(settings))
+
+
+def fine_run(perifrac, case):
+    return cached_run(perifrac, case.scene, tuple(case.fine.items()))
+
+
 def outcome(perifrac, case):
     begin = time.monotonic()
     one = run(perifrac, case.scene, case.settings)
-    bounds, accuracy = case.measure(one) if one.done else ([], [])
+    bounds, accuracy = [], []
+    if one.done:
+        bounds, accuracy = case.measure(one, fine_run(perifrac, case)) if case.fine else case.measure(one)
     return Outcome(case, bounds, accuracy, "" if one.done else one.complaint, one.code,
                    time.monotonic() - begin)
 
@@ -43,7 +57,7 @@ def main():
     parser.add_argument("--only")
     arguments = parser.parse_args()
     perifrac = os.path.abspath(arguments.perifrac)
-    cases = [case for group in (stiffness, steps) for case in group.cases()]
+    cases = [case for group in (stiffness, steps, geometry, long_runs) for case in group.cases()]
     if arguments.quick:
         cases = [case for case in cases if case.quick]
     if arguments.only:

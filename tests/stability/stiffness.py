@@ -59,11 +59,11 @@ class Rock:
         return {**self.settings, **windows(times[-1] * self.time, [t * self.time for t in times])}
 
 
-def measure_column(rock, largest_error=0.03, open_energy=0.02):
+def measure_column(rock, largest_error=0.03, open_energy=0.02, overshoot_limit=0.02):
     def measure(run):
         pressures = [frame["pore_pressure"] for frame in run.frames]
         overshoot = max(0.0, *(max(p.max() - rock.undrained, -p.min()) for p in pressures)) / rock.undrained
-        bounds = [Figure("overshoot", overshoot, 0.02),
+        bounds = [Figure("overshoot", overshoot, overshoot_limit),
                   Figure("open energy", run.summary["ledger"]["energy_error"], open_energy),
                   Figure("mass error", run.mass_error, 1e-12)]
         return bounds, [Figure("pressure error", run.errors("pressure_error"), largest_error)]
