@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper permeability toughness bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper permeability stability toughness bench clean
 
 SCENE ?= configs/hf_storage.yaml
 BUILD := build/release
@@ -14,6 +14,7 @@ help:
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
 	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
+	@echo 'make stability  hard cases in all combinations of modules: docs/stability.md'
 	@echo 'make permeability  explicit against cvode, 1e-20 to 1e-8 m^2: docs/permeability.md'
 
 install:
@@ -48,6 +49,9 @@ paper: perifrac
 
 docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md
+
+stability: perifrac
+	tests/stability/stability.py $(PERIFRAC) --page docs/stability.md
 
 permeability: perifrac
 	tests/verification/permeability.py $(PERIFRAC) --page docs/permeability.md

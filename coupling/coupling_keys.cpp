@@ -64,7 +64,7 @@ const KeyTable& coupling_keys() {
        .range = "[1, inf)",
        .meaning =
            "Passes over the modules in a window; 1: one pass on extrapolated inputs. Left "
-           "out: 1, and 20 with fixed_stress in windows whose inputs were not as foretold, or "
+           "out: 1, and 100 with fixed_stress in windows whose inputs were not as foretold, or "
            "in all where the modules depend on each other too strongly for one"},
       {.path = "iterations.tolerance",
        .range = "(0, 1)",

@@ -40,7 +40,6 @@ class Case:
     ours: bool = False
     refused: str = ""
     fine: dict = None  # settings of a second run to compare with, which `measure` then gets too
-    quick: bool = False
 
 
 @dataclasses.dataclass
@@ -51,6 +50,7 @@ class Outcome:
     complaint: str = ""
     code: int = 0
     seconds: float = 0.0
+    warned: bool = False
 
     @property
     def holds(self):
@@ -69,7 +69,8 @@ class Outcome:
     def symptom(self):
         if self.code != 0:
             return f"exit {self.code}: {self.complaint}"
-        return ", ".join(str(figure) for figure in self.bounds + self.accuracy if not figure.holds)
+        figures = ", ".join(str(figure) for figure in self.bounds + self.accuracy if not figure.holds)
+        return figures + ("; the run warns" if self.warned else "; no warning")
 
 
 def rise(values):

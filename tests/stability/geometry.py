@@ -34,7 +34,7 @@ def box(x, y, half=0.5):
 
 # Cracks lie half-way between points. The body is pulled along y and drains at its bottom and top.
 SHAPES = {
-    "no crack": [],
+    "free corners": [],
     "thin neck of 3 points": [[-1, 8, 5, 8], [8, 8, 13, 8]],
     "thin neck of 2 points": [[-1, 8, 5, 8], [7, 8, 13, 8]],
     "one-point bridge": [[-1, 8, 5, 8], [6, 8, 13, 8]],
@@ -212,9 +212,30 @@ def jitter_cases():
                        measure_column(rock, overshoot_limit=0.06))
 
 
+def measure_grown(run):
+    """The crack goes on to the far side, at once as soon as it goes: what is left of the energy then
+    would be motion, which there is none of, and the run says that its balance is open."""
+    length, stored = run.history["crack_length"], run.history["energy_stored"]
+    toughness, seed, width = 50.0, 0.02, 0.1  # of configs/griffith.yaml: J/m^2, m
+    return ([Figure("shrinking of the crack", float(max(0.0, -numpy.diff(length).min())), 0.0),
+             Figure("energy left in two pieces", float(stored[-1] / stored.max()), 1e-9)],
+            [Figure("length error", abs(length[-1] / width - 1.0), 1e-9),
+             Figure("fracture energy error",
+                    abs(run.last("energy_dissipated") / (toughness * (width - seed)) - 1.0), 1e-9)])
+
+
+def grown_cases():
+    for spacing in (0.002, 0.004):
+        yield Case(GROUP, "crack that grows to a boundary and splits the body",
+                   f"quasi_static, energy_release, spacing {1e3 * spacing:g} mm",
+                   os.path.join(CONFIGS, "griffith.yaml"), {"time.end": 2, "body.spacing": spacing},
+                   measure_grown)
+
+
 def cases():
     yield from flow_cases()
     yield from pulled_cases()
     yield from jitter_cases()
     yield from graded_cases()
+    yield from grown_cases()
     yield from turning_cases()

@@ -94,12 +94,16 @@ def measure_injected(run, fine):
 
 def injected_cases():
     """Fluid forced into one point: the sharpest field there is, before diffusion smooths it."""
-    for name, rock in (("fluid of 2.2 GPa", Rock()), ("fluid of 1e6 GPa", Rock(fluid=1e15))):
+    for name, rock in (("fluid of 2.2 GPa", Rock()), ("fluid of 100 GPa", Rock(fluid=1e11)),
+                       ("fluid of 1e6 GPa", Rock(fluid=1e15))):
         for part in (0.01, 0.1, 1.0, 10.0):
             settings = {"pore_flow.fluid.bulk_modulus": rock.settings["pore_flow.fluid.bulk_modulus"],
                         "time.end": part / rock.diffusivity}
             known = "no stabilisation of nearly undrained pressure" if part < 1.0 else ""
-            for modules, words in {"cvode": {}, "explicit": {"pore_flow.integrator.type": "explicit"}}.items():
+            if rock.strength > 1e3:
+                known = "iterations do not agree on a sharp field in undrained rock"
+            explicit = {"pore_flow.integrator.type": "explicit"}
+            for modules, words in {"cvode": {}, "explicit": explicit}.items():
                 yield Case(GROUP, f"source in nearly undrained rock, {name}, c t / Δx² = {part:g}",
                            f"quasi_static, darcy {modules}", os.path.join(HERE, "injected.yaml"),
                            {**settings, **words}, measure_injected, known=known, ours=bool(known),

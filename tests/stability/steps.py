@@ -35,9 +35,12 @@ def long_windows():
         for modules, words in {**flow_integrators(), "iterated": ITERATED}.items():
             if modules == "explicit" and part > 10.0:
                 continue  # millions of steps
+            known = ""
+            if modules == "explicit" and part < 1e-2:
+                known = "explicit steps at their limit swing until diffusion has come some spacings far"
             yield Case(GROUP, f"windows of {part:g} of the diffusion time",
                        f"quasi_static, darcy {modules}", COLUMN, {**settings, **words},
-                       measure_long(rock, limit))
+                       measure_long(rock, limit), known=known, ours=bool(known))
 
 
 def measure_long(rock, limit):
@@ -139,15 +142,14 @@ def shut_in():
             exact = rate * stop / (length * width) * fluid
 
             def measure(run, exact=exact):
-                pressures = [run.last(n) for n in run.names if n.startswith("crack_pressure at")]
                 rising = run.history["time"] <= stop
                 mean = run.history["mean_crack_pressure"]
                 jump = numpy.abs(numpy.diff(mean[~rising])).max() / exact
                 return ([Figure("mass error", run.mass_error, 1e-12),
                          Figure("change of mean pressure after shut-in", jump, 1e-3)],
                         [Figure("pressure error", abs(mean[-1] / exact - 1.0), 0.01),
-                         Figure("spread of pressure",
-                                (max(pressures, default=exact) - min(pressures, default=exact)) / exact, 0.01)])
+                         Figure("pressure at the inlet off the mean",
+                                abs(run.last("inlet_pump_pressure") - mean[-1]) / exact, 0.01)])
 
             yield Case(GROUP, name, f"network, fluid bulk modulus {fluid / 1e9:g} GPa",
                        os.path.join(HERE, "sealed_slit.yaml"), pumped(rate, stop, fluid), measure)
@@ -168,16 +170,19 @@ def fracture():
     for factor in (1, 100):
         end = 0.08 / factor
 
-        def measure(run):
-            injected = run.history["fluid_mass_gained"] if "fluid_mass_gained" in run.names else None
+        def measure(run, fine):
             length = run.history["crack_length"]
+            opened = [one.history["mean_crack_pressure"].max() for one in (run, fine)]
             return ([Figure("mass error", run.mass_error, 1e-12),
                      Figure("shrinking of the crack", float(max(0.0, -numpy.diff(length).min())), 0.0)],
-                    [Figure("mass error, absolute", float(numpy.abs(run.history["fluid_mass_error"]).max()),
-                            1e-11)])
+                    [Figure("length against half the window",
+                            abs(length[-1] / fine.last("crack_length") - 1.0), 0.05),
+                     Figure("largest pressure against half the window",
+                            float(abs(opened[0] / opened[1] - 1.0)), 0.1)])
         settings = {"crack_fluid.inlets[0].rate": 1.6e-4 * factor, "time.end": end,
                     "output.interval": end / 4, "coupling.window.largest": end / 160,
                     "crack_fluid.inlets[0].schedule.times":
                         f"[{end / 4}, {end / 4 * 1.005}, {end / 2}, {end / 2 * 1.0025}]"}
         yield Case(GROUP, f"injection at {factor} times the rate, shut-in and flow-back" if factor > 1 else
-                   "shut-in and flow-back", "quasi_static, energy_release, network", scene, settings, measure)
+                   "shut-in and flow-back", "quasi_static, energy_release, network", scene, settings, measure,
+                   fine={**settings, "coupling.window.largest": end / 320})

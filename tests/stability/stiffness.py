@@ -191,6 +191,21 @@ def added_mass_cases():
                {**short, "interface.force": "one_sided"}, measure, known="force one_sided")
 
 
+def seepage_cases():
+    """Free fluid that presses into pores from the first moment on."""
+    scene = os.path.join(CONFIGS, "infiltration.yaml")
+    settings = {"time.end": 10, "output.times": "[5]", "ledger.mass_error": 1}
+    for fluid in (22e6, 220e6):
+        words = {**settings, "fluid.bulk_modulus": fluid, "pore_flow.fluid.bulk_modulus": fluid}
+        for modules, more, known in (
+                ("darcy explicit, fluid", {}, ""),
+                ("darcy cvode, fluid", {"pore_flow.integrator.type": "cvode"}, ""),
+                ("darcy explicit, fluid, exchange paper", {"interface.exchange": "paper"}, "exchange paper")):
+            yield Case(GROUP, f"seepage of free fluid of {fluid / 1e6:g} MPa", modules, scene,
+                       {**words, **more}, measure_reference({"pressure_error": 0.05, "volume_error": 0.05}),
+                       known=known)
+
+
 def plate_cases():
     """A plate in plane strain: exact in peridynamics that is exact for linear fields."""
     exact = {"displacement_x_error": 1e-9, "displacement_y_error": 1e-9}
@@ -261,5 +276,6 @@ def cases():
     yield from slit_cases()
     yield from contrast_cases()
     yield from added_mass_cases()
+    yield from seepage_cases()
     yield from plate_cases()
     yield from paper_cases()
