@@ -14,7 +14,7 @@ help:
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
 	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
-	@echo 'make stability  hard cases in all combinations of modules: docs/stability.md'
+	@echo 'make stability  hard cases in many combinations of modules: docs/stability.md'
 	@echo 'make permeability  explicit against cvode, 1e-20 to 1e-8 m^2: docs/permeability.md'
 
 install:

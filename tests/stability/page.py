@@ -2,7 +2,7 @@
 
 HEAD = """# Hard cases
 
-`make stability` writes this page: tests/stability runs {count} hard cases, each in every combination of modules that its scene admits, and holds each to bounds and to an accuracy, against an analytic solution or a finer run. {failed}
+`make stability` writes this page: tests/stability runs {count} hard cases, in the combinations of modules that the rows name, and holds each to bounds and to an accuracy, against an analytic solution or a finer run. {failed}
 
 ## Known limits
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs hard cases in every combination of modules that they admit, and holds each to a bound and to
+"""Runs hard cases in many combinations of modules, and holds each to a bound and to
 an accuracy.
 
 Usage: stability.py PERIFRAC [--page FILE] [--quick] [--only WORD]
