@@ -16,8 +16,9 @@ bool names(const Section& scene, const std::string& section) {
 /// Repeating a window changes the steps that CVODE chooses, and its answer by its own tolerance:
 /// iterations cannot agree any better.
 void refuse_unreachable_tolerance(const Section& scene) {
-  if (scene.integer("coupling.iterations.max") == 1 || !names(scene, "solid") ||
-      !names(scene, "pore_flow") || scene.word("pore_flow.integrator.type") != "cvode") {
+  if (!scene.has("coupling.iterations.max") || scene.integer("coupling.iterations.max") == 1 ||
+      !names(scene, "solid") || !names(scene, "pore_flow") ||
+      scene.word("pore_flow.integrator.type") != "cvode") {
     return;
   }
   const double wanted = scene.number("coupling.iterations.tolerance");
@@ -70,6 +71,10 @@ void check_exchange(const Section& scene) {
 }  // namespace
 
 void check_sections_together(const Section& scene) {
+  if (scene.count("cracks") > 0 && !names(scene, "solid")) {
+    scene.fail("cracks", "the scene has no section 'solid', whose bonds they cut",
+               "a solid, of type: rigid where nothing is to deform");
+  }
   refuse_unreachable_tolerance(scene);
   check_interface(scene);
   check_exchange(scene);

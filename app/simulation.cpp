@@ -72,7 +72,11 @@ Simulation make_simulation(const Section& scene) {
 }
 
 void initialize(const Section& scene, Simulation& simulation) {
-  simulation.manager->initialize(0.0);
+  try {
+    simulation.manager->initialize(0.0);
+  } catch (const BodyError& error) {
+    scene.fail("body", error.what(), error.expected());
+  }
   if (simulation.manager->split_is_unusable()) {
     scene.fail("coupling.split",
                fmt::format("`{}` suits none of the modules that depend on each other",

@@ -134,6 +134,8 @@ nlohmann::json summarize(const Section& scene, const std::string& scene_file,
   result["counts"]["windows"] = manager.step();
   result["counts"]["passes"] = manager.work().passes;
   result["counts"]["most_passes"] = manager.work().most_passes;
+  result["coupling"] = {{"iterations", manager.most_passes()},
+                        {"window_cuts", manager.work().cuts}};
   if (reference) result["reference"] = reference->summary();
   return result;
 }

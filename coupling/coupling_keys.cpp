@@ -45,6 +45,13 @@ const KeyTable& coupling_keys() {
        .unit = "s",
        .range = "(0, inf)",
        .meaning = "Longest window; left out: a fiftieth of the simulated time"},
+      {.path = "window.retries",
+       .type = KeyType::integer,
+       .range = "[0, inf)",
+       .fallback = "8",
+       .meaning =
+           "How often a window in which modules do not agree, or one of them fails, is taken "
+           "back and tried again, half as long, before the run stops; 0: never"},
       {.path = "split",
        .type = KeyType::word,
        .fallback = "automatic",
@@ -55,8 +62,10 @@ const KeyTable& coupling_keys() {
       {.path = "iterations.max",
        .type = KeyType::integer,
        .range = "[1, inf)",
-       .fallback = "1",
-       .meaning = "Passes over the modules in a window; 1: one pass on extrapolated inputs"},
+       .meaning =
+           "Passes over the modules in a window; 1: one pass on extrapolated inputs. Left "
+           "out: 1, and 100 with fixed_stress in windows whose inputs were not as foretold, or "
+           "in all where the modules depend on each other too strongly for one"},
       {.path = "iterations.tolerance",
        .range = "(0, 1)",
        .fallback = "1e-4",
@@ -89,8 +98,10 @@ CouplingOptions read_coupling_options(const Section& coupling, double duration) 
     options.first_window = options.largest_window = given;
   }
   if (coupling.word("window.type") == "one_step") options.window = WindowType::one_step;
+  options.retries = coupling.integer("window.retries");
   options.split = split(coupling.word("split"));
-  options.max_iterations = coupling.integer("iterations.max");
+  options.max_iterations.reset();
+  if (coupling.has("iterations.max")) options.max_iterations = coupling.integer("iterations.max");
   options.tolerance = coupling.number("iterations.tolerance");
   options.acceleration = acceleration_type(coupling.word("acceleration"));
   return options;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace perifrac {
 
 /// What modules that depend on each other send within a window.
@@ -23,8 +25,11 @@ struct CouplingOptions {
   double first_window;    ///< [s]
   double window_growth;   ///< factor from one window to the next
   double largest_window;  ///< [s]
+  int retries = 0;        ///< how often a window that failed is tried again, half as long
   Split split = Split::automatic;
-  int max_iterations = 1;   ///< 1: one pass a window, on extrapolated inputs
+  /// 1: one pass a window, on extrapolated inputs; nothing: as many as it takes, and one where that
+  /// will do.
+  std::optional<int> max_iterations = 1;
   double tolerance = 1e-6;  ///< relative change of what is exchanged, per link
   AccelerationType acceleration = AccelerationType::none;
 };

@@ -67,6 +67,7 @@ class Link {
     hold_ = hold;
   }
   bool uses_slope() const { return counter_.has_value(); }
+  bool holds() const { return hold_; }
 
   /// Reads the source as it stands, at rest: the first exchange, before any window.
   void start();

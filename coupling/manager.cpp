@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/log.hpp"
 #include "coupling/connect.hpp"
 
 namespace perifrac {
@@ -13,6 +14,9 @@ namespace {
 /// A window of no length is cheap and rare, and its error would stay in all that follows.
 constexpr Iterations settling{.max = 500, .tolerance = 1e-10};
 
+/// Smooth fields take five to ten of them, sharp ones in nearly undrained rock the most.
+constexpr int enough_passes = 100;
+
 }  // namespace
 
 CouplingManager::CouplingManager(std::vector<ModuleSlot> modules, const CouplingOptions& options)
@@ -20,7 +24,8 @@ CouplingManager::CouplingManager(std::vector<ModuleSlot> modules, const Coupling
       modules_(std::move(modules)),
       ledger_(modules_),
       schedule_(options.window, options.first_window, options.window_growth,
-                options.largest_window) {}
+                options.largest_window),
+      iterations_{options.max_iterations.value_or(1), options.tolerance} {}
 
 void CouplingManager::initialize(double t) {
   for (ModuleSlot& slot : modules_) {
@@ -34,7 +39,8 @@ void CouplingManager::initialize(double t) {
     schedule_ = WindowSchedule(options_.window, options_.first_window, options_.window_growth,
                                options_.largest_window);
   }
-  solver_ = std::make_unique<WindowSolver>(modules_, links_, options_.acceleration);
+  if (!options_.max_iterations) iterations_ = own_iterations();
+  solver_ = std::make_unique<WindowSolver>(modules_, links_, options_);
   ledger_.start();
   time_ = t;
   step_ = 0;
@@ -48,23 +54,40 @@ bool CouplingManager::split_is_unusable() const {
          });
 }
 
+/// Fixed stress mends what was foretold wrongly, by a jump or in a window too long: all that is
+/// smooth is foretold to 1e-2. An undrained split, and windows of one step, stay as they are.
+Iterations CouplingManager::own_iterations() const {
+  constexpr double foretold = 0.03;
+  if (too_strong_for_one_pass()) return {enough_passes, options_.tolerance};
+  const bool can = std::ranges::any_of(links_, [](const Link& link) {
+    return link.predicts() && link.uses_slope() && !link.holds();
+  });
+  if (!can || options_.window == WindowType::one_step) return {1, options_.tolerance};
+  return {enough_passes, options_.tolerance, foretold};
+}
+
 /// Fixed stress on extrapolated inputs, once a window: measured, it holds at a strength of 8 and
 /// fails at 17.
-std::vector<std::string> CouplingManager::one_pass_warnings() const {
+std::optional<CoupledPair> CouplingManager::too_strong_for_one_pass() const {
   constexpr double limit = 10.0;
-  std::vector<std::string> warnings;
-  if (options_.max_iterations > 1) return warnings;
   for (const CoupledPair& pair : coupled_pairs(links_)) {
     const Link& first = links_[pair.first];
     const Link& second = links_[pair.second];
-    const double strength = coupling_strength(first, second);
-    if (strength < limit || !(first.uses_slope() || second.uses_slope())) continue;
-    warnings.push_back(fmt::format(
-        "one pass a window may not hold: the coupling strength of {} and {} is {:.3g}; choose "
-        "coupling.iterations.max: 20",
-        first.path(), second.path(), strength));
+    if (!(first.uses_slope() || second.uses_slope())) continue;
+    if (coupling_strength(first, second) >= limit) return pair;
   }
-  return warnings;
+  return {};
+}
+
+std::vector<std::string> CouplingManager::one_pass_warnings() const {
+  const auto pair = too_strong_for_one_pass();
+  if (iterations_.max > 1 || !pair) return {};
+  const Link& first = links_[pair->first];
+  const Link& second = links_[pair->second];
+  return {fmt::format(
+      "one pass a window may not hold: the coupling strength of {} and {} is {:.3g}; choose "
+      "coupling.iterations.max: {}",
+      first.path(), second.path(), coupling_strength(first, second), enough_passes)};
 }
 
 std::vector<std::string> CouplingManager::warnings() const {
@@ -73,7 +96,7 @@ std::vector<std::string> CouplingManager::warnings() const {
   // Plain iteration multiplies an error by the strength s in each pass. One pass a window, on
   // linearly extrapolated inputs, multiplies it by the roots of r^2 + 2 s r - s = 0, of which one
   // leaves the unit circle at s = 1/3.
-  const bool one_pass = options_.max_iterations == 1;
+  const bool one_pass = iterations_.max == 1;
   const double limit = one_pass ? 1.0 / 3.0 : 1.0;
   for (const CoupledPair& pair : coupled_pairs(links_)) {
     const Link& first = links_[pair.first];
@@ -101,11 +124,33 @@ void CouplingManager::settle() {
 }
 
 double CouplingManager::advance(double stop) {
-  const double end = schedule_.end(time_, stop);
-  time_ = solver_->solve({time_, end}, {options_.max_iterations, options_.tolerance});
+  double end = schedule_.end(time_, stop);
+  double reached = 0.0;
+  for (int retries = 0;; ++retries) {
+    try {
+      reached = solver_->solve({time_, end}, iterations_);
+      break;
+    } catch (const NumericalError& error) {
+      if (retries == options_.retries || !solver_->cut(time_)) throw;
+      end = cut(end, stop, error);
+    }
+  }
+  time_ = reached;
   ++step_;
-  if (time_ == end) schedule_.grow(stable_time_step());
+  if (time_ == end) schedule_.grow(stable_time_step(), solver_->was_easy());
   return time_;
+}
+
+double CouplingManager::cut(double end, double stop, const NumericalError& error) {
+  constexpr std::int64_t most_told = 20;
+  schedule_.cut(end - time_);
+  const std::int64_t cuts = solver_->work().cuts;
+  if (cuts <= most_told) {
+    log_warning(fmt::format("the window from t = {:.6g} s is cut from {:.3g} s to half of it: {}",
+                            time_, end - time_, error.what()));
+  }
+  if (cuts == most_told) log_warning("further cuts are only counted, in summary.json");
+  return schedule_.end(time_, stop);
 }
 
 std::optional<std::string> CouplingManager::new_warning() {

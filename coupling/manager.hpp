@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "core/state/state_visitor.hpp"
 #include "coupling/coupling_options.hpp"
 #include "coupling/ledger.hpp"
@@ -33,6 +34,9 @@ class CouplingManager {
   /// True where modules depend on each other and none of them can use the split that was asked for.
   bool split_is_unusable() const;
 
+  /// The first pair for which one pass a window will probably not hold; nothing where it will.
+  std::optional<CoupledPair> too_strong_for_one_pass() const;
+
   /// What will probably fail, one sentence each, from the state as initialised.
   std::vector<std::string> warnings() const;
 
@@ -41,8 +45,9 @@ class CouplingManager {
   /// Throws NumericalError.
   void settle();
 
-  /// Advances over one window, not past `stop` [s]; returns the time reached. Throws
-  /// NumericalError.
+  /// Advances over one window, not past `stop` [s]; returns the time reached. A window that fails
+  /// is taken back and tried again, half as long, as often as the scene lets it; the log says why.
+  /// Throws NumericalError.
   double advance(double stop);
 
   /// Said once, when windows of one pass are seen not to be stable; nothing otherwise.
@@ -64,9 +69,14 @@ class CouplingManager {
   std::span<const ModuleSlot> modules() const { return modules_; }
   std::span<const Link> links() const { return links_; }
   const Ledger& ledger() const { return ledger_; }
+  int most_passes() const { return iterations_.max; }  ///< that a window may take
   const CouplingWork& work() const { return solver_->work(); }
 
  private:
+  /// Half of the window that began at time() and was to reach `end` is left; returns its end.
+  double cut(double end, double stop, const NumericalError& error);
+  /// How often windows are repeated where the scene leaves it open.
+  Iterations own_iterations() const;
   std::vector<std::string> one_pass_warnings() const;
 
   CouplingOptions options_;
@@ -74,6 +84,7 @@ class CouplingManager {
   std::vector<Link> links_;
   Ledger ledger_;
   WindowSchedule schedule_;
+  Iterations iterations_;
   std::unique_ptr<WindowSolver> solver_;  ///< once the links are known
   double time_ = 0.0;
   std::int64_t step_ = 0;

@@ -6,7 +6,8 @@
 namespace perifrac {
 
 /// Chooses the windows: from `first` [s] by the factor `growth` to `largest` [s]; or one explicit
-/// step of the modules each, at most `largest`.
+/// step of the modules each, at most `largest`. A window that failed is cut; those after it come
+/// back to the length they would have had, as far as windows are easy.
 class WindowSchedule {
  public:
   WindowSchedule(WindowType type, double first, double growth, double largest);
@@ -15,20 +16,26 @@ class WindowSchedule {
   /// and a rest of less than two windows is halved rather than leaving a sliver.
   double end(double t, double stop) const;
 
-  /// The window was run to its end: the next may be longer. `stable` is the shortest of the
-  /// modules' own stable steps now [s].
-  void grow(double stable);
+  /// The window was run to its end: the next may be longer, after a cut only if this one was
+  /// `easy`. `stable` is the shortest of the modules' own stable steps now [s].
+  void grow(double stable, bool easy = true);
+  /// A window of `length` [s] failed: the next is half as long.
+  void cut(double length);
   /// A sudden load: what follows is as fast as at the start.
   void start_over(double stable);
 
-  void visit_state(StateVisitor& visitor) { visitor.visit("window_length", length_); }
+  void visit_state(StateVisitor& visitor) {
+    visitor.visit("window_length", length_);
+    visitor.visit("window_share", share_);
+  }
 
  private:
   WindowType type_;
   double first_;
   double growth_;
   double largest_;
-  double length_;
+  double length_;       ///< without cuts
+  double share_ = 1.0;  ///< of it, that is left by cuts
 };
 
 }  // namespace perifrac

@@ -35,16 +35,17 @@ constexpr int most_redos = 50;
 }  // namespace
 
 WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
-                           AccelerationType acceleration)
+                           const CouplingOptions& options)
     : modules_(modules),
       links_(links),
-      acceleration_(make_acceleration(acceleration)),
+      acceleration_(make_acceleration(options.acceleration)),
+      may_cut_(options.retries > 0 && options.window == WindowType::schedule),
       watches_(links.size()) {}
 
 double WindowSolver::solve(const TimeWindow& window, const Iterations& iterations) {
   const bool alone = modules_.size() == 1;
-  if (may_go_back(iterations))
-    begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
+  is_saved_ = may_go_back(iterations);
+  if (is_saved_) begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
 
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
@@ -58,17 +59,27 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   }
   if (reached < window.end) ++work_.events;
   for (Link& link : links_) link.accept();
-  if (iterations.max == 1) watch(reached - window.begin);
-  work_.most_passes = std::max(work_.most_passes, work_.passes - passes_before);
+  const std::int64_t passes = work_.passes - passes_before;
+  const bool one_pass = iterations.max == 1 || (iterations.at_once > 0.0 && passes == 1);
+  if (one_pass) watch(reached - window.begin);
+  work_.most_passes = std::max(work_.most_passes, passes);
+  was_easy_ = iterations.max == 1 || 2 * passes <= iterations.max;
   ++work_.windows;
   return reached;
 }
 
 bool WindowSolver::may_go_back(const Iterations& iterations) const {
   if (modules_.size() == 1) return false;
-  return (iterations.max > 1 && std::ranges::any_of(links_, &Link::predicts)) ||
+  return may_cut_ || (iterations.max > 1 && std::ranges::any_of(links_, &Link::predicts)) ||
          std::ranges::any_of(modules_,
                              [](const ModuleSlot& slot) { return slot.module->may_end_windows(); });
+}
+
+bool WindowSolver::cut(double t) {
+  if (!is_saved_) return false;
+  go_back(t);
+  ++work_.cuts;
+  return true;
 }
 
 double WindowSolver::conclude(const TimeWindow& window, double reached) {
@@ -90,6 +101,7 @@ double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterati
     if (reached < window.end || iterations.max == 1 || has_converged(iterations.tolerance)) {
       return reached;
     }
+    if (passes == 1 && is_enough_at_once(iterations.at_once)) return reached;
     if (passes == 1) weigh_links();
     if (watch.is_diverging(weighted_mismatch())) fail(window.end, passes, "diverges");
     if (passes == iterations.max) fail(window.end, passes, "does not converge");
@@ -136,6 +148,12 @@ bool WindowSolver::has_converged(double tolerance) const {
     if (link.predicts() && !(link.mismatch().relative() <= tolerance)) return false;
   }
   return true;
+}
+
+bool WindowSolver::is_enough_at_once(double tolerance) const {
+  return tolerance > 0.0 && std::ranges::all_of(links_, [tolerance](const Link& link) {
+           return !link.predicts() || !link.uses_slope() || link.mismatch().relative() <= tolerance;
+         });
 }
 
 void WindowSolver::watch(double length) {

@@ -19,6 +19,8 @@ namespace perifrac {
 struct Iterations {
   int max;           ///< 1: one pass, whatever the mismatch
   double tolerance;  ///< largest relative mismatch of any lagged link
+  /// The same after the first pass, of those links that send a slope; 0: no exception is made.
+  double at_once = 0.0;
 };
 
 /// What the exchange cost in this process.
@@ -27,6 +29,7 @@ struct CouplingWork {
   std::int64_t passes = 0;       ///< over all modules; more than windows by iterating and by events
   std::int64_t most_passes = 0;  ///< in any one window
   std::int64_t events = 0;       ///< windows that a module ended early
+  std::int64_t cuts = 0;         ///< windows taken back and tried again half as long
 };
 
 /// Takes all modules through one window: predict, advance in order and exchange, compare, go back
@@ -34,15 +37,24 @@ struct CouplingWork {
 ///
 /// The modules' state is saved at every window's beginning if there is more than one module and the
 /// window may be repeated: by iterations, or because some module may end it at an event, which is
-/// known only once the state is gone. A module alone simply stands where its event was.
+/// known only once the state is gone. A module alone simply stands where its event was. Windows
+/// that may be cut are saved too, unless nothing but the modules' own steps is in them.
 class WindowSolver {
  public:
-  WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links, AccelerationType acceleration);
+  WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
+               const CouplingOptions& options);
 
   /// Returns the time reached [s]: `window.end`, or the event that ended the window before.
   /// Throws NumericalError when the iterations do not converge or a module reaches no time that
   /// lies in the window.
   double solve(const TimeWindow& window, const Iterations& iterations);
+
+  /// After solve() threw: brings all modules back to `t` [s], where the window began, to be tried
+  /// half as long. False where they were not saved.
+  bool cut(double t);
+
+  /// The last window took no more than half of the passes it was allowed.
+  bool was_easy() const { return was_easy_; }
 
   /// A lagged link whose prediction was seen to grow apart from the answer, over windows of one
   /// pass; null until then.
@@ -62,6 +74,8 @@ class WindowSolver {
   void go_back(double t);
 
   bool has_converged(double tolerance) const;
+  /// What was predicted was so near that the first pass will do.
+  bool is_enough_at_once(double tolerance) const;
   /// Fixes, for this window, the sizes that make the lagged links' values comparable.
   void weigh_links();
   double weighted_mismatch() const;
@@ -73,6 +87,9 @@ class WindowSolver {
   std::span<ModuleSlot> modules_;
   std::span<Link> links_;
   std::unique_ptr<Acceleration> acceleration_;
+  bool may_cut_;
+  bool is_saved_ = false;  ///< what begin_ holds is this window's beginning
+  bool was_easy_ = true;
   Eigen::Index accelerated_size_ = 0;
   std::vector<double> weights_;          ///< one a link; of use for the lagged ones
   std::vector<StabilityWatch> watches_;  ///< likewise

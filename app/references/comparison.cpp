@@ -59,10 +59,12 @@ std::vector<Index> points_inside(const Section& scene, const PointSet& points) {
 std::vector<Index> points_along(const Section& scene, const PointSet& points, int axis,
                                 const std::vector<double>& origin) {
   const double half_spacing = 0.499 * scene.number("body.spacing");
-  const auto off = [&](std::size_t i, int a) { return points.position[a][i] - origin[a]; };
-  std::size_t nearest = 0;
+  const auto off = [&](Index i, int a) { return points.position[a][i] - origin[a]; };
+  // A point of a layer may lie as near, but none of the body need lie beside it.
+  const std::vector<Index> inside = points_inside(scene, points);
+  Index nearest = inside.front();
   double least = INFINITY;
-  for (std::size_t i = 0; i < points.count; ++i) {
+  for (const Index i : inside) {
     double square = 0.0;
     for (int a = 0; a < points.dimension; ++a) square += off(i, a) * off(i, a);
     if (square < least * (1.0 - 1e-9)) {
@@ -71,7 +73,7 @@ std::vector<Index> points_along(const Section& scene, const PointSet& points, in
     }
   }
   std::vector<Index> row;
-  for (const Index i : points_inside(scene, points)) {
+  for (const Index i : inside) {
     bool on_line = true;
     for (int a = 0; a < points.dimension; ++a) {
       on_line = on_line && (a == axis || std::abs(off(i, a) - off(nearest, a)) < half_spacing);

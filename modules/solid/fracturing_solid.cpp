@@ -5,6 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "core/errors.hpp"
+#include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/rigid_motion.hpp"
 
 namespace perifrac {
@@ -161,9 +165,24 @@ PortView FracturingSolid::port(PortId id) {
   }
 }
 
+/// `free` is of what is solved for; where its stiffness is nothing.
+BodyError FracturingSolid::loose_piece(Eigen::Index free) const {
+  const Points<2>& points = body_->points();
+  const Index unknown = Eigen::SparseMatrix<double>::InnerIterator(free_unknowns_, free).row();
+  const Index i = unknown % points.size();
+  return {fmt::format("its cracks leave a piece that nothing holds, or that is too thin to bear "
+                      "anything, at ({:.6g}, {:.6g}) m",
+                      points.position[0][i], points.position[1][i]),
+          "cracks that leave every piece held by a face or by solid.pins, some points thick"};
+}
+
 void FracturingSolid::initialize(double t) {
   window_end_ = last_growth_ = t;
-  cracked_.start();
+  try {
+    cracked_.start();
+  } catch (const NotPositiveDefinite& error) {
+    throw loose_piece(error.row());
+  }
   tips_.start(seeds_, t);
   load_is_current_ = !is_steady();
   unknowns_.assign(free_unknowns_.rows(), 0.0);

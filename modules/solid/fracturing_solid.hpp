@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "core/geometry/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/time/scheduled_vector.hpp"
@@ -48,6 +49,7 @@ class FracturingSolid final : public PhysicsModule {
   void on_restored(double t) override;
 
  private:
+  BodyError loose_piece(Eigen::Index free) const;
   enum Id : PortId {
     pore_stress,
     interface_impulse,

@@ -31,7 +31,8 @@ TEST(CouplingKeys, DefaultsFollowFromTheSimulatedTime) {
   EXPECT_DOUBLE_EQ(options.largest_window, 2.0);
   EXPECT_EQ(options.window, WindowType::schedule);
   EXPECT_EQ(options.split, Split::automatic);
-  EXPECT_EQ(options.max_iterations, 1);
+  EXPECT_FALSE(options.max_iterations);
+  EXPECT_EQ(options.retries, 8);
   EXPECT_DOUBLE_EQ(options.tolerance, 1e-4);
   EXPECT_EQ(options.acceleration, AccelerationType::anderson);
 }
@@ -39,7 +40,7 @@ TEST(CouplingKeys, DefaultsFollowFromTheSimulatedTime) {
 TEST(CouplingKeys, ReadsEachKey) {
   const CouplingOptions options = read(
       "coupling:\n"
-      "  window: {type: one_step, first: 2 ms, growth: 1.5, largest: 0.5 s}\n"
+      "  window: {type: one_step, first: 2 ms, growth: 1.5, largest: 0.5 s, retries: 3}\n"
       "  split: drained\n"
       "  iterations: {max: 30, tolerance: 1e-8}\n"
       "  acceleration: anderson\n");
@@ -49,6 +50,7 @@ TEST(CouplingKeys, ReadsEachKey) {
   EXPECT_EQ(options.window, WindowType::one_step);
   EXPECT_EQ(options.split, Split::drained);
   EXPECT_EQ(options.max_iterations, 30);
+  EXPECT_EQ(options.retries, 3);
   EXPECT_DOUBLE_EQ(options.tolerance, 1e-8);
   EXPECT_EQ(options.acceleration, AccelerationType::anderson);
 }

@@ -93,6 +93,40 @@ TEST(Splits, FixedStressInOnePassWarnsOfAStrongCoupling) {
                   .empty());
 }
 
+TEST(Splits, IteratesByItselfWhereOnePassWouldNotHold) {
+  CouplingOptions left_out = options(0.01, Split::fixed_stress, 1, AccelerationType::anderson);
+  left_out.max_iterations.reset();
+  left_out.tolerance = 1e-4;
+  for (const double value : {1.0, 50.0}) {
+    Consolidation consolidation(strength(value), left_out);
+    EXPECT_TRUE(consolidation.manager.warnings().empty());
+    consolidation.run(1.0);
+    EXPECT_LT(consolidation.content_error(1.0), 1e-3) << value;
+    EXPECT_EQ(consolidation.manager.too_strong_for_one_pass().has_value(), value == 50.0);
+  }
+}
+
+TEST(Splits, IteratesWhereAWindowWasNotForetold) {
+  const auto work = [](double window, Split split, std::optional<int> iterations) {
+    CouplingOptions left_out = options(window, split, 1, AccelerationType::anderson);
+    left_out.max_iterations = iterations;
+    Consolidation consolidation(strength(0.3), left_out);
+    consolidation.manager.settle();
+    const auto settling = consolidation.manager.work().passes;
+    while (consolidation.manager.time() < 2.0) consolidation.manager.advance(2.0);
+    return std::pair{consolidation.manager.work().passes - settling,
+                     consolidation.content_error(2.0)};
+  };
+  for (const Split split : {Split::fixed_stress, Split::drained}) {
+    EXPECT_EQ(work(0.01, split, {}), work(0.01, split, 1)) << "foretold well, the same bits";
+  }
+  const auto [passes, error] = work(0.5, Split::fixed_stress, {});
+  const auto [one_each, error_of_one] = work(0.5, Split::fixed_stress, 1);
+  EXPECT_GT(passes, one_each);
+  EXPECT_LT(error, 0.5 * error_of_one);
+  EXPECT_EQ(work(0.5, Split::drained, {}).first, one_each) << "which diverges at other strengths";
+}
+
 TEST(Splits, DrainedConvergesBelowStrengthOne) {
   Consolidation consolidation(strength(0.8), options(0.1, Split::drained, 200));
   EXPECT_TRUE(consolidation.manager.warnings().empty());

@@ -65,6 +65,23 @@ TEST(WindowSchedule, OneStepFollowsTheStableStepUpToTheLargest) {
   EXPECT_DOUBLE_EQ(schedule.end(5.0, 100.0), 13.0);
 }
 
+TEST(WindowSchedule, ComesBackFromACutAsFarAsWindowsAreEasy) {
+  WindowSchedule schedule(WindowType::schedule, 1.0, 2.0, 8.0);
+  schedule.grow(unlimited);
+  schedule.cut(2.0);
+  EXPECT_DOUBLE_EQ(schedule.end(0.0, 100.0), 1.0);
+  schedule.grow(unlimited, false);
+  EXPECT_DOUBLE_EQ(schedule.end(0.0, 100.0), 1.0);
+  for (const double length : {1.2, 1.44, 1.728, 2.0, 4.0, 8.0}) {
+    schedule.grow(unlimited);
+    EXPECT_DOUBLE_EQ(schedule.end(0.0, 100.0), length);
+  }
+  schedule.cut(0.5);  // what was tried may have been shorter, as before an output
+  EXPECT_DOUBLE_EQ(schedule.end(0.0, 100.0), 0.25);
+  schedule.start_over(unlimited);
+  EXPECT_DOUBLE_EQ(schedule.end(0.0, 100.0), 1.0);
+}
+
 TEST(WindowSchedule, StartsOverAfterASuddenLoad) {
   WindowSchedule schedule(WindowType::schedule, 1.0, 2.0, 8.0);
   schedule.grow(unlimited);

@@ -290,5 +290,22 @@ TEST(CrackedFlow, FollowsBondsThatBreak) {
   }
 }
 
+/// The step that is stable for what is left is found anew, as if it had been broken from the start.
+TEST(CrackedFlow, TheStableStepIsThatOfTheBondsLeft) {
+  const Method method = Method::forward_euler;
+  CrackingRun intact(method), cracking(method), cracked(method);
+  for (CrackingRun* run : {&intact, &cracking}) {
+    run->flow.initialize(0.0);
+    run->flow.advance({0.0, 0.1});
+  }
+  cracking.crack(1.2, 6);
+  cracking.flow.advance({0.1, 0.2});
+  cracked.crack(1.2, 6);
+  cracked.flow.initialize(0.0);
+  cracked.flow.advance({0.0, 0.2});
+  EXPECT_EQ(cracking.flow.stable_time_step(), cracked.flow.stable_time_step());
+  EXPECT_NE(cracking.flow.stable_time_step(), intact.flow.stable_time_step());
+}
+
 }  // namespace
 }  // namespace perifrac
