@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability study study-quick toughness bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast study study-quick toughness bench clean
 
 SCENE ?= configs/hf_storage.yaml
 BUILD := build/release
@@ -16,6 +16,7 @@ help:
 	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
 	@echo 'make study-quick  error against wall time of explicit and implicit pore flow'
 	@echo 'make study  every study of configs/studies; writes the pictures of docs/studies.md anew'
+	@echo 'make forecast  run times that check foretells beside those that runs take: docs/forecast.md'
 	@echo 'make stability  hard cases in many combinations of modules: docs/stability.md'
 
 install:
@@ -58,6 +59,9 @@ study-quick: perifrac
 study: perifrac
 	@for file in configs/studies/*.yaml; do $(PERIFRAC) study $$file $(FRESH) || exit; done
 	@/usr/bin/python3 docs/collect_studies.py runs
+
+forecast: perifrac
+	tests/verification/forecast.py $(PERIFRAC) --page docs/forecast.md
 
 stability: perifrac
 	tests/stability/stability.py $(PERIFRAC) --page docs/stability.md

@@ -87,9 +87,11 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
     // crack of half length l under uniform pressure, sqrt(s (1 - s / 2l)), whose K_I at fixed
     // volume goes as l^-1.5.
     const double by_length = (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing();  // 1 / l
+    // Nothing flows where the last facet is dry.
+    const double dry = state.viscosity[at.facet] > 0.0 ? 0.0 : cracked_.jumps()[at.facet].length;
     return state.opening[at.before] / tip_law.opening(s * (1.0 - 0.5 * s * by_length),
-                                                      s + viscous_offset * body_.spacing(), fluid,
-                                                      speed);
+                                                      s + viscous_offset * body_.spacing() - dry,
+                                                      fluid, speed);
   }
   const TipLoad load =
       energy_release_.at(at, state.unknowns(), state.pressure, state.pore_stress, state.inertia);

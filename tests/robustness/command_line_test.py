@@ -68,10 +68,33 @@ class CommandLine(RunTest):
         self.assertTrue(perifrac("check", MANDEL, cwd=self.folder).stdout)
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_check_foretells_what_a_run_takes(self):
+        def foretold(*arguments):
+            done = perifrac("check", *arguments, "--json", cwd=self.folder)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            return json.loads(done.stdout).get("forecast")
+
+        run = perifrac("run", MANDEL, "--json", "--no-report", "--output", self.folder / "run")
+        windows = json.loads(run.stdout)["counts"]["windows"]
+        whole, part = foretold(MANDEL, "--trial", "100"), foretold(MANDEL, "--trial", "0.05")
+        self.assertTrue(whole["trial"]["is_whole"])
+        self.assertFalse(part["trial"]["is_whole"])
+        for said in (whole, part):
+            self.assertEqual(said["windows"], windows)
+            self.assertAlmostEqual(sum(said["seconds_by_part"].values()), said["seconds"], delta=1e-9)
+            self.assertEqual(set(said["seconds_by_part"]), {"building", "coupling", "pore_flow", "solid"})
+            self.assertGreaterEqual(min(said["seconds_by_part"].values()), 0.0)
+        self.assertIsNone(foretold(MANDEL, "--trial", "0"))
+        # What stops a run stops the trial.
+        wild = foretold(MANDEL, "--trial", "100", "--set", "coupling.split=drained", "--set", "coupling.iterations.max=3",
+                        "--set", "coupling.window.retries=0", "--set", "pore_flow.fluid.bulk_modulus=200 GPa")
+        self.assertIn("the coupling does not converge", wild["failure"])
+        self.assertFalse(wild["trial"]["is_whole"])
+
     def test_check_says_the_regime_of_a_crack_that_fluid_drives(self):
         def check(scene, *keys):
             overrides = [word for key in keys for word in ("--set", key)]
-            done = perifrac("check", CONFIGS / scene, "--json", *overrides)
+            done = perifrac("check", CONFIGS / scene, "--json", "--trial", "0", *overrides)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             return json.loads(done.stdout)
 
@@ -82,7 +105,7 @@ class CommandLine(RunTest):
         self.assertAlmostEqual(said["regime"]["length"]["value"], 0.1014, delta=1e-4)
         self.assertAlmostEqual(said["regime"]["lag_time"]["value"], 2.478e-4, delta=1e-7)
         self.assertEqual(said["warnings"], [])
-        self.assertIn("regime: viscosity", perifrac("check", CONFIGS / "kgd_mixed.yaml", "--set", coarse).stdout)
+        self.assertIn("regime: viscosity", perifrac("check", CONFIGS / "kgd_mixed.yaml", "--trial", "0", "--set", coarse).stdout)
         # Twice the time, and next to no stress: the crack grows too long, and its tip stays dry.
         far, dry, unresolved = check("kgd_mixed.yaml", coarse, "time.end=0.2 s",
                                      "solid.confining_stress=[0.1 MPa, 0.1 MPa]")["warnings"]
