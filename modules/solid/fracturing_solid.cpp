@@ -21,7 +21,7 @@ const PointSet whole_body{.name = "solid"};
 constexpr double late = 0.02;
 /// A tip that is late in so short a window as so many cuts in a row leave goes on at once: its step
 /// is unstable, as a dry tip's may be that has just gone on.
-constexpr int most_cuts = 12;
+constexpr int most_cuts = 8;
 
 Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
@@ -299,10 +299,10 @@ void FracturingSolid::book_work() {
 double FracturingSolid::conclude(const TimeWindow& window) {
   double most = tips_.find_readiness(crack_state());
   // Shorter windows than this, of the time since the last growth, would not tell.
-  const bool can_cut = window.length() > 1e-2 * (window.end - last_growth_);
+  const bool can_cut = window.length() > 5e-2 * (window.end - last_growth_);
   if (wet() && most > 1.0 + late && can_cut && cuts_ < most_cuts) {
     // A tip that is late in however short a window is not met by the secant.
-    const double longest = ++cuts_ > 3 ? 0.5 : 0.95;
+    const double longest = ++cuts_ > 5 ? 0.5 : 0.95;
     const double share = (1.0 - readiness_before_) / (most - readiness_before_);
     return window.begin + std::clamp(share, 0.05, longest) * window.length();
   }
