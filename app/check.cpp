@@ -89,16 +89,12 @@ void print_regime(const nlohmann::json& regime) {
   }
 }
 
-/// Of both wings, where they are in the body.
-std::optional<double> facets_to_come(const Simulation& simulation,
-                                     const std::optional<SceneRegime>& regime) {
+/// Those of cracks from the start are part of the crack that is expected.
+std::optional<double> facets_at_end(const Simulation& simulation,
+                                    const std::optional<SceneRegime>& regime) {
   if (!regime) return {};
-  const double length = expected_crack(regime->fracture, regime->time).length;
-  return std::visit(
-      [&](const auto& body) {
-        return static_cast<double>(body->bond_state().facets().size()) + length / body->spacing();
-      },
-      simulation.body);
+  const double length = regime->wings * expected_crack(regime->fracture, regime->time).length;
+  return std::visit([&](const auto& body) { return length / body->spacing(); }, simulation.body);
 }
 
 nlohmann::json forecast_json(const Forecast& forecast) {
@@ -186,7 +182,7 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
     const double building =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result["forecast"] = forecast_json(
-        forecast(simulation, outputs, trial_seconds, building, facets_to_come(simulation, regime)));
+        forecast(simulation, outputs, trial_seconds, building, facets_at_end(simulation, regime)));
   }
   if (json) {
     fmt::print("{}", json_text(result));

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 
 #include "app/summary.hpp"
 #include "core/errors.hpp"
+#include "coupling/processor_time.hpp"
 
 namespace perifrac {
 
@@ -15,13 +15,6 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-/// Of all threads so far [s]: other programs slow a window down, but cost it no processor time.
-double processor_time() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// A window of the trial.
@@ -117,7 +110,7 @@ void for_each_window_to_come(const CouplingManager& manager, std::span<const dou
 }  // namespace
 
 Forecast forecast(Simulation& simulation, std::span<const double> outputs, double trial_seconds,
-                  double building_seconds, std::optional<double> facets_to_come) {
+                  double building_seconds, std::optional<double> facets_at_end) {
   CouplingManager& manager = *simulation.manager;
   const Clock::time_point begin = Clock::now();
   const double processors_before = processor_time();
@@ -127,7 +120,9 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
   auto output = outputs.begin();
   try {
     manager.settle();
-    while (output != outputs.end() && processor_time() - processors_before < trial_seconds) {
+    // One window at least: nothing can be foretold from none.
+    while (output != outputs.end() &&
+           (trial.empty() || processor_time() - processors_before < trial_seconds)) {
       const double t = manager.time();
       const Index facets = facet_count(simulation);
       const std::vector<double> before = spent(manager, begin);
@@ -156,7 +151,7 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
       for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * steps[k];
       ++result.windows;
     });
-    const double facets = facets_to_come.value_or(0.0) - facet_count(simulation);
+    const double facets = facets_at_end.value_or(0.0) - facet_count(simulation);
     parts[parts.size() - 2] += cost.facet * std::max(0.0, facets);  // the solid is the last module
   }
   // As if nothing else ran: one thread is then never kept waiting.

@@ -143,6 +143,7 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
                               scene.number("crack_fluid.viscosity"),
                               (feeds_both ? 1.0 : 2.0) *
                                   scene.number("crack_fluid.inlets[0].rate")}},
+      .wings = mouth.at_end ? 1 : 2,
       .time = pumping_time(scene),
       .warnings = {}};
   if (!(regime.time > 0.0)) return std::nullopt;

@@ -13,6 +13,7 @@ namespace perifrac {
 /// The crack in an infinite body that a scene's crack comes nearest to, when most fluid is in it.
 struct SceneRegime {
   HydraulicFracture fracture;
+  int wings;    ///< of it, that the body holds
   double time;  ///< in which the inlet's full rate brings as much [s]
   /// Where what the scene does is not what that crack does, or is resolved too coarsely.
   std::vector<std::string> warnings;

@@ -2,13 +2,13 @@
 
 #include <chrono>
 #include <cstdint>
-#include <ctime>
 #include <memory>
 #include <span>
 #include <string>
 
 #include "core/module/physics_module.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
+#include "coupling/processor_time.hpp"
 
 namespace perifrac {
 
@@ -30,7 +30,7 @@ class ModuleTime {
   ModuleTime& operator=(const ModuleTime&) = delete;
   ~ModuleTime() {
     slot_.seconds += std::chrono::duration<double>(Clock::now() - start_).count();
-    slot_.cpu_seconds += cpu_clock() - cpu_start_;
+    slot_.cpu_seconds += processor_time() - cpu_start_;
     const CholeskyWork work = SparseCholesky::work();
     slot_.factors.factorisations += work.factorisations - work_start_.factorisations;
     slot_.factors.solves += work.solves - work_start_.solves;
@@ -39,15 +39,9 @@ class ModuleTime {
  private:
   using Clock = std::chrono::steady_clock;
 
-  static double cpu_clock() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  }
-
   ModuleSlot& slot_;
   Clock::time_point start_ = Clock::now();
-  double cpu_start_ = cpu_clock();
+  double cpu_start_ = processor_time();
   CholeskyWork work_start_ = SparseCholesky::work();
 };
 

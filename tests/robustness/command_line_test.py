@@ -76,7 +76,7 @@ class CommandLine(RunTest):
 
         run = perifrac("run", MANDEL, "--json", "--no-report", "--output", self.folder / "run")
         windows = json.loads(run.stdout)["counts"]["windows"]
-        whole, part = foretold(MANDEL, "--trial", "100"), foretold(MANDEL, "--trial", "0.05")
+        whole, part = foretold(MANDEL, "--trial", "100"), foretold(MANDEL, "--trial", "1e-9")
         self.assertTrue(whole["trial"]["is_whole"])
         self.assertFalse(part["trial"]["is_whole"])
         for said in (whole, part):
