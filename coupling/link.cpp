@@ -35,6 +35,7 @@ double Link::Mismatch::relative() const {
 Link::Link(LinkEnd source, LinkEnd target, bool lagged)
     : name_(source.module->ports()[source.port].name),
       kind_(source.module->ports()[source.port].kind),
+      is_pure_number_(source.module->ports()[source.port].unit == "1"),
       source_(std::move(source)),
       target_(std::move(target)),
       lagged_(lagged),
@@ -196,6 +197,10 @@ void Link::compare() {
   std::vector<double> difference(value_.size());
   for (std::size_t i = 0; i < value_.size(); ++i) difference[i] = value_[i] - used_[i];
   mismatch_.absolute = norm(difference);
+  // A strain below the rounding of 1 is none: a body at rest has nothing to be compared with.
+  const double rounding =
+      std::sqrt(static_cast<double>(value_.size())) * std::numeric_limits<double>::epsilon();
+  if (is_pure_number_ && mismatch_.absolute <= rounding) mismatch_.absolute = 0.0;
   mismatch_.scale = norm(reached_.output);
   if (!uses_slope()) return;
   for (std::size_t i = 0; i < value_.size(); ++i) {

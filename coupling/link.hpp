@@ -40,7 +40,8 @@ struct LinkEnd {
 class Link {
  public:
   /// ||used - answered|| of the value sent, and the size it is to be compared with: the larger of
-  /// ||output|| and ||s x||, since c itself may cancel.
+  /// ||output|| and ||s x||, since c itself may cancel. Of pure numbers, differences below the
+  /// rounding of 1 are none.
   struct Mismatch {
     double absolute = 0.0;
     double scale = 0.0;
@@ -117,6 +118,7 @@ class Link {
 
   std::string name_;
   PortKind kind_;
+  bool is_pure_number_;  ///< its unit is 1
   LinkEnd source_;
   LinkEnd target_;
   bool lagged_;

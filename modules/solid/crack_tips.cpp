@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/solid/tip_law.hpp"
-
 namespace perifrac {
 
 namespace {
@@ -13,6 +11,9 @@ namespace {
 /// asks for is taken further on. Chosen between 0.1 and 0.38, the middle of the facet, by
 /// docs/decisions/0012-cracks-are-facets.md.
 constexpr double viscous_offset = 0.25;
+
+/// Of what it takes: below this the opening says for certain that J is not enough.
+constexpr double worth_asking = 0.9;
 
 /// A turn below this is rounding [rad].
 constexpr double straight = 1e-6;
@@ -67,7 +68,6 @@ double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
 }
 
 double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
-  const CrackTip& at = tip.at;
   const IsotropicElasticity<2>& law = cracked_.elastic().law(tip.nearest);
   const double shear = law.shear_modulus, lame = law.lame_lambda;
   // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
@@ -75,28 +75,63 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
   const double needed =
       state.has_fluid() ? 2.0 / (1.0 + tip.intensity_ratio * tip.intensity_ratio) : 1.0;
   const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
-                       needed * energy_to_cut(next_facet(at, 0.0))};
-  if (state.has_fluid() && at.before != no_facet && state.viscosity[at.before] > 0.0) {
-    const CrackFacet<2>& facet = cracked_.facets()[at.before];
-    const double s = std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
-                                at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
-    const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
-    const TipFluid fluid{state.viscosity[at.before],
-                         state.leak_off.empty() ? 0.0 : state.leak_off[at.before]};
-    // Opening ends to go as sqrt(s) where the crack's other end makes itself felt: as that of a
-    // crack of half length l under uniform pressure, sqrt(s (1 - s / 2l)), whose K_I at fixed
-    // volume goes as l^-1.5.
-    const double by_length = (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing();  // 1 / l
-    // Nothing flows where the last facet is dry.
-    const double dry = state.viscosity[at.facet] > 0.0 ? 0.0 : cracked_.jumps()[at.facet].length;
-    return state.opening[at.before] / tip_law.opening(s * (1.0 - 0.5 * s * by_length),
-                                                      s + viscous_offset * body_.spacing() - dry,
-                                                      fluid, speed);
-  }
-  const TipLoad load =
-      energy_release_.at(at, state.unknowns(), state.pressure, state.pore_stress, state.inertia);
+                       needed * energy_to_cut(next_facet(tip.at, 0.0))};
+  const bool is_followed =
+      state.has_fluid() && tip.at.before != no_facet && state.viscosity[tip.at.facet] > 0.0;
+  if (!is_followed) return dry_readiness(tip, tip_law, state);
+  return std::max(followed_readiness(tip, tip_law, state), lagging_readiness(tip, tip_law, state));
+}
+
+/// From K_I, without what fluid does beyond its pressure.
+double CrackTips::dry_readiness(const Tip& tip, const TipLaw& tip_law,
+                                const CrackState& state) const {
+  const TipLoad load = energy_release_.at(tip.at, state.unknowns(), state.pressure,
+                                          state.pore_stress, state.inertia);
   if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
   return std::sqrt(load.energy_release / tip_law.fracture_energy);
+}
+
+/// From the opening at the last facet but one, for fluid that stays up with the tip.
+double CrackTips::followed_readiness(const Tip& tip, const TipLaw& tip_law,
+                                     const CrackState& state) const {
+  const CrackTip& at = tip.at;
+  const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
+  const TipFluid fluid{state.viscosity[at.facet],
+                       state.leak_off.empty() ? 0.0 : state.leak_off[at.facet]};
+  const double s = behind(at);
+  return state.opening[at.before] /
+         tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
+}
+
+/// Fluid holds a tip back by the pressure that it loses on its way there, and it cannot lose more
+/// than it has: a tip that would go on if its last facet were empty does, and the fluid lags.
+double CrackTips::lagging_readiness(const Tip& tip, const TipLaw& tip_law,
+                                    const CrackState& state) const {
+  const CrackTip& at = tip.at;
+  // K_I of a pressure that ends a facet behind the tip of a long crack.
+  const double lost = 2.0 * std::sqrt(2.0 / M_PI * cracked_.jumps()[at.facet].length) *
+                      state.pressure[at.facet] / tip_law.toughness();
+  // J asks for the displacements, which are dear. Pressure that falls towards the tip opens the
+  // crack behind it by more than K_I alone, so that the opening says where J is in vain.
+  const double most =
+      state.opening[at.before] / tip_law.opening(within_crack(tip, behind(at)), 0.0, {}, 1.0);
+  if (most - lost < worth_asking) return 0.0;
+  return dry_readiness(tip, tip_law, state) - lost;
+}
+
+/// From the tip to the middle of the last facet but one [m].
+double CrackTips::behind(const CrackTip& at) const {
+  const CrackFacet<2>& facet = cracked_.facets()[at.before];
+  return std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
+                    at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
+}
+
+/// Openings end to go as sqrt(s) where the crack's other end makes itself felt: as that of a crack
+/// of half length l under uniform pressure, sqrt(s (1 - s / 2l)), whose K_I at fixed volume goes as
+/// l^-1.5. The s of an endless crack that is as open [m].
+double CrackTips::within_crack(const Tip& tip, double s) const {
+  const double by_length = (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing();  // 1 / l
+  return s * (1.0 - 0.5 * s * by_length);
 }
 
 double CrackTips::find_readiness(const CrackState& state) {

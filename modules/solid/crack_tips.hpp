@@ -9,6 +9,7 @@
 #include "modules/solid/cut_body.hpp"
 #include "modules/solid/energy_release.hpp"
 #include "modules/solid/fracture_energy.hpp"
+#include "modules/solid/tip_law.hpp"
 
 namespace perifrac {
 
@@ -64,6 +65,11 @@ class CrackTips {
 
   double energy_to_cut(const CrackFacet<2>& facet) const;
   double readiness(const Tip& tip, const CrackState& state) const;
+  double dry_readiness(const Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
+  double followed_readiness(const Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
+  double lagging_readiness(const Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
+  double behind(const CrackTip& at) const;
+  double within_crack(const Tip& tip, double s) const;
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
   bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
   double advance(Tip& tip, double turn, double t);

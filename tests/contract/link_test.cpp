@@ -154,6 +154,21 @@ TEST(Link, TheMismatchIsWhatWasUsedAgainstTheAnswer) {
   EXPECT_DOUBLE_EQ(pair.link.mismatch().relative(), 0.5);
 }
 
+/// Such as the dilatation of a body at rest, which is compared with nothing.
+TEST(Link, AStrainOfRoundingIsNoMismatch) {
+  Pair pair;
+  const auto mismatch = [&](double theta) {
+    pair.source.at[1].value = {0.0, 0.0};
+    pair.link.start();
+    pair.link.predict(1.0);
+    pair.source.at[1].value = {theta, 0.0};
+    pair.link.collect(1.0);
+    return pair.link.mismatch().relative();
+  };
+  EXPECT_EQ(mismatch(1e-16), 0.0);
+  EXPECT_GT(mismatch(1e-15), 0.5);
+}
+
 TEST(Link, ASourceThatChangesItsPointsIsFollowed) {
   for (const PortKind kind : {PortKind::intensive, PortKind::extensive}) {
     const Line two(2, "few");
