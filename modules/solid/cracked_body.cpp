@@ -36,12 +36,16 @@ CrackedBody::CrackedBody(std::shared_ptr<Family<2>> family, double spacing,
   }
 }
 
-Eigen::SparseMatrix<double> CrackedBody::free_stiffness() const {
-  return free_unknowns_.transpose() * elastic_->assemble() * free_unknowns_;
+const Eigen::SparseMatrix<double>& CrackedBody::free_stiffness() {
+  if (stiffness_.size() == 0) {
+    stiffness_ = free_unknowns_.transpose() * elastic_->assemble() * free_unknowns_;
+  }
+  return stiffness_;
 }
 
 void CrackedBody::start() {
   factor_.factor(free_stiffness());
+  stiffness_ = {};
   inverse_ = std::make_unique<CondensedInverse>(factor_, free_unknowns_.cols());
   jumps_.clear();
   modes_.clear();

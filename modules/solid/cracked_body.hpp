@@ -66,8 +66,8 @@ class CrackedBody final : public CutBody {
   /// Force of a pressure on the faces, and of the stress they are relieved of, on all unknowns [N].
   Eigen::VectorXd face_force(const Eigen::VectorXd& pressure, bool relief = true) const;
 
-  /// Of what is solved for, with all bonds that are broken now.
-  Eigen::SparseMatrix<double> free_stiffness() const;
+  /// Of what is solved for, with all bonds that are broken now; kept for start().
+  const Eigen::SparseMatrix<double>& free_stiffness();
 
  private:
   /// On the condensed unknowns.
@@ -88,6 +88,7 @@ class CrackedBody final : public CutBody {
   Eigen::SparseMatrix<double> free_unknowns_;
   std::vector<std::pair<int, double>> free_of_;  ///< by unknown: what moves it (-1: nothing)
 
+  Eigen::SparseMatrix<double> stiffness_;  ///< until start() has factored it
   SparseCholesky factor_;
   std::unique_ptr<CondensedInverse> inverse_;
   std::vector<Mode> modes_;

@@ -85,7 +85,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
   }
 }
 
-std::string FracturingSolid::free_motion() const {
+std::string FracturingSolid::free_motion() {
   return rigid_motion_without_energy<2>(body_->points(), cracked_.free_stiffness(), free_unknowns_,
                                         plate_unknowns_.size());
 }

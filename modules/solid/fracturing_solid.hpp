@@ -37,7 +37,7 @@ class FracturingSolid final : public PhysicsModule {
                   FractureEnergy<2> fracture_energy);
 
   /// As QuasiStaticSolid's.
-  std::string free_motion() const;
+  std::string free_motion();
 
   std::span<const Port> ports() const override { return ports_; }
   PortView port(PortId id) override;
