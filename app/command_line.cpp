@@ -28,7 +28,7 @@ struct Request {
   int threads = 0;
   std::string folder;
   bool page = false;
-  double trial = 2.0;  ///< [s]
+  double trial = 4.0;  ///< [s]
 };
 
 void add_scene_options(CLI::App& verb, Request& request) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "app/summary.hpp"
 #include "core/errors.hpp"
@@ -12,6 +13,10 @@ namespace perifrac {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// A trial goes on until cracks that are to grow have gained so many facets, which tell what one
+/// costs, but not longer than this times its time.
+constexpr double telling_facets = 10, longest_wait = 3;
 
 double since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -117,12 +122,18 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
   const std::vector<double> at_start = spent(manager, begin);
   std::vector<Trial> trial;
   Forecast result{};
+  const Index facets_at_start = facet_count(simulation);
+  const auto goes_on = [&] {
+    if (trial.empty()) return true;  // nothing can be foretold from no window
+    const Index gained = facet_count(simulation) - facets_at_start;
+    const double to_come = facets_at_end.value_or(0.0) - facets_at_start;
+    const bool waits = gained < std::min<double>(telling_facets, to_come);
+    return processor_time() - processors_before < (waits ? longest_wait : 1.0) * trial_seconds;
+  };
   auto output = outputs.begin();
   try {
     manager.settle();
-    // One window at least: nothing can be foretold from none.
-    while (output != outputs.end() &&
-           (trial.empty() || processor_time() - processors_before < trial_seconds)) {
+    while (output != outputs.end() && goes_on()) {
       const double t = manager.time();
       const Index facets = facet_count(simulation);
       const std::vector<double> before = spent(manager, begin);
@@ -151,8 +162,11 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
       for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * steps[k];
       ++result.windows;
     });
-    const double facets = facets_at_end.value_or(0.0) - facet_count(simulation);
-    parts[parts.size() - 2] += cost.facet * std::max(0.0, facets);  // the solid is the last module
+    const double facets = std::max(0.0, facets_at_end.value_or(0.0) - facet_count(simulation));
+    // A facet costs a window of its own, too: growth ends the one that it comes in.
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * facets;
+    parts[parts.size() - 2] += cost.facet * facets;  // the solid is the last module
+    result.windows += std::llround(facets);
   }
   // As if nothing else ran: one thread is then never kept waiting.
   const double used = processor_time() - processors_before;
