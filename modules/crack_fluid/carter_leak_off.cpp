@@ -10,7 +10,8 @@ constexpr double never = -1.0;
 
 }  // namespace
 
-void CarterLeakOff::match(const BondState<2>&, const CrackGraph& graph) {
+void CarterLeakOff::match(const BondState<2>& bonds, const CrackGraph& graph) {
+  sealed_.match(bonds);
   graph_ = &graph;
   wet_since_.resize(graph.facet_count(), never);
 }
@@ -20,7 +21,7 @@ void CarterLeakOff::evaluate(const Eigen::VectorXd&, const Eigen::VectorXd& fill
   for (Index f = 0; f < graph_->facet_count(); ++f) {
     const double since = wet_since_[f] == never ? step_.begin : wet_since_[f];
     const double roots = std::sqrt(step_.end - since) - std::sqrt(step_.begin - since);
-    leaked.by_fill[f] = density_ * 4.0 * coefficient_ * roots * graph_->length(f);
+    leaked.by_fill[f] = density_ * 4.0 * coefficient(f) * roots * graph_->length(f);
     leaked.mass[f] = leaked.by_fill[f] * fill[f];
   }
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "modules/crack_fluid/leak_off.hpp"
+#include "modules/crack_fluid/sealed_walls.hpp"
 
 namespace perifrac {
 
@@ -11,11 +12,13 @@ namespace perifrac {
 class CarterLeakOff final : public LeakOff {
  public:
   /// `coefficient` C_L [m/s^0.5], `density` at zero pressure [kg/m^3].
-  CarterLeakOff(double coefficient, double density)
-      : coefficient_(coefficient), density_(density) {}
+  CarterLeakOff(double coefficient, double density, SealedWalls sealed = SealedWalls())
+      : coefficient_(coefficient), density_(density), sealed_(std::move(sealed)) {}
 
   bool is_sink() const override { return true; }
-  double coefficient() const override { return coefficient_; }
+  double coefficient(Index facet) const override {
+    return sealed_.contain(facet) ? 0.0 : coefficient_;
+  }
   void match(const BondState<2>& bonds, const CrackGraph& graph) override;
   void begin(const TimeWindow& step) override { step_ = step; }
   void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
@@ -26,6 +29,7 @@ class CarterLeakOff final : public LeakOff {
  private:
   double coefficient_;
   double density_;
+  SealedWalls sealed_;
   const CrackGraph* graph_ = nullptr;
   TimeWindow step_{};
   std::vector<double> wet_since_;  ///< [s]; negative: never

@@ -38,20 +38,36 @@ std::vector<CrackFilling> read_fillings(const Section& section, const CrackLiqui
   return fillings;
 }
 
+SealedWalls read_sealed_walls(const Section& section) {
+  std::vector<Region<2>> boxes;
+  for (std::size_t k = 0; k < section.count("sealed"); ++k) {
+    Region<2> box;
+    std::ranges::copy(section.numbers(fmt::format("sealed[{}].from", k)), box.from.begin());
+    std::ranges::copy(section.numbers(fmt::format("sealed[{}].to", k)), box.to.begin());
+    boxes.push_back(box);
+  }
+  if (!boxes.empty() && section.word("leak_off") == "none") {
+    section.fail("sealed", "nothing leaks off", "leak_off: carter or pores");
+  }
+  return SealedWalls(std::move(boxes));
+}
+
 /// Null where the rock takes nothing.
 std::unique_ptr<LeakOff> read_leak_off(const Section& section, std::shared_ptr<const Body<2>> body,
                                        const CrackLiquid& liquid) {
   const std::string word = section.word("leak_off");
+  SealedWalls sealed = read_sealed_walls(section);
   if (word == "none") return nullptr;
   if (word == "pores") {
     const Section scene = section.scene();
     if (!scene.has("pore_flow")) {
       section.fail("leak_off", "the scene has no section 'pore_flow'", "none or carter");
     }
-    return std::make_unique<PoreLeakOff>(std::move(body), liquid.density, liquid.vapour_pressure);
+    return std::make_unique<PoreLeakOff>(std::move(body), liquid.density, liquid.vapour_pressure,
+                                         std::move(sealed));
   }
   return std::make_unique<CarterLeakOff>(section.number("leak_off_coefficient"),
-                                         section.number("density"));
+                                         section.number("density"), std::move(sealed));
 }
 
 std::unique_ptr<PhysicsModule> make_network(const Section& section,
@@ -115,6 +131,16 @@ KeyTable network_keys() {
        .required = true,
        .when = "leak_off=carter",
        .meaning = "Carter's coefficient of one side of a crack."},
+      {.path = "sealed[].from",
+       .type = KeyType::vector,
+       .unit = "m",
+       .required = true,
+       .meaning = "Low corner of a box whose cracks have walls that nothing leaks through."},
+      {.path = "sealed[].to",
+       .type = KeyType::vector,
+       .unit = "m",
+       .required = true,
+       .meaning = "Its high corner."},
   };
   const KeyTable inlets = crack_inlet_keys();
   keys.insert(keys.end(), inlets.begin(), inlets.end());

@@ -141,10 +141,10 @@ std::vector<double>& CrackNetwork::field(Quantity quantity) {
       for (std::size_t f = 0; f < count; ++f) wetted_fraction_[f] = liquid_.fill(unknown_[f]);
       return wetted_fraction_;
     case Quantity::viscosity:
-      set_where_wet(viscosity_, liquid_.viscosity);
+      set_where_wet(viscosity_, [&](Index) { return liquid_.viscosity; });
       return viscosity_;
     case Quantity::leak_off:
-      set_where_wet(leak_off_coefficient_, leak_off_->coefficient());
+      set_where_wet(leak_off_coefficient_, [&](Index f) { return leak_off_->coefficient(f); });
       return leak_off_coefficient_;
     case Quantity::flow_rate:
       find_flow_rate();
@@ -154,10 +154,11 @@ std::vector<double>& CrackNetwork::field(Quantity quantity) {
   }
 }
 
-void CrackNetwork::set_where_wet(std::vector<double>& field, double value) const {
+template <class Value>
+void CrackNetwork::set_where_wet(std::vector<double>& field, Value&& value_of) const {
   field.resize(mass_.size());
   for (std::size_t f = 0; f < mass_.size(); ++f) {
-    field[f] = liquid_.fill(unknown_[f]) < 0.5 ? 0.0 : value;
+    field[f] = liquid_.fill(unknown_[f]) < 0.5 ? 0.0 : value_of(static_cast<Index>(f));
   }
 }
 

@@ -91,7 +91,8 @@ class CrackNetwork final : public PhysicsModule {
   LubricationStep at_rest(const TimeWindow& window) const;
   std::vector<double>& field(Quantity quantity);
   void find_flow_rate();
-  void set_where_wet(std::vector<double>& field, double value) const;
+  template <class Value>
+  void set_where_wet(std::vector<double>& field, Value&& value_of) const;
   double scalar(Quantity quantity, PortId id) const;
   CrackExtent extent() const {
     return crack_extent(lubrication_.graph(), liquid_, unknown_, aperture_);

@@ -27,7 +27,7 @@ class LeakOff {
   /// The fluid is gone, as far as the run is concerned.
   virtual bool is_sink() const = 0;
   /// Carter's C_L of one side, as tips feel it [m/s^0.5]; 0 where there is none.
-  virtual double coefficient() const { return 0.0; }
+  virtual double coefficient(Index /*facet*/) const { return 0.0; }
   /// Follows the facets; `graph` must last.
   virtual void match(const BondState<2>& bonds, const CrackGraph& graph) = 0;
   virtual void begin_window(const TimeWindow&) {}

@@ -27,11 +27,12 @@ double weight_of(const Family<2>& family, Index i, Index j) {
 }  // namespace
 
 PoreLeakOff::PoreLeakOff(std::shared_ptr<const Body<2>> body, double density,
-                         double vapour_pressure)
+                         double vapour_pressure, SealedWalls sealed)
     : body_(std::move(body)),
       family_(body_->family(0)),
       density_(density),
       vapour_pressure_(vapour_pressure),
+      sealed_(std::move(sealed)),
       received_(body_->points().size()) {}
 
 PortView PoreLeakOff::pore_pressure() {
@@ -49,6 +50,7 @@ PortView PoreLeakOff::pore_mobility() {
 void PoreLeakOff::match(const BondState<2>& bonds, const CrackGraph&) {
   if (version_ == bonds.version()) return;
   version_ = bonds.version();
+  sealed_.match(bonds);
   find_contacts(bonds);
 }
 
@@ -56,7 +58,7 @@ void PoreLeakOff::find_contacts(const BondState<2>& bonds) {
   constexpr double d = 2.0;
   std::map<std::pair<Index, Index>, double> factors;  // by facet and point
   for (const auto& [i, j, facet] : bonds.broken()) {
-    if (facet == no_facet) continue;
+    if (facet == no_facet || sealed_.contain(facet)) continue;
     const double factor = 4.0 * d * weight_of(*family_, i, j) * body_->points().volume[i] /
                           (weighted_volume(*family_, i) + weighted_volume(*family_, j));
     for (const Index point : {i, j}) factors[{facet, point}] += factor;

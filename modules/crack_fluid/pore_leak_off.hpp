@@ -5,6 +5,7 @@
 #include "core/geometry/body.hpp"
 #include "core/module/port.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
+#include "modules/crack_fluid/sealed_walls.hpp"
 
 namespace perifrac {
 
@@ -20,7 +21,8 @@ namespace perifrac {
 /// `pore_pressure` says: a lagged one would be an explicit step of diffusion.
 class PoreLeakOff final : public LeakOff {
  public:
-  PoreLeakOff(std::shared_ptr<const Body<2>> body, double density, double vapour_pressure);
+  PoreLeakOff(std::shared_ptr<const Body<2>> body, double density, double vapour_pressure,
+              SealedWalls sealed = SealedWalls());
 
   bool is_sink() const override { return false; }
   void match(const BondState<2>& bonds, const CrackGraph& graph) override;
@@ -50,6 +52,7 @@ class PoreLeakOff final : public LeakOff {
   std::shared_ptr<const Family<2>> family_;
   double density_;
   double vapour_pressure_;
+  SealedWalls sealed_;
   std::uint64_t version_ = 0;      ///< of the bonds that the contacts are made of
   std::vector<Contact> contacts_;  ///< sorted by point
   std::vector<Index> touched_;     ///< points with contacts

@@ -187,9 +187,10 @@ TEST(CrackNetwork, AFacetServesOneInlet) {
   EXPECT_THROW(run.advance(0.1), NumericalError);
 }
 
-CrackRun leaking(double coefficient, std::vector<CrackInlet> inlets) {
+CrackRun leaking(double coefficient, std::vector<CrackInlet> inlets,
+                 SealedWalls sealed = SealedWalls()) {
   CrackRun run(water, std::move(inlets), {{everywhere, 1e5}},
-               std::make_unique<CarterLeakOff>(coefficient, water.density));
+               std::make_unique<CarterLeakOff>(coefficient, water.density, std::move(sealed)));
   run.add_line(straight_line({0.0, 0.0}, 0.0, dx, 10));
   run.open(w);
   return run;
@@ -207,6 +208,17 @@ TEST(CrackNetwork, CarterTakesItsVolume) {
   const double last = volume - 4.0 * 1e-5 * std::sqrt(run.time() - 0.2) * 10 * dx;
   EXPECT_NEAR(run.scalar("leak_off_rate"), last / 0.2, 1e-8 * last);
   EXPECT_LT(run.mass_error(), 1e-14);
+}
+
+TEST(CrackNetwork, SealedWallsLetNothingThrough) {
+  const Region<2> box{"", {-dx, -dx}, {4.1 * dx, dx}};  // four facets of ten
+  CrackRun run = leaking(1e-5, {pressure_inlet("in", {0.0, 0.0}, 1e6)}, SealedWalls({box}));
+  run.advance(0.1, 3);
+  const double volume = 4.0 * 1e-5 * std::sqrt(run.time()) * 6 * dx;
+  EXPECT_NEAR(run.scalar("leak_off_volume"), volume, 1e-10 * volume);
+  const auto felt = run.values("crack_leak_off");
+  EXPECT_EQ(felt[3], 0.0);
+  EXPECT_EQ(felt[4], 1e-5);
 }
 
 TEST(CrackNetwork, CarterTakesNoMoreThanThereIs) {

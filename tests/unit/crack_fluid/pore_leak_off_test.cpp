@@ -128,6 +128,17 @@ TEST(PoreLeakOff, HoldsInLongWindows) {
   EXPECT_NEAR(iterated.leaked(), expected, 0.05 * expected);
 }
 
+/// Two of the four facets that cross the strip; pressure spreads behind them all the same.
+TEST(PoreLeakOff, PassesNoSealedWalls) {
+  LeakingStrip all, half({"crack_fluid.sealed=[{from: [0 m, 0 m], to: [60 m, 2 m]}]"});
+  LeakingStrip none({"crack_fluid.sealed=[{from: [0 m, 0 m], to: [60 m, 4 m]}]"});
+  for (LeakingStrip* run : {&all, &half, &none}) run->advance(100.0, 10);
+  EXPECT_EQ(none.leaked(), 0.0);
+  EXPECT_GT(half.leaked(), 0.5 * all.leaked());
+  EXPECT_LT(half.leaked(), 0.9 * all.leaked());
+  EXPECT_LT(half.manager->ledger().mass()->relative_error, 1e-14);
+}
+
 TEST(PoreLeakOff, GoesBothWays) {
   LeakingStrip out, in({"pore_flow.initial_pressure=1 MPa", "crack_fluid.filled=[]",
                         "crack_fluid.inlets=[{name: pump, at: [30 m, 2 m], holds: pressure, "
