@@ -9,6 +9,7 @@
 
 #include "core/config/scene.hpp"
 #include "core/geometry/crack_seeds.hpp"
+#include "modules/solid/damage_keys.hpp"
 #include "modules/solid/material.hpp"
 #include "modules/solid/solid_boundary_keys.hpp"
 #include "modules/solid/solid_types.hpp"
@@ -20,14 +21,23 @@ using namespace perifrac;
 /// All that a scene of a solid alone may say.
 Catalogue catalogue() {
   KeyTable top_level = crack_seed_keys();
-  top_level.push_back(
-      {.path = "dimension", .type = KeyType::integer, .range = "[2, 3]", .required = true});
-  top_level.push_back({.path = "gravity", .type = KeyType::vector, .unit = "m/s^2"});
+  top_level.push_back({.path = "dimension",
+                       .type = KeyType::integer,
+                       .range = "[2, 3]",
+                       .required = true,
+                       .meaning = "2."});
+  top_level.push_back({.path = "gravity",
+                       .type = KeyType::vector,
+                       .unit = "m/s^2",
+                       .meaning = "Acceleration of gravity."});
+  const KeyTable time = {
+      {.path = "end", .unit = "s", .required = true, .meaning = "Not used: steps are counted."}};
   const ModuleType solid = dynamic_solid_type();
   return {{"", "", top_level},
           {"body", "", body_keys()},
           {solid.section, solid.name, solid.keys},
-          {"time", "", {{.path = "end", .unit = "s", .required = true}}}};
+          {"damage", "", damage_keys(), "", true},
+          {"time", "", time}};
 }
 
 void move(const Section& section, const AnyBody& body, int steps) {
