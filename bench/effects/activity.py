@@ -56,7 +56,7 @@ def table(rows):
 
 TEXT = """## Work follows activity
 
-The same body, with the effect in 1 % of where it could be and everywhere; times are of a window, results are the same bits as those of a program that looks everywhere.
+The same body, with the effect in 1 % of where it could be and everywhere (slits: where they touch a third of all points); times are of a window, results are the same bits as those of a program that looks everywhere.
 
 {table}
 
