@@ -32,7 +32,7 @@ double least_left(const Family<D>& family, const StretchBudget<D>& budget, Index
   return least;
 }
 
-/// Waves of all lengths and a drift, the larger `size`, the more.
+/// Waves of many lengths, down to that of a bond, and a drift, the larger `size`, the more.
 template <int D>
 struct Waves {
   std::mt19937 random{7};
@@ -53,7 +53,7 @@ struct Waves {
       u[k] = 3.0 * t;
       for (std::size_t n = 0; n < modes.size(); ++n) {
         double phase = modes[n][D] * t + static_cast<double>(k / family.point_count);
-        for (int a = 0; a < D; ++a) phase += modes[n][a] * family.position[a][i];
+        for (int a = 0; a < D; ++a) phase += 4.0 * modes[n][a] * family.position[a][i];
         u[k] += size * modes[n][D + 1] * std::sin(phase);
       }
     }
@@ -72,7 +72,7 @@ void misses_nothing(std::array<Index, D> points, double most) {
   const Waves<D> waves;
   std::size_t beyond = 0, due_in_all = 0, blocks_in_all = 0;
   for (int step = 0; step < 400; ++step) {
-    const std::vector<double> u = waves.at(family, 0.01 * step, 5e-3 * (1.0 + 0.005 * step));
+    const std::vector<double> u = waves.at(family, 0.004 * step, 1.2e-3 * (1.0 + 0.005 * step));
     const std::span<const Index> due = budget.due(u);
     const Index blocks = (family.point_count + budget.block_size - 1) / budget.block_size;
     blocks_in_all += blocks;
