@@ -247,7 +247,10 @@ template <int D>
 void FluidDynamics<D>::kick(double t, double length) {
   const FluidStep<D> view = step_view();
   find_pair_forces<D>(view, force_);
-  press_walls(view);
+  {
+    const ProfileScope profiled("walls");
+    wall_force_->add(view, walls_, force_);
+  }
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < points_.count; ++i) {
       points_.velocity[a][i] += length * (force_[a][i] / points_.mass[i] + gravity_[a]);
@@ -255,12 +258,6 @@ void FluidDynamics<D>::kick(double t, double length) {
   }
   stop_at_walls<D>(view, length, points_, walls_);
   wall_motion_.kick(t, length, gravity_, walls_, impulse_);
-}
-
-template <int D>
-void FluidDynamics<D>::press_walls(const FluidStep<D>& view) {
-  const ProfileScope profiled("walls");
-  wall_force_->add(view, walls_, force_);
 }
 
 template <int D>

@@ -68,7 +68,6 @@ class FluidDynamics {
   void exchange_mass(double t, double length);
   void find_densities(double t, double length);
   void kick(double t, double length);
-  void press_walls(const FluidStep<D>& view);
   void insert_points(double t);
   FluidStep<D> step_view() const;
 
