@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast study study-quick toughness bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast effects instructions study study-quick toughness bench clean
 
 SCENE ?= configs/hf_storage.yaml
 BUILD := build/release
@@ -17,6 +17,8 @@ help:
 	@echo 'make study-quick  error against wall time of explicit and implicit pore flow'
 	@echo 'make study  every study of configs/studies; writes the pictures of docs/studies.md anew'
 	@echo 'make forecast  run times that check foretells beside those that runs take: docs/forecast.md'
+	@echo 'make effects    what each effect costs in time and memory: docs/effects.md'
+	@echo 'make instructions  that absent effects cost none, and work follows activity (valgrind)'
 	@echo 'make stability  hard cases in many combinations of modules: docs/stability.md'
 
 install:
@@ -62,6 +64,15 @@ study: perifrac
 
 forecast: perifrac
 	tests/verification/forecast.py $(PERIFRAC) --page docs/forecast.md
+
+effects: perifrac
+	bench/effects/effects.py $(PERIFRAC) --page docs/effects.md
+
+# valgrind knows no AVX-512: a build of its own.
+instructions: install
+	@cmake -S . -B build/portable -G Ninja -DPERIFRAC_NATIVE=OFF -DPERIFRAC_TESTS=OFF -DPERIFRAC_BENCH=ON > /dev/null
+	@cmake --build build/portable --target perifrac perifrac_solid_step
+	bench/effects/instructions.py build/portable
 
 stability: perifrac
 	tests/stability/stability.py $(PERIFRAC) --page docs/stability.md

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/array_list.hpp"
 #include "app/forecast.hpp"
 #include "app/output_times.hpp"
 #include "app/recorder.hpp"
@@ -18,24 +19,6 @@ namespace perifrac {
 
 namespace {
 
-/// Lists every evolving field and its size; empty ones are those of what is absent.
-class ArrayList final : public StateVisitor {
- public:
-  nlohmann::json arrays = nlohmann::json::array();
-
- private:
-  void real(const std::string& name, std::vector<double>& values) override {
-    add(name, values.size(), sizeof(double));
-  }
-  void integer(const std::string& name, std::vector<std::int64_t>& values) override {
-    add(name, values.size(), sizeof(std::int64_t));
-  }
-  void add(const std::string& name, std::size_t count, std::size_t size) {
-    if (count == 0) return;
-    arrays.push_back({{"name", name}, {"count", count}, {"bytes", count * size}});
-  }
-};
-
 nlohmann::json modules_of(const CouplingManager& manager) {
   nlohmann::json modules = nlohmann::json::array();
   for (const ModuleSlot& slot : manager.modules()) modules.push_back(slot.name);
@@ -46,17 +29,6 @@ nlohmann::json links_of(const CouplingManager& manager) {
   nlohmann::json links = nlohmann::json::array();
   for (const Link& link : manager.links()) links.push_back(link.name());
   return links;
-}
-
-std::size_t family_bytes(const Simulation& simulation) {
-  return std::visit(
-      [](const auto& body) {
-        std::size_t bytes = 0;
-        if (!body) return bytes;
-        for (const auto& family : body->families()) bytes += family->bytes();
-        return bytes;
-      },
-      simulation.body);
 }
 
 nlohmann::json regime_json(const SceneRegime& regime) {
@@ -171,7 +143,7 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
   nlohmann::json result = {
       {"scene", scene_file},          {"modules", modules_of(manager)},
       {"effects", effects(scene)},    {"links", links_of(manager)},
-      {"counts", counts(simulation)}, {"family_bytes", family_bytes(simulation)},
+      {"counts", counts(simulation)}, {"family_bytes", family_bytes(simulation.body)},
       {"arrays", list.arrays},        {"warnings", manager.warnings()}};
   const std::optional<SceneRegime> regime = regime_of(scene, simulation);
   if (regime) {

@@ -52,6 +52,8 @@ void add_run_options(CLI::App& verb, Request& request) {
   verb.add_option("--restart", request.run.restart, "checkpoint to go on from")->type_name("FILE");
   verb.add_option("--until", request.run.until, "another end than the scene's, as in '20 s'")
       ->type_name("TIME");
+  verb.add_flag("--profile", request.run.profile,
+                "say what time and memory every part of the run took");
   verb.add_flag("!--no-report", request.run.report, "make no picture and no page");
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/references/reference_types.hpp"
 #include "app/version.hpp"
+#include "core/profile/profile.hpp"
 #include "core/state/finite_check.hpp"
 
 namespace perifrac {
@@ -18,22 +19,28 @@ double wall_clock() {
 /// Adds the time of its own life.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  explicit Stopwatch(double& seconds) : profiled_("output"), seconds_(seconds) {}
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
   ~Stopwatch() { seconds_ += wall_clock() - start_; }
 
  private:
+  ProfilePart profiled_;
   double& seconds_;
   double start_ = wall_clock();
 };
+
+Probes make_probes(const Section& scene, const Simulation& simulation) {
+  const ProfilePart profiled("output");
+  return {scene.at("output"), simulation};
+}
 
 }  // namespace
 
 Recorder::Recorder(const Section& scene, std::string scene_text, Simulation& simulation)
     : simulation_(simulation),
       scene_text_(std::move(scene_text)),
-      probes_(scene.at("output"), simulation),
+      probes_(make_probes(scene, simulation)),
       reference_(make_reference(scene, simulation)),
       mass_bound_(scene.number("ledger.mass_error")),
       history_interval_(scene.number("output.history_interval")),
@@ -80,6 +87,7 @@ void Recorder::record_window() {
   const double time = simulation_.manager->time();
   if (time < next_row_) return;
   const Stopwatch watch(seconds_);
+  const ProfilePart profiled("history");
   // Rows keep to multiples of the interval, whatever the windows.
   if (history_interval_ > 0.0) {
     next_row_ = history_interval_ * (std::floor(time / history_interval_ * (1 + 1e-12)) + 1.0);
@@ -95,6 +103,7 @@ void Recorder::record_window() {
 
 void Recorder::record_output() {
   const Stopwatch watch(seconds_);
+  const ProfilePart profiled("frames");
   const double time = simulation_.manager->time();
   write_frames(time);
   if (reference_ && time > 0.0) reference_->record_output(time);
@@ -115,6 +124,7 @@ void Recorder::write_frames(double time) {
 }
 
 void Recorder::restart_point() {
+  const ProfilePart profiled("restart points");
   CouplingManager& manager = *simulation_.manager;
   manager.ledger().check_mass(mass_bound_, manager.time());
   if (!last_) last_ = {.scene = scene_text_, .version = version};
@@ -129,6 +139,7 @@ void Recorder::write_checkpoint(bool if_due) {
   const double now = wall_clock();
   if (if_due && step_on_disk_ >= 0 && now - disk_time_ < checkpoint_interval_) return;
   const Stopwatch watch(seconds_);
+  const ProfilePart profiled("checkpoints");
   perifrac::write_checkpoint(folder_, *last_);
   step_on_disk_ = last_->step;
   disk_time_ = now;
@@ -150,6 +161,7 @@ void Recorder::check_finite() {
     }
     return nullptr;
   };
+  const ProfilePart profiled("checks for finite values");
   FiniteCheck check(manager.time(), points_of);
   simulation_.manager->visit_state(check);
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output_times.hpp"
+#include "app/profile_report.hpp"
 #include "app/recorder.hpp"
 #include "app/report.hpp"
 #include "app/scene_keys.hpp"
@@ -30,6 +31,18 @@ namespace {
 // Between outputs, every so many windows are a point to restart from, so that a signal costs
 // little of a long run. A fixed number: it is part of what makes runs equal bit for bit.
 constexpr std::int64_t windows_between_restart_points = 50;
+
+Section read(const RunRequest& request) {
+  const ProfilePart profiled("scene");
+  return read_scene(request.scene, request.overrides, scene_catalogue());
+}
+
+Simulation set_up(const Section& scene) {
+  const ProfilePart profiled("set-up");
+  Simulation simulation = make_simulation(scene);
+  initialize(scene, simulation);
+  return simulation;
+}
 
 /// The scene as run: what a checkpoint belongs to.
 std::string scene_text(const RunRequest& request) {
@@ -152,11 +165,12 @@ void start(Simulation& simulation, Recorder& recorder, const OutputFolder& folde
 
 int run_scene(const RunRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
+  std::optional<Profile> profile;
+  if (request.profile) profile.emplace();
   install_signal_handlers();
-  const Section scene = read_scene(request.scene, request.overrides, scene_catalogue());
+  const Section scene = read(request);
   const std::string text = scene_text(request);
-  Simulation simulation = make_simulation(scene);
-  initialize(scene, simulation);
+  Simulation simulation = set_up(scene);
   const std::vector<double> outputs =
       read_output_times(scene.at("output"), simulation.end, read_until(request.until));
   simulation.end = outputs.back();
@@ -183,9 +197,9 @@ int run_scene(const RunRequest& request) {
   recorder.write_checkpoint(false);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const nlohmann::json summary =
-      summarize(scene, request.scene, text, simulation, recorder.reference(), outcome,
-                {.whole = seconds, .output = recorder.seconds()});
+  nlohmann::json summary = summarize(scene, request.scene, text, simulation, recorder.reference(),
+                                     outcome, {.whole = seconds, .output = recorder.seconds()});
+  if (profile) summary["profile"] = profile_json(*profile, simulation);
   write_summary(folder.path(), summary);
   if (request.json) {
     fmt::print("{}", json_text(summary));
@@ -194,6 +208,7 @@ int run_scene(const RunRequest& request) {
     if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
   }
   std::fflush(stdout);
+  if (profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
   if (request.report && outcome != RunOutcome::stopped &&
       make_report(folder.path(), request.json) != 0) {
     log_warning("no report was made of the results; `perifrac report` tries again");

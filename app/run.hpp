@@ -14,6 +14,7 @@ struct RunRequest {
   std::string restart;                 ///< checkpoint to go on from; empty: start anew
   std::string until;                   ///< where to end; empty: the scene's time.end
   bool json = false;                   ///< summary on standard output as JSON
+  bool profile = false;                ///< a table of time and memory by part
   bool report = true;                  ///< make the picture and the page at the end
 };
 

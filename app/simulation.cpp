@@ -9,6 +9,7 @@
 #include "app/register_modules.hpp"
 #include "app/scene_checks.hpp"
 #include "core/errors.hpp"
+#include "core/profile/profile.hpp"
 #include "coupling/coupling_keys.hpp"
 
 namespace perifrac {
@@ -22,6 +23,7 @@ const ModuleType& type_of(const std::string& physics, const std::string& name) {
 }
 
 AnyBody make_body_if_any(const Section& scene) {
+  const ProfilePart profiled("body");
   const int dimension = scene.integer("dimension");
   if (scene.has("body")) return make_body(scene.at("body"), dimension);
   if (dimension == 2) return std::shared_ptr<const Body<2>>();
@@ -30,6 +32,7 @@ AnyBody make_body_if_any(const Section& scene) {
 
 std::unique_ptr<PhysicsModule> make_module(const Section& scene, const std::string& physics,
                                            const AnyBody& body) {
+  const ProfilePart profiled(physics);
   const Section section = scene.at(physics);
   const ModuleType& type = type_of(physics, section.word("type"));
   if (type.needs_body && !scene.has("body")) {

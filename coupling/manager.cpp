@@ -32,8 +32,7 @@ void CouplingManager::initialize(double t) {
     const ModuleTime counted(slot);
     slot.module->initialize(t);
   }
-  links_ = connect(modules_, options_.split);
-  for (Link& link : links_) link.start();
+  start_links();
   if (std::ranges::any_of(links_, &Link::is_foretold)) {
     options_.window = WindowType::one_step;
     schedule_ = WindowSchedule(options_.window, options_.first_window, options_.window_growth,
@@ -44,6 +43,12 @@ void CouplingManager::initialize(double t) {
   ledger_.start();
   time_ = t;
   step_ = 0;
+}
+
+void CouplingManager::start_links() {
+  const ProfilePart profiled("exchange");
+  links_ = connect(modules_, options_.split);
+  for (Link& link : links_) link.start();
 }
 
 bool CouplingManager::split_is_unusable() const {
@@ -181,7 +186,10 @@ void CouplingManager::visit_state(StateVisitor& visitor) {
 double CouplingManager::stable_time_step() const {
   double step = std::numeric_limits<double>::infinity();
   if (options_.window != WindowType::one_step) return step;
-  for (const ModuleSlot& slot : modules_) step = std::min(step, slot.module->stable_time_step());
+  for (const ModuleSlot& slot : modules_) {
+    const ProfilePart profiled(slot.name);
+    step = std::min(step, slot.module->stable_time_step());
+  }
   return step;
 }
 

@@ -73,6 +73,7 @@ class CouplingManager {
   const CouplingWork& work() const { return solver_->work(); }
 
  private:
+  void start_links();
   /// Half of the window that began at time() and was to reach `end` is left; returns its end.
   double cut(double end, double stop, const NumericalError& error);
   /// How often windows are repeated where the scene leaves it open.

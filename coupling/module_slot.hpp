@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/module/physics_module.hpp"
+#include "core/profile/profile.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "coupling/processor_time.hpp"
 
@@ -25,7 +26,7 @@ struct ModuleSlot {
 /// Counts the time of its own life, and what factors do meanwhile, as the module's.
 class ModuleTime {
  public:
-  explicit ModuleTime(ModuleSlot& slot) : slot_(slot) {}
+  explicit ModuleTime(ModuleSlot& slot) : profiled_(slot.name), slot_(slot) {}
   ModuleTime(const ModuleTime&) = delete;
   ModuleTime& operator=(const ModuleTime&) = delete;
   ~ModuleTime() {
@@ -39,6 +40,7 @@ class ModuleTime {
  private:
   using Clock = std::chrono::steady_clock;
 
+  ProfilePart profiled_;
   ModuleSlot& slot_;
   Clock::time_point start_ = Clock::now();
   double cpu_start_ = processor_time();

@@ -45,7 +45,10 @@ WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
 double WindowSolver::solve(const TimeWindow& window, const Iterations& iterations) {
   const bool alone = modules_.size() == 1;
   is_saved_ = may_go_back(iterations);
-  if (is_saved_) begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
+  if (is_saved_) {
+    const ProfilePart profiled("rollback");
+    begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
+  }
 
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
@@ -86,14 +89,18 @@ double WindowSolver::conclude(const TimeWindow& window, double reached) {
   for (ModuleSlot& slot : modules_) {
     if (reached < window.end) return reached;
     const ModuleTime counted(slot);
+    const ProfileScope profiled("window's end");
     reached = slot.module->conclude(window);
   }
   return reached;
 }
 
 double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterations) {
-  for (ModuleSlot& slot : modules_) slot.module->prepare(window);
-  for (Link& link : links_) link.predict(window.length());
+  for (ModuleSlot& slot : modules_) {
+    const ProfilePart profiled(slot.name);
+    slot.module->prepare(window);
+  }
+  predict(window.length());
   acceleration_->reset();
   GrowthWatch watch;
   for (int passes = 1;; ++passes) {
@@ -113,20 +120,16 @@ double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterati
 double WindowSolver::pass(const TimeWindow& window) {
   ++work_.passes;
   for (ModuleSlot& slot : modules_) {
-    for (Link& link : links_) {
-      if (link.target().module == slot.module.get()) link.deliver();
-    }
-    const ModuleTime counted(slot);
+    deliver_to(slot);
     const double reached = advance(slot, window);
     if (reached < window.end) return reached;
-    for (Link& link : links_) {
-      if (link.source().module == slot.module.get()) link.collect(window.length());
-    }
+    collect_from(slot, window.length());
   }
   return window.end;
 }
 
 double WindowSolver::advance(ModuleSlot& slot, const TimeWindow& window) {
+  const ModuleTime counted(slot);
   ++slot.advances;
   const double reached = slot.module->advance(window);
   const bool moved = reached > window.begin || window.length() == 0.0;
@@ -138,7 +141,27 @@ double WindowSolver::advance(ModuleSlot& slot, const TimeWindow& window) {
   return reached;
 }
 
+void WindowSolver::predict(double length) {
+  const ProfilePart profiled("exchange");
+  for (Link& link : links_) link.predict(length);
+}
+
+void WindowSolver::deliver_to(const ModuleSlot& slot) {
+  const ProfilePart profiled("exchange");
+  for (Link& link : links_) {
+    if (link.target().module == slot.module.get()) link.deliver();
+  }
+}
+
+void WindowSolver::collect_from(const ModuleSlot& slot, double length) {
+  const ProfilePart profiled("exchange");
+  for (Link& link : links_) {
+    if (link.source().module == slot.module.get()) link.collect(length);
+  }
+}
+
 void WindowSolver::go_back(double t) {
+  const ProfilePart profiled("rollback");
   begin_.restore([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
   for (ModuleSlot& slot : modules_) slot.module->on_restored(t);
 }

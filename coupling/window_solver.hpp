@@ -71,6 +71,9 @@ class WindowSolver {
   /// Every module once; stops at the first that ends early.
   double pass(const TimeWindow& window);
   double advance(ModuleSlot& slot, const TimeWindow& window);
+  void predict(double length);
+  void deliver_to(const ModuleSlot& slot);
+  void collect_from(const ModuleSlot& slot, double length);
   void go_back(double t);
 
   bool has_converged(double tolerance) const;

@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "core/operators/projected_weights.hpp"
+#include "core/profile/profile.hpp"
 
 namespace perifrac {
 
@@ -128,6 +129,7 @@ void Body<D>::check_mirrored_faces(FaceSet mirrored, FaceSet without_layers) con
 
 template <int D>
 Family<D> Body<D>::make_family(FaceSet mirrored, FaceSet without_layers) const {
+  const ProfilePart profiled("families");
   const FaceSet all = face_bit(static_cast<int>(faces_.size())) - 1;
   if (projected_weights_ && mirrored != all) {
     return without_other_ghosts(*this->family(all), mirrored);

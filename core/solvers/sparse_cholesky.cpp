@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/profile/profile.hpp"
 #include "core/solvers/cholesky_backend.hpp"
 
 namespace perifrac {
@@ -27,6 +28,7 @@ SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 void SparseCholesky::factor(const Eigen::SparseMatrix<double>& a) {
+  const ProfileScope profiled("factorisation");
   assert(a.isCompressed() && a.rows() == a.cols());
   // A factorisation carries what is not finite along without a word.
   const double* end = a.valuePtr() + a.nonZeros();
@@ -46,6 +48,7 @@ void SparseCholesky::factor(const Eigen::SparseMatrix<double>& a) {
 void SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b,
                            Eigen::Ref<Eigen::MatrixXd> x) const {
   assert(b.rows() == x.rows() && b.cols() == x.cols());
+  const ProfileScope profiled("solves");
   solves.fetch_add(1, std::memory_order_relaxed);
   backend_->solve(b, x);
 }

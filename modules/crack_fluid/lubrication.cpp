@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/profile/profile.hpp"
 #include "core/solvers/complementarity.hpp"
 
 namespace perifrac {
@@ -87,6 +88,7 @@ void Lubrication::store(const LubricationStep& step) {
 }
 
 void Lubrication::leak(LeakOff& leak_off) {
+  const ProfileScope profiled("leak-off");
   leaked_.by_pressure.clear();
   leak_off.evaluate(pressure_, fill_, leaked_);
   residual_ += leaked_.mass;

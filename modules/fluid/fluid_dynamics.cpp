@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/operators/bond_traversal.hpp"
+#include "core/profile/profile.hpp"
 #include "modules/fluid/fluid_momentum.hpp"
 #include "modules/fluid/merge_points.hpp"
 #include "modules/fluid/particle_shifting.hpp"
@@ -65,6 +66,7 @@ void FluidDynamics<D>::start_totals() {
 /// 4 kappa (K + 1/S) / (0.4 horizon)^2, with the moments of the Gaussian taken over all space.
 template <int D>
 void FluidDynamics<D>::set_pores(const PoreInput& pores) {
+  const ProfileScope profiled("exchange with pores");
   pores_ = pores;
   if (pores.mobility.empty()) return;
   pores_.mass = exchanged_mass_;
@@ -146,6 +148,7 @@ void FluidDynamics<D>::drift(double length) {
 
 template <int D>
 void FluidDynamics<D>::find_neighbours(double t) {
+  const ProfileScope profiled("neighbours");
   if (openings_.outlets) openings_.outlets->remove(points_);
   openings_.domain.remove(points_, t);
   neighbours_.find(points_, wall_motion_.positions(t), walls_);
@@ -181,6 +184,7 @@ FluidStep<D> FluidDynamics<D>::step_view() const {
 
 template <int D>
 void FluidDynamics<D>::exchange_mass(double t, double length) {
+  const ProfileScope profiled("exchange with pores");
   mass_rate_.assign(points_.count, 0.0);
   walls_.mass_rate.assign(walls_.count, 0.0);
   for (auto& values : walls_.momentum_rate) values.assign(walls_.count, 0.0);
@@ -243,7 +247,10 @@ template <int D>
 void FluidDynamics<D>::kick(double t, double length) {
   const FluidStep<D> view = step_view();
   find_pair_forces<D>(view, force_);
-  wall_force_->add(view, walls_, force_);
+  {
+    const ProfileScope profiled("walls");
+    wall_force_->add(view, walls_, force_);
+  }
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < points_.count; ++i) {
       points_.velocity[a][i] += length * (force_[a][i] / points_.mass[i] + gravity_[a]);

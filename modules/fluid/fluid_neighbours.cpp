@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace perifrac {
 
@@ -44,7 +45,7 @@ void FluidNeighbours<D>::find(FluidPoints<D>& points,
   images_.copy_positions(points.position, points.count);
   grid_.build(positions_of(points.position), reach_);
   grid_.find_others(points.count, reach_, fluid_of_fluid_);
-  find_near_walls(wall_position, walls);
+  find_near_walls(points, wall_position, walls);
   grid_.build(positions_of(walls.position), reach_);
   grid_.find(positions_of(points.position, points.count), reach_, walls_of_fluid_);
   for (int a = 0; a < D; ++a) {
@@ -55,21 +56,49 @@ void FluidNeighbours<D>::find(FluidPoints<D>& points,
   ++searches_;
 }
 
+/// The wall points within reach of the box that holds all fluid: a puddle on a large body is
+/// sought beside it and not along all faces.
+template <int D>
+void FluidNeighbours<D>::find_candidates(const FluidPoints<D>& points,
+                                         const std::array<std::vector<double>, D>& wall_position) {
+  const double reach = reach_ * (1.0 + 1e-9);
+  std::array<double, D> low, high;
+  for (int a = 0; a < D; ++a) {
+    low[a] = high[a] = std::numeric_limits<double>::quiet_NaN();  // without fluid none is near
+    if (points.position[a].empty()) continue;
+    const auto [least, most] = std::ranges::minmax(points.position[a]);
+    low[a] = least - reach;
+    high[a] = most + reach;
+  }
+  candidates_.clear();
+  for (auto& position : candidate_position_) position.clear();
+  for (Index w = 0; w < static_cast<Index>(wall_position[0].size()); ++w) {
+    bool is_near = true;
+    for (int a = 0; a < D; ++a) {
+      is_near = is_near && wall_position[a][w] >= low[a] && wall_position[a][w] <= high[a];
+    }
+    if (!is_near) continue;
+    candidates_.push_back(w);
+    for (int a = 0; a < D; ++a) candidate_position_[a].push_back(wall_position[a][w]);
+  }
+}
+
 /// The wall points that fluid is near, compactly, and their images.
 template <int D>
-void FluidNeighbours<D>::find_near_walls(const std::array<std::vector<double>, D>& wall_position,
+void FluidNeighbours<D>::find_near_walls(const FluidPoints<D>& points,
+                                         const std::array<std::vector<double>, D>& wall_position,
                                          NearWalls<D>& walls) {
-  const Index cloud = static_cast<Index>(wall_position[0].size());
-  grid_.find(positions_of(wall_position, cloud), reach_, fluid_of_cloud_);
+  find_candidates(points, wall_position);
+  grid_.find(positions_of(candidate_position_), reach_, fluid_of_candidates_);
   walls.wall.clear();
   fluid_of_walls_.offset.assign(1, 0);
   fluid_of_walls_.other.clear();
-  for (Index w = 0; w < cloud; ++w) {
-    const Index begin = fluid_of_cloud_.offset[w], end = fluid_of_cloud_.offset[w + 1];
-    if (begin == end) continue;
-    walls.wall.push_back(w);
-    fluid_of_walls_.other.insert(fluid_of_walls_.other.end(), fluid_of_cloud_.other.begin() + begin,
-                                 fluid_of_cloud_.other.begin() + end);
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    const auto& [offset, other] = fluid_of_candidates_;
+    if (offset[k] == offset[k + 1]) continue;
+    walls.wall.push_back(candidates_[k]);
+    fluid_of_walls_.other.insert(fluid_of_walls_.other.end(), other.begin() + offset[k],
+                                 other.begin() + offset[k + 1]);
     fluid_of_walls_.offset.push_back(static_cast<Index>(fluid_of_walls_.other.size()));
   }
   walls.count = static_cast<Index>(walls.wall.size());

@@ -39,7 +39,10 @@ class FluidNeighbours {
  private:
   void wrap(FluidPoints<D>& points) const;
   void sort(FluidPoints<D>& points);
-  void find_near_walls(const std::array<std::vector<double>, D>& wall_position,
+  void find_candidates(const FluidPoints<D>& points,
+                       const std::array<std::vector<double>, D>& wall_position);
+  void find_near_walls(const FluidPoints<D>& points,
+                       const std::array<std::vector<double>, D>& wall_position,
                        NearWalls<D>& walls);
 
   double reach_;
@@ -52,7 +55,9 @@ class FluidNeighbours {
   Neighbours fluid_of_fluid_;
   Neighbours walls_of_fluid_;
   Neighbours fluid_of_walls_;
-  Neighbours fluid_of_cloud_;                    ///< of every point of the wall cloud
+  std::vector<Index> candidates_;  ///< of the wall cloud, that fluid may be near
+  std::array<std::vector<double>, D> candidate_position_;
+  Neighbours fluid_of_candidates_;
   std::array<std::vector<double>, D> found_at_;  ///< where the points were
   std::array<std::vector<double>, D> walls_found_at_;
   std::vector<double> sorted_;  // workspace

@@ -1,5 +1,7 @@
 #include "modules/pore_flow/darcy_newton_matrix.hpp"
 
+#include "core/profile/profile.hpp"
+
 namespace perifrac {
 
 template <int D>
@@ -14,6 +16,7 @@ DarcyNewtonMatrix<D>::DarcyNewtonMatrix(DarcySystem<D>& system, Method method)
 
 template <int D>
 void DarcyNewtonMatrix<D>::assemble() {
+  const ProfileScope profiled("assembly");
   const Eigen::SparseMatrix<double> all =
       method_ == Method::direct ? system_.flow().assemble() : system_.flow().preconditioner();
   flow_ = all.topLeftCorner(system_.points(), system_.points());

@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "core/operators/bond_traversal.hpp"
 #include "core/operators/compensated_sum.hpp"
+#include "core/profile/profile.hpp"
 
 namespace perifrac {
 
@@ -67,6 +68,7 @@ void DarcySystem<D>::set_dilatation(const DilatationInput& input) {
 template <int D>
 bool DarcySystem<D>::follow(const BondState<D>& bonds) {
   if (bond_version_ == bonds.version()) return false;
+  const ProfileScope profiled("broken bonds");
   bond_version_ = bonds.version();
   if (!cut_family_) {
     cut_family_ = std::make_shared<Family<D>>(flow_->family());

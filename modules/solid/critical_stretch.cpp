@@ -1,7 +1,9 @@
 #include "modules/solid/critical_stretch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/crack_cut.hpp"
 #include "core/operators/bond_traversal.hpp"
@@ -45,6 +47,7 @@ CriticalStretch<D>::CriticalStretch(std::shared_ptr<Family<D>> family,
       limit_(limit),
       intact_weight_(family_->weight),
       growth_of_(family_->point_count, 1.0),
+      budget_(*family_),
       overstretched_(family_->point_count) {}
 
 template <int D>
@@ -76,33 +79,81 @@ bool CriticalStretch<D>::break_stretched(std::span<const double> u) {
 /// Pairs i < j, in the order of the points.
 template <int D>
 auto CriticalStretch<D>::stretched_bonds(std::span<const double> u) -> Bonds {
-  const Index points = family_->point_count;
-  const double most = (1.0 + limit_) * (1.0 + limit_);
-  const auto for_each_stretched = [&](Index i, auto&& use) {
-    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
-      const Index j = family_->other[bond];
-      if (j >= points) break;  // ghosts come last
-      if (j <= i || family_->weight[bond] == 0.0) continue;
-      double now = 0.0, square = 0.0;
-      for (int a = 0; a < D; ++a) {
-        const double xi = family_->position[a][j] - family_->position[a][i];
-        const std::size_t block = static_cast<std::size_t>(a) * points;
-        const double moved = xi + u[block + j] - u[block + i];
-        now += moved * moved;
-        square += xi * xi;
-      }
-      if (now > most * square) use(j);
+  const std::span<const Index> due = budget_.due(u);
+  const Index count = static_cast<Index>(due.size());
+#pragma omp parallel for schedule(dynamic, \
+                                  8) if (count * budget_.block_size >= points_worth_threads)
+  for (Index k = 0; k < count; ++k) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Index i = budget_.begin(due[k]); i < budget_.end(due[k]); ++i) {
+      const double left = left_to_limit(i, u);
+      overstretched_[i] = left < budget_.rounding();
+      least = std::min(least, left);
     }
-  };
-  for_each_point(points, [&](Index i) {
-    overstretched_[i] = 0;
-    for_each_stretched(i, [&](Index) { overstretched_[i] = 1; });
-  });
+    budget_.set_left(due[k], least);
+  }
   Bonds bonds;
-  for (Index i = 0; i < points; ++i) {
-    if (overstretched_[i]) for_each_stretched(i, [&](Index j) { bonds.emplace_back(i, j); });
+  for (const Index block : due) {
+    for (Index i = budget_.begin(block); i < budget_.end(block); ++i) {
+      if (overstretched_[i]) append_stretched(i, u, bonds);
+    }
   }
   return bonds;
+}
+
+/// How far the ends of the bonds to points j > i may at least still part, where that is positive
+/// [m]: of L = (1 + s0) |xi| and d = |xi + du| < L, (L^2 - d^2) / (2 L) < L - d.
+template <int D>
+double CriticalStretch<D>::left_to_limit(Index i, std::span<const double> u) const {
+  const Index points = family_->point_count;
+  const double most = (1.0 + limit_) * (1.0 + limit_);
+  Vector<D> x, own;
+  std::array<const double*, D> position, moved;
+  for (int a = 0; a < D; ++a) {
+    position[a] = family_->position[a].data();
+    moved[a] = u.data() + static_cast<std::size_t>(a) * points;
+    x[a] = position[a][i];
+    own[a] = moved[a][i];
+  }
+  const Index* const other = family_->other.data();
+  const double* const weight = family_->weight.data();
+  const Index end = budget_.end_of_real_bonds(i);
+  constexpr double whole = std::numeric_limits<double>::infinity();
+  double least = whole;
+#pragma omp simd reduction(min : least)
+  for (Index bond = family_->offset[i]; bond < end; ++bond) {
+    const Index j = other[bond];
+    double now = 0.0, square = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double xi = position[a][j] - x[a];
+      const double after = xi + moved[a][j] - own[a];
+      now += after * after;
+      square += xi * xi;
+    }
+    const double left = (most * square - now) / std::sqrt(square);
+    const double counted = (j > i) & (weight[bond] != 0.0) ? left : whole;
+    least = counted < least ? counted : least;
+  }
+  return least / (2.0 * (1.0 + limit_));
+}
+
+template <int D>
+void CriticalStretch<D>::append_stretched(Index i, std::span<const double> u, Bonds& bonds) const {
+  const Index points = family_->point_count;
+  const double most = (1.0 + limit_) * (1.0 + limit_);
+  for (Index bond = family_->offset[i]; bond < budget_.end_of_real_bonds(i); ++bond) {
+    const Index j = family_->other[bond];
+    if (j <= i || family_->weight[bond] == 0.0) continue;
+    double now = 0.0, square = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double xi = family_->position[a][j] - family_->position[a][i];
+      const std::size_t block = static_cast<std::size_t>(a) * points;
+      const double moved = xi + u[block + j] - u[block + i];
+      now += moved * moved;
+      square += xi * xi;
+    }
+    if (now > most * square) bonds.emplace_back(i, j);
+  }
 }
 
 template <int D>
@@ -136,6 +187,7 @@ template <int D>
 void CriticalStretch<D>::follow_bonds() {
   if (bonds_.version() == followed_) return;
   followed_ = bonds_.version();
+  budget_.forget();
   family_->weight = intact_weight_;
   Bonds stretched;
   for (const BrokenBond& bond : bonds_.broken()) {

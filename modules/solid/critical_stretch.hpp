@@ -7,6 +7,7 @@
 
 #include "core/geometry/bond_state.hpp"
 #include "modules/solid/breakable_elasticity.hpp"
+#include "modules/solid/stretch_budget.hpp"
 
 namespace perifrac {
 
@@ -44,6 +45,8 @@ class CriticalStretch {
   using Bonds = std::vector<std::pair<Index, Index>>;
 
   Bonds stretched_bonds(std::span<const double> u);
+  double left_to_limit(Index i, std::span<const double> u) const;
+  void append_stretched(Index i, std::span<const double> u, Bonds& bonds) const;
   void break_in_family(std::span<const std::pair<Index, Index>> bonds,
                        std::span<const Index> points);
   double stiffness_bound(Index i) const;
@@ -59,8 +62,9 @@ class CriticalStretch {
   std::vector<double> growth_of_;       ///< by point
   double growth_ = 1.0;
   double released_energy_ = 0.0;
-  std::uint64_t followed_ = 0;               ///< version of the bonds that the family has
-  std::vector<std::uint8_t> overstretched_;  // workspace: by point, some bond is
+  std::uint64_t followed_ = 0;  ///< version of the bonds that the family has
+  StretchBudget<D> budget_;
+  std::vector<std::uint8_t> overstretched_;  // workspace: by point, some bond may be
 };
 
 }  // namespace perifrac

@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "core/operators/block_sum.hpp"
+#include "core/profile/profile.hpp"
 
 namespace perifrac {
 
@@ -127,6 +128,7 @@ void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<do
 template <int D>
 void ElasticDynamics<D>::apply(std::span<const double> u, const PoreStress& pore,
                                std::span<double> force, std::span<double> dilatation) {
+  const ProfileScope profiled("bond forces");
   elastic_->apply(u, pore, force, dilatation);
   if (initial_force_.empty()) return;
   for_each_entry(static_cast<Index>(force.size()), [&](Index k) { force[k] -= initial_force_[k]; });
@@ -255,7 +257,9 @@ void ElasticDynamics<D>::set_breaking(CriticalStretch<D>& breaking) {
 /// those that broke: so no energy is lost but what they held.
 template <int D>
 bool ElasticDynamics<D>::changes() {
-  if (breaking_ == nullptr || !breaking_->break_stretched(unknowns_)) return false;
+  if (breaking_ == nullptr) return false;
+  const ProfileScope profiled("damage");
+  if (!breaking_->break_stretched(unknowns_)) return false;
   plate_rows_known_ = false;
   return true;
 }

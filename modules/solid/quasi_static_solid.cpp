@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "core/profile/profile.hpp"
 #include "modules/solid/rigid_motion.hpp"
 
 namespace perifrac {
@@ -45,6 +46,7 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
           {"external_work", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_gained},
       } {
+  const ProfileScope profiled("assembly");
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
   stiffness_ = elastic_->assemble();
   dilatation_of_ = elastic_->dilatation_matrix();
