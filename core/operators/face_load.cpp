@@ -1,5 +1,7 @@
 #include "core/operators/face_load.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
@@ -26,6 +28,15 @@ Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>
     throw BodyError(fmt::format("{:g} m between faces '{}' and '{}' is too thin for a load on one",
                                 thickness, loaded.name, opposite.name),
                     fmt::format("at least {:g} horizons, {:g} m", needed / body.horizon(), needed));
+  }
+  for (const Region<D>& box : body.cutouts()) {
+    const int a = loaded.axis;
+    const double apart =
+        loaded.direction > 0 ? loaded.coordinate - box.to[a] : box.from[a] - loaded.coordinate;
+    if (apart >= 2.0 * reach * (1.0 - 1e-9)) continue;
+    throw BodyError(fmt::format("cut-out '{}' is {:g} m from face '{}', which is loaded", box.name,
+                                std::max(0.0, apart), loaded.name),
+                    fmt::format("at least 4 horizons, {:g} m, or no load there", 2.0 * reach));
   }
   Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
   for (Index i = 0; i < points; ++i) {
