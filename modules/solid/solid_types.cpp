@@ -84,18 +84,9 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
   return refuse_cracks_in_3d(section);
 }
 
-/// Walls of a cut-out would bear the stress, though nothing does it to them.
-template <int D>
-void refuse_confined_cutouts(const Section& section, const Body<D>& body) {
-  if (body.cutouts().empty() || !section.has("confining_stress")) return;
-  section.fail("confining_stress", "beside a cut-out, whose walls would bear it too",
-               "loads on the faces");
-}
-
 template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
-  refuse_confined_cutouts(section, *body);
   if (has_cracks(section)) return make_fracturing(section, body);
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
@@ -138,7 +129,6 @@ std::unique_ptr<CriticalStretch<D>> make_breaking(const Section& section, const 
 template <int D>
 std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
-  refuse_confined_cutouts(section, *body);
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   const auto make = [&](std::shared_ptr<ElasticOperator<D>> elastic,
                         std::unique_ptr<CriticalStretch<D>> breaking) {
