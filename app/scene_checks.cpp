@@ -54,6 +54,20 @@ void check_density(const Section& scene, const std::string& fluid) {
              fmt::format("pore_flow.fluid.density, {:g} kg/m^3", in_pores));
 }
 
+/// What cracks take from free fluid is of its kind.
+void check_mouths(const Section& scene) {
+  for (std::size_t k = 0; k < scene.count("crack_fluid.inlets"); ++k) {
+    if (scene.word(fmt::format("crack_fluid.inlets[{}].holds", k)) != "fluid") continue;
+    if (!names(scene, "fluid")) return;  // which crack_fluid says
+    const double outside = scene.number("fluid.density");
+    const double inside = scene.number("crack_fluid.density");
+    if (std::abs(outside - inside) <= 1e-12 * outside) return;
+    scene.fail("crack_fluid.density",
+               fmt::format("{:g} kg/m^3 of what comes from the free fluid", inside),
+               fmt::format("fluid.density, {:g} kg/m^3", outside));
+  }
+}
+
 /// What flows into the pores is of their kind, and comes from one side.
 void check_exchange(const Section& scene) {
   if (!names(scene, "pore_flow")) return;
@@ -78,6 +92,7 @@ void check_sections_together(const Section& scene) {
   refuse_unreachable_tolerance(scene);
   check_interface(scene);
   check_exchange(scene);
+  if (names(scene, "crack_fluid")) check_mouths(scene);
 }
 
 }  // namespace perifrac

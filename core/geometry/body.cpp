@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/geometry/cutouts.hpp"
 #include "core/operators/projected_weights.hpp"
 #include "core/profile/profile.hpp"
 
@@ -136,6 +137,7 @@ Family<D> Body<D>::make_family(FaceSet mirrored, FaceSet without_layers) const {
   }
   Family<D> family =
       build_family<D>(points_, faces_, mirrored, horizon_, influence_, in_layers(without_layers));
+  remove_bonds_through<D>(cutouts_, faces_, mirrored, family);
   if (projected_weights_) project_weights<D>(family, faces_, mirrored, horizon_);
   return family;
 }

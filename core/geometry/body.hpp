@@ -32,6 +32,9 @@ class Body {
   const PointSet& point_set() const { return point_set_; }
   const std::vector<Region<D>>& regions() const { return regions_; }
   void set_regions(std::vector<Region<D>> regions) { regions_ = std::move(regions); }
+  /// Boxes that were taken out: no point lies in one, no bond passes through one (cutouts.hpp).
+  const std::vector<Region<D>>& cutouts() const { return cutouts_; }
+  void set_cutouts(std::vector<Region<D>> cutouts) { cutouts_ = std::move(cutouts); }
   /// The points are no lattice; families get projected weights (projected_weights.hpp) or not.
   bool irregular() const { return irregular_; }
   void set_irregular(bool projected_weights);
@@ -70,6 +73,7 @@ class Body {
   std::vector<Face> faces_;
   std::vector<std::vector<Index>> layers_;  ///< by face
   std::vector<Region<D>> regions_;
+  std::vector<Region<D>> cutouts_;
   double spacing_;
   double horizon_;
   bool irregular_ = false;

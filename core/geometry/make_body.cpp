@@ -5,6 +5,7 @@
 #include "core/geometry/body.hpp"
 #include "core/geometry/bonded_layer.hpp"
 #include "core/geometry/cloud_points.hpp"
+#include "core/geometry/cutouts.hpp"
 #include "core/geometry/jitter.hpp"
 #include "core/geometry/lattice.hpp"
 #include "core/geometry/voronoi.hpp"
@@ -43,6 +44,19 @@ void set_cloud(const Section& section, Body<D>& body, bool irregular) {
   if (irregular || projected) body.set_irregular(projected);
 }
 
+/// What finds volumes or weights for the whole box, or stands for ghosts behind all of a face.
+void refuse_beside_cutouts(const Section& section, FaceSet layered) {
+  const auto is = [&](const char* key, const char* word) {
+    return section.has(key) && section.word(key) == word;
+  };
+  if (layered == 0 && section.number("jitter") == 0.0 && !is("volumes", "voronoi") &&
+      !is("weights", "projected")) {
+    return;
+  }
+  section.fail("cutouts", "beside layers, irregular points or projected weights",
+               "a plain lattice without layers");
+}
+
 template <int D>
 std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double horizon,
                                   InfluenceFunction influence) {
@@ -62,6 +76,9 @@ std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double
     add_faces<D>(faces, a, 0.0, cells[a] * spacing);
   }
   Points<D> points = box_lattice<D>(counts, spacing, first);
+  std::vector<Region<D>> cutouts = read_cutouts<D>(section, spacing);
+  if (!cutouts.empty()) refuse_beside_cutouts(section, layered);
+  cut_out<D>(section, cutouts, points);
   const double jitter = section.number("jitter");
   if (jitter > 0.0) jitter_points(points, jitter * spacing, section.integer("seed"));
   const bool voronoi = section.has("volumes") ? section.word("volumes") == "voronoi" : jitter > 0.0;
@@ -70,6 +87,7 @@ std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double
       std::make_shared<Body<D>>(std::move(points), std::move(faces), spacing, horizon, influence);
   body->set_layers(points_behind<D>(body->faces(), layered, body->points()));
   set_cloud(section, *body, jitter > 0.0);
+  body->set_cutouts(std::move(cutouts));
   if (layered != 0 && body->irregular()) {
     section.fail("boundary", "a layer behind irregular points or projected weights",
                  "layers on a plain lattice");
@@ -119,6 +137,9 @@ template <int D>
 std::shared_ptr<const Body<D>> make_shape(const Section& section) {
   const InfluenceFunction influence = influence_function(section.word("influence_function"));
   const std::string shape = section.word("shape");
+  if (shape != "box" && section.has("cutouts")) {
+    section.fail("cutouts", fmt::format("in a body of shape {}", shape), "a body of shape box");
+  }
   std::shared_ptr<Body<D>> body;
   if (shape == "points") {
     body = make_cloud<D>(section, influence);
@@ -204,7 +225,7 @@ KeyTable body_keys() {
        .words = {"gaussian", "constant", "inverse"},
        .meaning = "How a bond's weight falls with its length."},
   };
-  for (const KeyTable& part : {cloud_keys(), bonded_layer_keys(), region_keys()}) {
+  for (const KeyTable& part : {cloud_keys(), bonded_layer_keys(), region_keys(), cutout_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
   return keys;

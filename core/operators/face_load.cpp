@@ -1,5 +1,8 @@
 #include "core/operators/face_load.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
@@ -27,6 +30,15 @@ Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>
                                 thickness, loaded.name, opposite.name),
                     fmt::format("at least {:g} horizons, {:g} m", needed / body.horizon(), needed));
   }
+  for (const Region<D>& box : body.cutouts()) {
+    const int a = loaded.axis;
+    const double apart =
+        loaded.direction > 0 ? loaded.coordinate - box.to[a] : box.from[a] - loaded.coordinate;
+    if (apart >= 2.0 * reach * (1.0 - 1e-9)) continue;
+    throw BodyError(fmt::format("cut-out '{}' is {:g} m from face '{}', which is loaded", box.name,
+                                std::max(0.0, apart), loaded.name),
+                    fmt::format("at least 4 horizons, {:g} m, or no load there", 2.0 * reach));
+  }
   Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
   for (Index i = 0; i < points; ++i) {
     stress[(component * D + loaded.axis) * points + i] = loaded.direction * body.points().volume[i];
@@ -40,6 +52,58 @@ Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>
   return load;
 }
 
+namespace {
+
+/// Coordinates of the walls of a box that are normal to an axis and lie within the body. Throws
+/// BodyError where one is within `least` of a face.
+template <int D>
+std::vector<double> walls_of(const Body<D>& body, const Region<D>& box, int axis, double least) {
+  const double low = body.faces()[2 * axis].coordinate;
+  const double high = body.faces()[2 * axis + 1].coordinate;
+  std::vector<double> walls;
+  for (const double wall : {box.from[axis], box.to[axis]}) {
+    if (wall <= low || wall >= high) continue;
+    walls.push_back(wall);
+    const double apart = std::min(wall - low, high - wall);
+    if (apart >= least * (1.0 - 1e-9)) continue;
+    throw BodyError(fmt::format("a wall of cut-out '{}' is {:g} m from the face beside it, in a "
+                                "body under confining stress",
+                                box.name, apart),
+                    fmt::format("at least 4 horizons, {:g} m, or no confining stress", least));
+  }
+  return walls;
+}
+
+}  // namespace
+
+template <int D>
+Eigen::VectorXd cutout_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
+                            int axis) {
+  const Index points = body.points().size();
+  const double reach = 2.0 * body.horizon();
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
+  for (Index i = 0; i < points; ++i) {
+    stress[(axis * D + axis) * points + i] = body.points().volume[i];
+  }
+  const Eigen::VectorXd forces = gradient.transpose() * stress;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(points);
+  for (const Region<D>& box : body.cutouts()) {
+    const std::vector<double> walls = walls_of(body, box, axis, 2.0 * reach);
+    for (Index i = 0; i < points; ++i) {
+      const Vector<D> x = body.points().at(i);
+      bool beside = std::ranges::any_of(
+          walls, [&](double wall) { return std::abs(x[axis] - wall) <= reach; });
+      for (int a = 0; a < D; ++a) {
+        beside = beside && x[a] >= box.from[a] - reach && x[a] <= box.to[a] + reach;
+      }
+      if (beside) load[i] = forces[axis * points + i];
+    }
+  }
+  return load;
+}
+
+template Eigen::VectorXd cutout_load<2>(const Body<2>&, const Eigen::SparseMatrix<double>&, int);
+template Eigen::VectorXd cutout_load<3>(const Body<3>&, const Eigen::SparseMatrix<double>&, int);
 template Eigen::VectorXd face_load<2, 1>(const Body<2>&, const Eigen::SparseMatrix<double>&,
                                          FaceSet, int, int, FaceSet);
 template Eigen::VectorXd face_load<2, 2>(const Body<2>&, const Eigen::SparseMatrix<double>&,

@@ -20,4 +20,12 @@ template <int D, int R>
 Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
                           FaceSet mirrored, int face, int component, FaceSet without_layers = 0);
 
+/// The same for the walls of all cut-outs that are normal to `axis`: the point load, in direction
+/// `axis`, of a unit traction along their normals out of the body. A body under uniform stress that
+/// holds at its faces and not in its cut-outs bears this times the stress, with the sign turned.
+/// Throws BodyError where such a wall is too near to a face to tell them apart.
+template <int D>
+Eigen::VectorXd cutout_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
+                            int axis);
+
 }  // namespace perifrac

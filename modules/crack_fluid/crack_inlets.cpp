@@ -19,6 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 CrackInlets::CrackInlets(std::vector<CrackInlet> inlets, const CrackLiquid& liquid)
     : inlets_(std::move(inlets)),
       liquid_(liquid),
+      supply_(inlets_.size()),
       facets_(inlets_.size()),
       share_(inlets_.size()) {}
 
@@ -54,11 +55,15 @@ std::span<const FacetInflow> CrackInlets::inflows(const TimeWindow& step) {
         throw NumericalError("crack_pressure", fmt::format("inlet '{}'", inlet.name), step.begin,
                              "a facet that serves another inlet too");
       }
-      if (inlet.holds_pressure && step.length() > 0.0) {
+      const bool holds = inlet.from_fluid ? supply_[k].stiffness > 0.0 : inlet.holds_pressure;
+      if (holds && step.length() > 0.0) {
+        const double pressure =
+            inlet.from_fluid ? supply_[k].pressure : inlet.amount * inlet.schedule.factor(step.end);
         inflow.least = -infinity;
         inflow.most = infinity;
-        inflow.target = std::max(inflow.target, inlet.amount * inlet.schedule.factor(step.end));
-      } else if (!inlet.holds_pressure) {
+        inflow.target = std::max(inflow.target, pressure);
+        if (inlet.from_fluid) inflow.stiffness = supply_[k].stiffness;
+      } else if (!inlet.holds_pressure && !inlet.from_fluid) {
         const double mass = liquid_.density * inlet.amount * share_[k][n] *
                             inlet.schedule.integral(step.begin, step.end);
         inflow.least = mass;
@@ -84,8 +89,9 @@ KeyTable crack_inlet_keys() {
       {.path = "inlets[].holds",
        .type = KeyType::word,
        .fallback = "rate",
-       .words = {"rate", "pressure"},
-       .meaning = "What is prescribed there."},
+       .words = {"rate", "pressure", "fluid"},
+       .meaning = "What is prescribed there. fluid: the pressure of the free fluid that the crack "
+                  "opens into, which gives what the crack takes."},
       {.path = "inlets[].rate",
        .unit = "m^2/s",
        .required = true,
@@ -118,9 +124,15 @@ std::vector<CrackInlet> read_crack_inlets(const Section& section) {
                      .at = {},
                      .holds_pressure = section.word(path + ".holds") == "pressure",
                      .amount = 0.0,
-                     .schedule = read_schedule(section, path)};
-    inlet.amount = inlet.holds_pressure ? section.number(path + ".pressure")
-                                        : part * section.number(path + ".rate");
+                     .schedule = read_schedule(section, path),
+                     .from_fluid = section.word(path + ".holds") == "fluid"};
+    if (inlet.holds_pressure) {
+      inlet.amount = section.number(path + ".pressure");
+    } else if (!inlet.from_fluid) {
+      inlet.amount = part * section.number(path + ".rate");
+    } else if (!section.scene().has("fluid")) {
+      section.fail(path + ".holds", "the scene has no section 'fluid'", "rate or pressure");
+    }
     std::ranges::copy(section.numbers(path + ".at"), inlet.at.begin());
     inlets.push_back(std::move(inlet));
   }

@@ -19,6 +19,7 @@ struct CrackInlet {
   bool holds_pressure;
   double amount;  ///< pressure [Pa] or volume per time at zero pressure [m^2/s], times the schedule
   Schedule schedule;
+  bool from_fluid = false;  ///< at the pressure of the free fluid there (crack_mouths.hpp)
 };
 
 /// The inlets of a crack. One that takes fluid out by rate takes no more than comes to it once its
@@ -32,6 +33,14 @@ class CrackInlets {
   void locate(const PointSet& facets, const CrackGraph& graph);
   std::span<const Index> facets(std::size_t inlet) const { return facets_[inlet]; }
 
+  /// What free fluid at an inlet offers until told otherwise: its pressure [Pa], and by how much
+  /// what is taken lowers that [Pa m/kg]; 0: there is none.
+  struct Supply {
+    double pressure = 0.0;
+    double stiffness = 0.0;
+  };
+  void supply(std::size_t inlet, const Supply& supply) { supply_[inlet] = supply; }
+
   /// What they bring over a step; nothing in one of no length. Throws NumericalError where a facet
   /// serves two inlets.
   std::span<const FacetInflow> inflows(const TimeWindow& step);
@@ -39,6 +48,7 @@ class CrackInlets {
  private:
   std::vector<CrackInlet> inlets_;
   CrackLiquid liquid_;
+  std::vector<Supply> supply_;              ///< by inlet, of those that free fluid feeds
   std::vector<std::vector<Index>> facets_;  ///< by inlet
   std::vector<std::vector<double>> share_;  ///< of each of them, by length
   std::vector<FacetInflow> inflows_;

@@ -30,6 +30,7 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
     : body_(std::move(body)),
       liquid_(liquid),
       inlets_(std::move(inlets)),
+      mouths_(inlets_),
       fillings_(std::move(fillings)),
       leak_off_(std::move(leak_off)),
       pores_(dynamic_cast<PoreLeakOff*>(leak_off_.get())) {
@@ -69,6 +70,12 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
     add_port(Quantity::pore_pressure, {"pore_pressure", "Pa", in});
     add_port(Quantity::pore_mobility, {"pore_mobility", "m^2/(Pa s)", in});
     add_port(Quantity::exchanged_mass, {"exchanged_mass", "kg/m", out, extensive});
+  }
+  if (mouths_.any()) {
+    add_port(Quantity::mouth_pressure, {"mouth_pressure", "Pa", in, intensive, property});
+    add_port(Quantity::mouth_stiffness, {"mouth_stiffness", "Pa m/kg", in, intensive, property});
+    add_port(Quantity::mouth_intake, {"mouth_intake", "kg/m", out, extensive, property});
+    add_port(Quantity::taken_mass, {"mass_taken_by_cracks", "kg/m", out, extensive, mass_stored});
   }
   add_port(Quantity::energy, {"crack_fluid_energy", "J/m", out, extensive, energy_stored});
   add_port(Quantity::work, {"crack_fluid_work", "J/m", out, extensive, energy_gained});
@@ -123,6 +130,12 @@ PortView CrackNetwork::port(PortId id) {
       return pores_->pore_mobility();
     case Quantity::exchanged_mass:
       return {&body_->point_set(), pores_->exchanged()};
+    case Quantity::mouth_pressure:
+      return {&mouths_.points(), mouths_.pressure()};
+    case Quantity::mouth_stiffness:
+      return {&mouths_.points(), mouths_.stiffness()};
+    case Quantity::mouth_intake:
+      return {&mouths_.points(), mouths_.intake()};
     default:
       scalars_[id] = scalar(quantity, id);
       return {&whole_crack, std::span(scalars_).subspan(id, 1)};
@@ -213,6 +226,8 @@ double CrackNetwork::scalar(Quantity quantity, PortId id) const {
       });
     case Quantity::injected_mass:
       return injected_.value();
+    case Quantity::taken_mass:
+      return -mouths_.taken();
     case Quantity::leaked_mass:
       return leaked_.value();
     case Quantity::work:
@@ -233,6 +248,7 @@ void CrackNetwork::initialize(double) {
   std::ranges::fill(settled_, liquid_.empty());
   std::ranges::fill(aperture_, liquid_.residual_aperture);
   face_work_.clear();
+  mouths_.clear();
   has_begun_ = 0;
   injected_ = leaked_ = work_ = dissipation_ = {};
   leak_off_rate_ = 0.0;
@@ -274,6 +290,7 @@ double CrackNetwork::advance(const TimeWindow& window) {
     lubrication_.evaluate(at_rest(window), vector_of(unknown_));
     face_work_.add_new(lubrication_);
   }
+  if (mouths_.any()) mouths_.begin_window(inlets_);
   if (leak_off_) leak_off_->begin_window(window);
   const double leaked_before = leak_off_volume();
   std::int64_t parts = 1;
@@ -362,7 +379,7 @@ void CrackNetwork::book(const Eigen::VectorXd& v) {
       enthalpy = more > 0.0 ? std::clamp(received / more, 0.0, std::max(last, 0.0)) : 0.0;
     }
     mass_[f] += more;
-    injected_.add(inflow);
+    if (!mouths_.book(static_cast<Index>(f), inflow, inlets_)) injected_.add(inflow);
     leaked_.add(-leaked);
     const double brought = enthalpy * (is_sink ? inflow - leaked : inflow);
     work_.add(brought);
@@ -382,6 +399,7 @@ void CrackNetwork::visit_state(StateVisitor& visitor) {
   visitor.visit("crack_pressure_settled", settled_);
   visitor.visit("crack_aperture", aperture_);
   face_work_.visit_state(visitor);
+  mouths_.visit_state(visitor);
   visitor.visit("crack_has_begun", has_begun_);
   injected_.visit_state(visitor, "injected_crack_fluid_mass");
   leaked_.visit_state(visitor, "leaked_crack_fluid_mass");

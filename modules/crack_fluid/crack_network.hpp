@@ -9,6 +9,7 @@
 #include "core/operators/compensated_sum.hpp"
 #include "modules/crack_fluid/crack_extent.hpp"
 #include "modules/crack_fluid/crack_inlets.hpp"
+#include "modules/crack_fluid/crack_mouths.hpp"
 #include "modules/crack_fluid/face_work.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/lubrication.hpp"
@@ -37,7 +38,9 @@ struct CrackFilling {
 /// (negative, of Carter's) [kg/m], `crack_fluid_energy`, `crack_fluid_work`,
 /// `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on the body's points:
 /// in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`, `pore_mobility`
-/// [m^2/(Pa s)]; out `exchanged_mass` [kg/m].
+/// [m^2/(Pa s)]; out `exchanged_mass` [kg/m]. With inlets from free fluid, on their mouths: in
+/// `mouth_pressure` [Pa], `mouth_stiffness` [Pa m/kg]; out `mouth_intake` [kg/m]; for the ledger
+/// `mass_taken_by_cracks` (negative) [kg/m].
 class CrackNetwork final : public PhysicsModule {
  public:
   /// `leak_off` may be null.
@@ -75,6 +78,10 @@ class CrackNetwork final : public PhysicsModule {
     pore_pressure,
     pore_mobility,
     exchanged_mass,
+    mouth_pressure,
+    mouth_stiffness,
+    mouth_intake,
+    taken_mass,
     energy,
     work,
     dissipation,
@@ -102,6 +109,7 @@ class CrackNetwork final : public PhysicsModule {
   std::shared_ptr<const Body<2>> body_;
   CrackLiquid liquid_;
   CrackInlets inlets_;
+  CrackMouths mouths_;
   std::vector<CrackFilling> fillings_;
   std::unique_ptr<LeakOff> leak_off_;
   PoreLeakOff* pores_;  ///< which is the leak-off, or null

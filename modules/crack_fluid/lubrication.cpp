@@ -165,15 +165,16 @@ void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint,
 void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) {
   held_.clear();
   inflow_.setZero();
-  for (const auto& [f, least, most, target] : step.inflows) {
+  for (const auto& [f, least, most, target, stiffness] : step.inflows) {
     const double without = residual_[f];
     inflow_[f] = std::clamp(without, least, most);
     const double weight = liquid_.density * graph_.length(f) * graph_.length(f) /
                           std::max(std::abs(target), smallest_pressure);
-    const double held = weight * (v[f] - target);
+    const double held = weight * (v[f] - target + stiffness * without);
     residual_[f] = std::clamp(held, without - most, without - least);
-    if (residual_[f] == held) held_.emplace_back(f, weight);
-    rounding_[f] += std::abs(inflow_[f]) + weight * std::abs(v[f]);
+    if (residual_[f] == held) held_.push_back({f, weight, stiffness});
+    rounding_[f] +=
+        std::abs(inflow_[f]) + weight * std::abs(v[f]) + weight * stiffness * rounding_[f];
   }
 }
 
@@ -194,9 +195,9 @@ Eigen::MatrixXd Lubrication::jacobian(const Eigen::VectorXd& v) const {
     jacobian.col(f).setZero();
     jacobian(f, f) = by_fill_[f] / liquid_.bulk_modulus;
   }
-  for (const auto& [f, weight] : held_) {
-    jacobian.row(f).setZero();
-    jacobian(f, f) = weight;
+  for (const auto& [f, weight, stiffness] : held_) {
+    jacobian.row(f) *= weight * stiffness;
+    jacobian(f, f) += weight;
   }
   return jacobian;
 }

@@ -34,12 +34,14 @@ struct CrackOpening {
 };
 
 /// Fluid that comes in at a facet over a step: `least` to `most` [kg/m], within which it holds the
-/// pressure `target` [Pa]; above that it takes the least, below it the most.
+/// pressure `target` [Pa], less `stiffness` [Pa m/kg] times what comes in; above that it takes the
+/// least, below it the most.
 struct FacetInflow {
   Index facet;
   double least;
   double most;
   double target;
+  double stiffness = 0.0;
 };
 
 /// One step of the flow in a crack, backward Euler.
@@ -122,7 +124,13 @@ class Lubrication {
   Eigen::VectorXd by_fill_;                          ///< of the residual, diagonal
   std::vector<Eigen::Triplet<double>> by_pressure_;  ///< at given apertures
   std::vector<Eigen::Triplet<double>> by_aperture_;
-  std::vector<std::pair<Index, double>> held_;  ///< facets with row weight (v - target)
+  /// Facets with row weight (v - target + stiffness inflow).
+  struct Held {
+    Index facet;
+    double weight;
+    double stiffness;
+  };
+  std::vector<Held> held_;
 
   // Of the branches at the joint at hand.
   std::vector<double> conductance_;  ///< c [m^2/(Pa s)]

@@ -16,6 +16,23 @@ struct NearFace {
   Vector<D> normal;
 };
 
+/// The wall of a cut-out that a point lies behind, if not deeper than `reach` [m]: of the axis
+/// along which the point is farthest outside.
+template <int D>
+void append_walls_near(const Region<D>& box, const Body<D>& body, Index point, double reach,
+                       std::vector<NearFace<D>>& result) {
+  const Vector<D> x = body.points().at(point);
+  double depth = 0.0;
+  int axis = -1, direction = 0;
+  for (int a = 0; a < D; ++a) {
+    const double below = box.from[a] - x[a], above = x[a] - box.to[a];
+    if (below > depth) axis = a, direction = +1, depth = below;
+    if (above > depth) axis = a, direction = -1, depth = above;
+  }
+  if (depth > reach) return;
+  result.push_back({.point = point, .depth = depth, .normal = unit_vector<D>(axis, direction)});
+}
+
 /// All pairs not farther apart than `reach` [m], but for faces where space goes on by its period.
 template <int D>
 std::vector<NearFace<D>> faces_near_points(const Body<D>& body, const Period<D>& period,
@@ -36,6 +53,7 @@ std::vector<NearFace<D>> faces_near_points(const Body<D>& body, const Period<D>&
       }
       if (near.depth <= reach) result.push_back(near);
     }
+    for (const Region<D>& box : body.cutouts()) append_walls_near(box, body, i, reach, result);
   }
   return result;
 }

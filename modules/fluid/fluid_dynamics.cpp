@@ -112,7 +112,7 @@ void FluidDynamics<D>::step(double t, double length) {
   wall_motion_.place(middle, neighbours_.wall_images(), walls_);
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
-  if (exchange_) remove_small_points(middle);
+  if (exchange_ || openings_.mouths) remove_small_points(middle);
   find_moments<D>(points_, walls_, neighbours_, influence_, moments_);
   find_densities(middle, length);
   kick(middle, length);
@@ -120,14 +120,15 @@ void FluidDynamics<D>::step(double t, double length) {
     shift_points<D>(step_view(), walls_, scheme_.shifting, length, points_);
   }
   drift(0.5 * length);
-  if (openings_.inlets || exchange_) insert_points(t + length);
+  if (openings_.inlets || exchange_ || openings_.mouths) insert_points(t + length);
 }
 
 template <int D>
 void FluidDynamics<D>::remove_small_points(double t) {
   const double whole = fluid_.density * std::pow(scheme_.spacing, D);
-  const Index soaked =
-      soak_points<D>(step_view(), walls_, remnant * whole, points_, exchanged_mass_, impulse_);
+  const Index soaked = exchange_ ? soak_points<D>(step_view(), walls_, remnant * whole, points_,
+                                                  exchanged_mass_, impulse_)
+                                 : 0;
   const Index merged = merge_points(points_, neighbours_, influence_, scheme_.merge_below * whole);
   if (soaked + merged == 0) return;
   points_.remove_if([&](Index i) { return points_.mass[i] == 0.0; });
@@ -215,6 +216,13 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
   made_mass_ += length * made;
 }
 
+/// As what passes into pores, it comes from few points, which the others make up for.
+template <int D>
+void FluidDynamics<D>::feed_cracks(double length) {
+  openings_.mouths->give(points_, length, impulse_);
+  if (!exchange_) even_masses_.step(step_view(), length, points_);
+}
+
 /// Continuity (paper Eq 20), diffusion of density, and what passes into the pores; then pressures.
 template <int D>
 void FluidDynamics<D>::find_densities(double t, double length) {
@@ -222,6 +230,7 @@ void FluidDynamics<D>::find_densities(double t, double length) {
   images.copy(moments_.trace, points_.count);
   const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
   if (exchange_) exchange_mass(t, length);
+  if (openings_.mouths) feed_cracks(length);
   if (openings_.inlets) openings_.inlets->feed(points_, t, length);
   const double unpacking = unpacking_rate * fluid_.sound_speed() / scheme_.spacing;
   for (auto& values : stress_) values.resize(points_.count);

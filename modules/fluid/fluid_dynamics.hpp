@@ -27,6 +27,8 @@ class FluidDynamics {
                 std::size_t body_points, FluidOpenings<D> openings,
                 std::unique_ptr<WallForce<D>> wall_force, std::unique_ptr<Exchange<D>> exchange);
 
+  /// Where cracks open into the fluid; null: nowhere.
+  FluidMouths<D>* mouths() { return openings_.mouths.get(); }
   void set_body(const BodyInput& body) { wall_motion_.set_body(body); }
   /// Totals given to the body's points are counted from here: impulse, D blocks [N s], and mass
   /// [kg]. They are empty where the body is not there, or nothing passes into it.
@@ -66,6 +68,7 @@ class FluidDynamics {
   void find_neighbours(double t);
   void copy_to_images();
   void exchange_mass(double t, double length);
+  void feed_cracks(double length);
   void find_densities(double t, double length);
   void kick(double t, double length);
   void insert_points(double t);

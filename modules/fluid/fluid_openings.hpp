@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "modules/fluid/fluid_domain.hpp"
+#include "modules/fluid/fluid_mouths.hpp"
 #include "modules/fluid/fluid_walls.hpp"
 #include "modules/fluid/inlets.hpp"
 #include "modules/fluid/outlets.hpp"
@@ -15,6 +16,7 @@ struct FluidOpenings {
   std::unique_ptr<Inlets<D>> inlets;    ///< null: none
   std::unique_ptr<Outlets<D>> outlets;  ///< null: none
   FluidDomain<D> domain;
+  std::unique_ptr<FluidMouths<D>> mouths{};  ///< null: none
 
   /// Some points may be removed in the course of a run.
   bool may_lose() const { return outlets || domain.may_lose(); }
@@ -23,6 +25,7 @@ struct FluidOpenings {
     if (inlets) inlets->visit_state(visitor);
     if (outlets) outlets->visit_state(visitor);
     domain.visit_state(visitor);
+    if (mouths) mouths->visit_state(visitor);
   }
 };
 

@@ -86,8 +86,12 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   const std::size_t body_points = body ? body->points().size() : 0;
   auto exchange = make_exchange<D>(scene, body.get(), walls, scheme);
   const bool exchanges = exchange != nullptr;
-  if (exchanges) scheme.merge_below = scene.number("interface.merge_below");
+  const std::vector<Vector<D>> mouths = read_mouths<D>(scene, body.get());
+  if (exchanges || !mouths.empty()) scheme.merge_below = scene.number("interface.merge_below");
   FluidOpenings<D> openings = read_fluid_openings(section, body.get(), walls, fluid, spacing);
+  if (!mouths.empty()) {
+    openings.mouths = std::make_unique<FluidMouths<D>>(mouths, *body, scheme.horizon);
+  }
   auto dynamics = std::make_unique<FluidDynamics<D>>(
       fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
       std::move(walls.rigid), body_points, std::move(openings), make_wall_force<D>(scene),

@@ -52,6 +52,15 @@ SemiLagrangianFluid<D>::SemiLagrangianFluid(std::shared_ptr<const Body<D>> body,
     }
     add_port(Quantity::merged, {"merged_points", "1", out, extensive, PortRole::work});
   }
+  if (openings.mouths) {
+    using enum PortRole;
+    add_port(Quantity::mouth_pressure, {"mouth_pressure", "Pa", out, intensive, property});
+    add_port(Quantity::mouth_stiffness,
+             {"mouth_stiffness", D == 2 ? "Pa m/kg" : "Pa/kg", out, intensive, property});
+    add_port(Quantity::mouth_intake, {"mouth_intake", total("kg"), in, extensive, property});
+    add_port(Quantity::given_mass,
+             {"mass_given_to_cracks", total("kg"), out, extensive, mass_stored});
+  }
   for (const RigidWall<D>& wall : dynamics_->rigid_walls()) {
     if (wall.motion != RigidWall<D>::Motion::piston) continue;
     add_port(Quantity::piston,
@@ -124,6 +133,8 @@ double SemiLagrangianFluid<D>::scalar(Quantity quantity, PortId) {
       for (const double mass : dynamics_->points().mass) sum += mass;
       return sum;
     }
+    case Quantity::given_mass:
+      return openings.mouths->given();
     case Quantity::steps:
       return static_cast<double>(steps_);
     case Quantity::made_mass:
@@ -133,6 +144,16 @@ double SemiLagrangianFluid<D>::scalar(Quantity quantity, PortId) {
     default:
       return static_cast<double>(dynamics_->searches());
   }
+}
+
+template <int D>
+PortView SemiLagrangianFluid<D>::mouth_port(Quantity quantity) {
+  FluidMouths<D>& mouths = *dynamics_->mouths();
+  if (quantity == Quantity::mouth_intake) return {&mouths.points(), mouths.intake()};
+  if (quantity == Quantity::mouth_stiffness) {
+    return {&mouths.points(), mouths.stiffness(dynamics_->points(), dynamics_->fluid())};
+  }
+  return {&mouths.points(), mouths.pressure(dynamics_->points(), dynamics_->fluid())};
 }
 
 template <int D>
@@ -166,6 +187,10 @@ PortView SemiLagrangianFluid<D>::port(PortId id) {
     case Quantity::exchanged_mass:
       exchanged_mass_ = dynamics_->exchanged_mass();
       return {body, exchanged_mass_};
+    case Quantity::mouth_pressure:
+    case Quantity::mouth_stiffness:
+    case Quantity::mouth_intake:
+      return mouth_port(quantity);
     case Quantity::piston: {
       int piston = static_cast<int>(ports_.size()) - 1 - id;
       const auto& walls = dynamics_->rigid_walls();
@@ -197,6 +222,7 @@ template <int D>
 double SemiLagrangianFluid<D>::advance(const TimeWindow& window) {
   dynamics_->set_body({displacement_, displacement_rate_, window.end});
   dynamics_->start_totals();
+  if (dynamics_->mouths() != nullptr) dynamics_->mouths()->begin_window(window.length());
   dynamics_->set_pores(
       {pore_pressure_, pore_pressure_rate_, pore_pressure_slope_, pore_mobility_, window.end});
   double t = window.begin;

@@ -19,6 +19,8 @@ namespace perifrac {
 /// On the points of a body, if there is one: in `displacement` [m]; out `interface_impulse` [N s],
 /// what the fluid gave each point over the window. If it has pores: in `pore_pressure` [Pa]
 /// with rate and slope, `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg], likewise.
+/// Where cracks open into it, on their mouths: in `mouth_intake` [kg]; out `mouth_pressure` [Pa],
+/// `mouth_stiffness` [Pa/kg]; for the ledger `mass_given_to_cracks` [kg].
 template <int D>
 class SemiLagrangianFluid final : public PhysicsModule {
  public:
@@ -53,6 +55,10 @@ class SemiLagrangianFluid final : public PhysicsModule {
     exchanged_mass,
     made_mass,
     merged,
+    mouth_pressure,
+    mouth_stiffness,
+    mouth_intake,
+    given_mass,
     piston
   };
 
@@ -60,6 +66,7 @@ class SemiLagrangianFluid final : public PhysicsModule {
   const PointSet& moving_points();
   std::vector<double>& field(Quantity quantity);
   double scalar(Quantity quantity, PortId id);
+  PortView mouth_port(Quantity quantity);
 
   std::shared_ptr<const Body<D>> body_;
   std::unique_ptr<FluidDynamics<D>> dynamics_;

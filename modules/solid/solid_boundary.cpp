@@ -252,6 +252,12 @@ ScheduledVector SolidBoundary<D>::loads(const MirrorCondition<D, D>& mirror,
     }
     sum.add(schedule, load);
   }
+  load.setZero();
+  for (int a = 0; a < D; ++a) {
+    if (relief_[a] == 0.0) continue;
+    load.segment(a * points, points) = relief_[a] * cutout_load<D>(*body_, gradient, a);
+  }
+  if (relief_ != Vector<D>{}) sum.add({}, load);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (faces_[f].loads()) sum.add(faces_[f].schedule, face_force(f, mirror, gradient));
   }

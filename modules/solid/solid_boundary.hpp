@@ -50,6 +50,8 @@ class SolidBoundary {
   void pin(Index point, int axis) { pinned_.push_back(axis * body_->points().size() + point); }
   /// A uniform force per volume [N/m^3].
   void body_force(const Vector<D>& force, Schedule schedule = {});
+  /// The walls of cut-outs bear nothing of a confining stress that the faces bear [Pa].
+  void relieve_cutouts(const Vector<D>& confining_stress) { relief_ = confining_stress; }
   /// The weight of a rock of this density [kg/m^3] in this field [m/s^2].
   void gravity(double density, const Vector<D>& gravity);
 
@@ -106,6 +108,7 @@ class SolidBoundary {
   std::vector<Condition> faces_;
   std::vector<Index> pinned_;  ///< unknowns
   std::vector<BodyForce> body_forces_;
+  Vector<D> relief_{};  ///< confining stress that walls of cut-outs are relieved of [Pa]
 };
 
 }  // namespace perifrac

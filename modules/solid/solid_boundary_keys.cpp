@@ -205,6 +205,9 @@ SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body
   read_pins(section, body, boundary);
   read_body_force(section, boundary);
   read_gravity(section, boundary);
+  if (!body.cutouts().empty() && section.has("confining_stress")) {
+    boundary.relieve_cutouts(read_vector<D>(section, "confining_stress"));
+  }
   return boundary;
 }
 

@@ -60,7 +60,10 @@ Variant variant(std::string name, std::string type, std::string text,
                                      {"pore_mobility", 1e-9},
                                      {"interface_impulse", 1e3},
                                      {"exchanged_mass", 0.1},
-                                     {"free_crack_opening", 1e-4}}};
+                                     {"free_crack_opening", 1e-4},
+                                     {"mouth_pressure", 1e5},
+                                     {"mouth_stiffness", 1e6},
+                                     {"mouth_intake", 1.0}}};
   return {std::move(type), std::move(contract)};
 }
 
@@ -133,6 +136,9 @@ const std::vector<Variant>& variants() {
           {"crack_fluid.filled=[{from: [4 m, 4 m], to: [8 m, 8 m], pressure: 10 kPa}]",
            "crack_fluid.inlets=[{name: well, at: [8 m, 5 m], rate: -1e-3 m^2/s}, {name: tank, at: "
            "[3 m, 5 m], holds: pressure, pressure: 20 kPa, schedule: {ramp: 5 ms}}]"}),
+      variant("crack_network_from_fluid", "crack_fluid/network",
+              box_2d + crack_network + water_over_box_2d,
+              {"crack_fluid.inlets=[{name: mouth, at: [3 m, 5 m], holds: fluid}]"}),
       variant("crack_network_carter", "crack_fluid/network", box_2d + crack_network,
               {"crack_fluid.leak_off=carter", "crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)",
                "crack_fluid.vapour_pressure=-50 kPa"}),
@@ -178,6 +184,9 @@ const std::vector<Variant>& variants() {
               box_2d + quasi_static_2d + water_over_box_2d),
       variant("fluid_beside_body_3d", "fluid/semi_lagrangian",
               box_3d + quasi_static_3d + water_over_box_3d, {"interface.slip=free"}),
+      variant("fluid_at_a_mouth", "fluid/semi_lagrangian",
+              box_2d + crack_network + water_over_box_2d,
+              {"crack_fluid.inlets=[{name: mouth, at: [5 m, 11 m], holds: fluid}]"}),
       variant("fluid_one_sided", "fluid/semi_lagrangian",
               box_2d + quasi_static_2d + water_over_box_2d, {"interface.force=one_sided"}),
       variant("fluid_beside_pores", "fluid/semi_lagrangian", box_2d + darcy + water_over_box_2d),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "core/geometry/lattice.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "tests/unit/operators/any_law.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
@@ -82,6 +83,51 @@ TEST(FaceLoad, BalancesUniformStress) {
   expect_balance<2, 1>({12, 14});
   expect_balance<2, 2>({13, 12});
   expect_balance<3, 3>({10, 11, 10});
+}
+
+/// A box of 30 x 26 points, a metre apart, less what is cut out.
+std::shared_ptr<Body<2>> cut_body(const Region<2>& box) {
+  const Points<2> lattice = box_lattice<2>({30, 26}, 1.0);
+  Points<2> points;
+  for (Index i = 0; i < lattice.size(); ++i) {
+    if (!box.contains(lattice.at(i))) points.add(lattice.at(i), 1.0);
+  }
+  const auto whole = test::box_body<2>({30, 26}, 1.0);
+  auto body = std::make_shared<Body<2>>(std::move(points), whole->faces(), 1.0, whole->horizon(),
+                                        InfluenceFunction::gaussian);
+  body->set_cutouts({box});
+  return body;
+}
+
+/// Loads on faces and walls of a hole balance uniform stress.
+TEST(CutoutLoad, BalancesUniformStressWithTheFaces) {
+  const auto body = cut_body({"hole", {12.0, 11.0}, {17.0, 14.0}});
+  const auto gradient = free_gradient<2, 2>(*body);
+  const Index points = body->points().size();
+  for (int axis = 0; axis < 2; ++axis) {
+    Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
+    stress.segment(3 * axis * points, points).setOnes();
+    const Eigen::VectorXd all = gradient.transpose() * stress;
+    const Eigen::VectorXd walls = cutout_load<2>(*body, gradient, axis);
+    Eigen::VectorXd sum = walls;
+    for (const int side : {-1, 1}) {
+      sum += side * face_load<2, 2>(*body, gradient, 0, 2 * axis + (side > 0 ? 1 : 0), axis);
+    }
+    EXPECT_LT(test::largest(sum - all.segment(axis * points, points)), 1e-12);
+    EXPECT_NEAR(walls.sum(), 0.0, 1e-12);
+  }
+}
+
+/// Of a notch the floor and the sides, not the face that it opens through.
+TEST(CutoutLoad, LeavesTheFaceBesideANotchAlone) {
+  const auto body = cut_body({"notch", {12.0, 13.0}, {17.0, 30.0}});
+  const auto gradient = free_gradient<2, 2>(*body);
+  EXPECT_NEAR(cutout_load<2>(*body, gradient, 1).sum(), 5.0, 1e-12);
+  EXPECT_NEAR(cutout_load<2>(*body, gradient, 0).sum(), 0.0, 1e-12);
+  EXPECT_THROW(
+      cutout_load<2>(*cut_body({"notch", {12.0, 20.0}, {17.0, 30.0}}),
+                     free_gradient<2, 2>(*cut_body({"notch", {12.0, 20.0}, {17.0, 30.0}})), 1),
+      BodyError);
 }
 
 /// The load of the top face where the bottom is mirrored evenly, which cuts the stress off there.
