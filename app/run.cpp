@@ -152,7 +152,7 @@ void start(Simulation& simulation, Recorder& recorder, const OutputFolder& folde
 
 int run_scene(const RunRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
-  install_signal_handlers();
+  hold_back_signals();
   const Section scene = read_scene(request.scene, request.overrides, scene_catalogue());
   const std::string text = scene_text(request);
   Simulation simulation = make_simulation(scene);
