@@ -6,8 +6,9 @@ import signal
 import subprocess
 import time
 
-from fault_runs import (Fault, files, is_writing, require, require_no_loss, require_same_end, require_word, wait, wait_for)
-from perifrac_runs import checkpoints, listed_frames
+from fault_runs import (address_space, files, is_writing, require, require_no_loss, require_same_end,
+                        require_word, wait, wait_for)
+from perifrac_runs import checkpoints
 
 NOBODY = 65534
 MARGIN = 4096  # [bytes]
@@ -123,7 +124,7 @@ def spoil(scene, folder, moments, change):
     require(files(folder) == untouched, "a refused restart touched the folder")
     last.unlink()
     require_same_end(scene, folder)
-    return f"exit 2: {done.complaint().split(': ', 1)[-1].split(';', maxsplit=1)[0]}"
+    return done.complaint()
 
 
 def truncated(scene, folder, moments):
@@ -141,11 +142,21 @@ def flipped(scene, folder, moments):
 
 
 def out_of_memory(scene, folder, moments):
-    """Address space that ends at a random size, between what the program needs to begin and what the run needs."""
-    limit = moments.randrange(scene.least_memory, scene.memory)
-    done = scene.run(folder, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+    """Address space that ends: from the start at a random size, or at a random moment near what is used by then."""
+    kind = moments.random()
+    if kind < 0.7:
+        least = scene.loaders_memory if kind < 0.2 else scene.least_memory
+        limit = moments.randrange(least, scene.memory)
+        process = scene.start(folder, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+    else:
+        process = scene.start(folder)
+        wait_for(moments.uniform(0.0, 0.6), scene, folder, process)
+        limit = address_space(process.pid) + moments.randrange(1 << 21) - (1 << 20)
+        if process.poll() is None:
+            resource.prlimit(process.pid, resource.RLIMIT_AS, (limit, limit))
+    done = wait(process)
     if done.code != 0:
-        require_word(done, (1,), "memory|Thread creation failed")
+        require_word(done, (1,), "memory")
     require_no_loss(scene, folder)
     require(not is_writing(folder), "a half-written file was left")
     require_same_end(scene, folder)

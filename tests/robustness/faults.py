@@ -19,8 +19,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from fault_list import FAULTS
-from fault_runs import LONGEST, SCENES, Fault, Scene
+from fault_list import FAULTS, out_of_memory
+from fault_runs import LARGE, LONGEST, SCENES, Fault, Scene
 from page_part import put_part, table
 from perifrac_runs import PERIFRAC
 
@@ -35,14 +35,14 @@ def read_arguments():
     return parser.parse_args()
 
 
-def least_memory():
-    """Address space [bytes] with which the loader can begin at all: what it says before is not ours."""
-    low, high = 1 << 20, 1 << 33
+def least_memory(is_enough):
+    """The least address space [bytes], to a MiB, with which `perifrac --version` ends as wanted."""
+    low, high = 1 << 20, 1 << 36
     while high - low > 1 << 20:
         middle = (low + high) // 2
         done = subprocess.run([PERIFRAC, "--version"], capture_output=True, timeout=LONGEST,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (middle, middle)))
-        low, high = (middle, high) if done.returncode == 127 else (low, middle)
+        low, high = (low, middle) if is_enough(done.returncode) else (middle, high)
     return high
 
 
@@ -57,10 +57,11 @@ def can_mount(holder):
 
 def walk(arguments, holder):
     """{fault: what came of each round}, and what failed."""
-    least = least_memory()
-    scenes = [Scene(name, holder) for name in SCENES]
-    for scene in scenes:
-        scene.least_memory = least
+    loaders_memory = least_memory(lambda code: code != 127)  # below, the loader speaks, not the program
+    to_begin = least_memory(lambda code: code == 0)
+    scenes = {name: Scene(name, holder) for name in SCENES | LARGE}
+    for scene in scenes.values():
+        scene.loaders_memory, scene.least_memory = loaders_memory, to_begin
     found, failed = collections.defaultdict(list), []
     mounts = can_mount(holder)
     for turn, (name, fault) in enumerate(FAULTS.items()):
@@ -72,7 +73,8 @@ def walk(arguments, holder):
         rounds = arguments.kills if name == "kill -9" and arguments.kills is not None else arguments.rounds
         begin = time.monotonic()
         for n in range(rounds):
-            scene = scenes[(n + turn + arguments.seed) % len(scenes)]
+            names = list(LARGE if fault is out_of_memory else SCENES)
+            scene = scenes[names[(n + turn + arguments.seed) % len(names)]]
             moments = random.Random(f"{arguments.seed} {name} {n}")
             folder = Path(holder) / f"{name.replace(' ', '_')}_{n}"
             try:
@@ -96,7 +98,8 @@ def page_of(found, arguments):
     kills = "" if arguments.kills is None else f" --kills {arguments.kills}"
     command = f"tests/robustness/faults.py build/release/bin/perifrac --rounds {arguments.rounds}{kills}"
     return table(("fault", "times", "what came of it", "lost, wrong, or without a clear word"), rows) + \
-        f"\n\n`{command} --seed {arguments.seed}`; scenes, in turn: {', '.join(SCENES)}."
+        f"\n\n`{command} --seed {arguments.seed}`; scenes, in turn: {', '.join(SCENES)}; " \
+        f"for memory: {', '.join(LARGE)}."
 
 
 def main():
