@@ -1,7 +1,8 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast effects instructions study study-quick toughness bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast effects instructions study study-quick toughness faults fuzz sanitize bench clean
 
+FUZZ_SECONDS ?= 60
 SCENE ?= configs/hf_storage.yaml
 BUILD := build/release
 PERIFRAC := $(BUILD)/bin/perifrac
@@ -20,6 +21,9 @@ help:
 	@echo 'make effects    what each effect costs in time and memory: docs/effects.md'
 	@echo 'make instructions  that absent effects cost none, and work follows activity (valgrind)'
 	@echo 'make stability  hard cases in many combinations of modules: docs/stability.md'
+	@echo 'make faults     kills, full disks, spoilt checkpoints and more at random moments: docs/reliability.md'
+	@echo 'make fuzz       scenes and checkpoints made up by a fuzzer, FUZZ_SECONDS each (clang 16)'
+	@echo 'make sanitize   unit and contract tests under the address, undefined and thread sanitizers (clang 16)'
 
 install:
 	@tools/install
@@ -76,6 +80,21 @@ instructions: install
 
 stability: perifrac
 	tests/stability/stability.py $(PERIFRAC) --page docs/stability.md
+
+faults: perifrac
+	tests/robustness/faults.py $(PERIFRAC) --kills 50 --page docs/reliability.md
+
+fuzz: perifrac
+	@tools/install clang
+	@cmake --preset sanitize --log-level=WARNING > /dev/null
+	cmake --build build/sanitize --target fuzz_scene fuzz_checkpoint
+	tests/fuzz/fuzz.py $(PERIFRAC) build/sanitize/bin --seconds $(FUZZ_SECONDS)
+
+sanitize: install
+	@tools/install clang
+	for preset in sanitize sanitize-thread; do \
+	  cmake --preset $$preset --log-level=WARNING > /dev/null && cmake --build --preset $$preset && \
+	  ctest --preset $$preset || exit; done
 
 toughness: configure
 	@cmake --build --preset release --target verification_toughness

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <new>
 
 #include <CLI/CLI.hpp>
 #include <omp.h>
@@ -133,6 +134,12 @@ int run_command_line(int argc, char** argv) {
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return usage_error;
+  } catch (const std::bad_alloc&) {
+    std::fputs(
+        "perifrac: out of memory; `perifrac check` says how much a run takes; what was written "
+        "stays, and the last checkpoint can be gone on from\n",
+        stderr);
+    return failure;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "perifrac: %s\n", error.what());
     return failure;

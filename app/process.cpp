@@ -28,6 +28,9 @@ void open_as(int descriptor, const char* path, int flags) {
                          int failure) {
   if (command.own_group) setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
+  sigset_t none;  // of ours are held back, and would be of the program
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
   if (getppid() != parent) _exit(1);  // it ended before it could matter
   if (command.quiet) open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
   if (!command.log.empty()) {

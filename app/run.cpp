@@ -167,7 +167,7 @@ int run_scene(const RunRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
   std::optional<Profile> profile;
   if (request.profile) profile.emplace();
-  install_signal_handlers();
+  hold_back_signals();
   const Section scene = read(request);
   const std::string text = scene_text(request);
   Simulation simulation = set_up(scene);

@@ -64,7 +64,7 @@ int run_study(const StudyRequest& request) {
   const Study study = read_study(request.file);
   const Matrix matrix = expand(study);
   const StudyOptions options = options_of(request);
-  install_signal_handlers();
+  hold_back_signals();
   const OutputFolder folder(options.folder);
   warn_of_invalid(matrix.variants);
   StudyOutcome outcome = run_variants(study, matrix.variants, options);

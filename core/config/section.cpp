@@ -46,7 +46,12 @@ std::string Section::text(std::string_view path) const {
   return value<std::string>(path, "a text");
 }
 std::string Section::file(std::string_view path) const {
-  return (std::filesystem::path(tree_->folder) / text(path)).string();
+  const auto file = std::filesystem::path(tree_->folder) / text(path);
+  std::error_code missing;  // whoever opens it will say so
+  if (std::filesystem::exists(file, missing) && !std::filesystem::is_regular_file(file, missing)) {
+    fail(path, fmt::format("{} is a folder or a device", in_quotes(text(path))), "a file");
+  }
+  return file.string();
 }
 std::vector<double> Section::numbers(std::string_view path) const {
   return value<std::vector<double>>(path, "a list of numbers");

@@ -67,6 +67,12 @@ std::vector<CrackFacet<2>> read_crack(const Section& scene, std::size_t k, doubl
       scene.fail(path, fmt::format("a leg of {:g} m", length),
                  fmt::format("legs of a spacing, {:g} m, or more", spacing));
     }
+    constexpr double most_pieces = 1e6;
+    if (!(length <= most_pieces * spacing)) {
+      scene.fail(
+          path, fmt::format("a leg of {:g} m", length),
+          fmt::format("legs of at most {:g} spacings, {:g} m", most_pieces, most_pieces * spacing));
+    }
     const int pieces = std::max(1, static_cast<int>(std::lround(length / spacing)));
     Vector<2> last = from;
     for (int piece = 1; piece <= pieces; ++piece) {

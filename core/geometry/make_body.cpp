@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "core/geometry/cutouts.hpp"
 #include "core/geometry/jitter.hpp"
 #include "core/geometry/lattice.hpp"
+#include "core/geometry/most_points.hpp"
 #include "core/geometry/voronoi.hpp"
 
 namespace perifrac {
@@ -17,6 +19,9 @@ namespace {
 std::array<int, 3> cells_along_axes(const Section& section, const std::vector<double>& size,
                                     double spacing) {
   std::array<int, 3> counts{};
+  double points = 1.0;
+  for (const double length : size) points *= std::max(length / spacing, 1.0);
+  refuse_too_many_points(section, "spacing", points, spacing);
   for (std::size_t a = 0; a < size.size(); ++a) {
     const double cells = size[a] / spacing;
     counts[a] = static_cast<int>(std::lround(cells));
@@ -118,6 +123,7 @@ std::shared_ptr<Body<D>> make_ball(const Section& section, double spacing, doubl
   if (section.has("boundary")) {
     section.fail("boundary", "a ball has no layers", "a body of shape box, or this left out");
   }
+  refuse_too_many_points(section, "spacing", std::pow(2.0 * radius / spacing, D), spacing);
   const bool octant = section.word("part") == "octant";
   const double jitter = section.number("jitter");
   if (jitter > 0.0 && octant) {

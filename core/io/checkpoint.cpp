@@ -64,8 +64,9 @@ std::string make_file(const Checkpoint& checkpoint) {
   file.write_text("scene", checkpoint.scene);
   file.write_text("version", checkpoint.version);
   file.create_group("state");
-  for (const auto& [name, values] : checkpoint.state.fields()) {
-    std::visit([&](const auto& array) { file.write("state/" + name, std::span(array)); }, values);
+  for (const auto& field : checkpoint.state.fields()) {
+    std::visit([&](const auto& array) { file.write("state/" + field.first, std::span(array)); },
+               field.second);
   }
   const std::string content = file.bytes();
   return make_seal(content) + content;

@@ -27,6 +27,16 @@ bool FileDescriptor::write(std::string_view text) const {
   return true;
 }
 
+bool FileDescriptor::append(std::string_view text) const {
+  const off_t size = ::lseek(descriptor_, 0, SEEK_END);
+  if (size < 0) return false;
+  if (write(text)) return true;
+  const int why = errno;
+  [[maybe_unused]] const int cut = ::ftruncate(descriptor_, size);
+  errno = why;
+  return false;
+}
+
 bool FileDescriptor::sync() const { return ::fsync(descriptor_) == 0; }
 
 }  // namespace perifrac

@@ -21,6 +21,9 @@ class FileDescriptor {
   /// Writes all of `text`, also where the system takes it in pieces.
   bool write(std::string_view text) const;
 
+  /// Writes all of `text` at the end, or leaves the file as it was.
+  bool append(std::string_view text) const;
+
   /// Returns once what was written lies on the disk.
   bool sync() const;
 

@@ -87,7 +87,7 @@ void History::append(double time, std::int64_t step, std::span<const double> val
   }
   // Opened anew for each row: a folder that was removed meanwhile is noticed.
   const FileDescriptor file(file_, O_WRONLY | O_APPEND);
-  if (!file.is_open() || !file.write(row + '\n')) {
+  if (!file.is_open() || !file.append(row + '\n')) {
     throw OutputError(file_.string(), std::strerror(errno));
   }
 }

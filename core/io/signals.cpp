@@ -1,31 +1,36 @@
 #include "core/io/signals.hpp"
 
 #include <csignal>
+#include <ctime>
 
 namespace perifrac {
 namespace {
 
-volatile std::sig_atomic_t first_signal = 0;
+int signal_seen = 0;
 
-extern "C" void remember_signal(int signal) {
-  if (first_signal == 0) {
-    first_signal = signal;
-  }
+sigset_t stopping_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  return signals;
 }
 
 }  // namespace
 
-void install_signal_handlers() {
-  struct sigaction action {};
-  action.sa_handler = remember_signal;
-  action.sa_flags = SA_RESTART;  // a write that is under way goes on
-  // Neither interrupts the other: the first one counts.
-  sigaddset(&action.sa_mask, SIGINT);
-  sigaddset(&action.sa_mask, SIGTERM);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+void hold_back_signals() {
+  const sigset_t signals = stopping_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-int received_signal() { return first_signal; }
+int received_signal() {
+  const sigset_t signals = stopping_signals();
+  const timespec at_once{};
+  if (signal_seen == 0) {
+    const int signal = sigtimedwait(&signals, nullptr, &at_once);
+    if (signal > 0) signal_seen = signal;
+  }
+  return signal_seen;
+}
 
 }  // namespace perifrac

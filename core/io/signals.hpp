@@ -2,12 +2,14 @@
 
 namespace perifrac {
 
-/// From now on SIGINT and SIGTERM do not end the program but are remembered; nothing else happens
-/// in the handler, so signals may come at any moment and as often as they like. The run looks at
-/// `received_signal` between windows, writes its checkpoint and ends.
-void install_signal_handlers();
+/// From now on SIGINT and SIGTERM do not end the program: they wait until `received_signal` looks
+/// for them, between windows; the run then writes its checkpoint and ends. They are blocked rather
+/// than handled because METIS, under CHOLMOD, puts a handler of its own in place of ours, leaves
+/// its ordering by it, and puts ours back so that it serves once only. To be called before there
+/// are other threads, which inherit it, as programs do that this one starts (Process undoes it).
+void hold_back_signals();
 
-/// The first signal that came, 0 if none did.
+/// The first signal that was seen, 0 if none came. Of two that came since the last look, SIGINT.
 int received_signal();
 
 /// What a program that a signal has stopped exits with: 130 for SIGINT, 143 for SIGTERM.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/geometry/lattice.hpp"
+#include "core/geometry/most_points.hpp"
 
 namespace perifrac {
 
@@ -44,6 +45,9 @@ template <int D>
 std::array<int, D> cells_of_box(const Section& section, const std::string& path, double spacing) {
   const std::vector<double> from = section.numbers(path + ".from");
   const std::vector<double> to = section.numbers(path + ".to");
+  double points = 1.0;
+  for (int a = 0; a < D; ++a) points *= std::max((to[a] - from[a]) / spacing, 1.0);
+  refuse_too_many_points(section, path, points, spacing);
   std::array<int, D> cells;
   for (int a = 0; a < D; ++a) {
     const double size = to[a] - from[a];

@@ -47,7 +47,8 @@ struct PeriodicImages {
     for (auto& s : shift) s.clear();
     for (int a = 0; a < D; ++a) {
       if (!period.ends[a]) continue;
-      const auto [low, high] = *period.ends[a];
+      const double low = period.ends[a]->first;
+      const double high = period.ends[a]->second;
       const Index before = static_cast<Index>(source.size());
       const auto add = [&](Index point, const Vector<D>& moved) {
         const double x = position[a][point] + moved[a];

@@ -104,7 +104,9 @@ Schedule read_schedule_of(const Section& section, const std::string& at, bool ze
 
 template <int D>
 void read_face(const Section& section, const FaceCondition& condition, SolidBoundary<D>& boundary) {
-  const auto& [face, type, path] = condition;
+  const auto& face = condition.face;
+  const std::string& type = condition.type;
+  const std::string& path = condition.path;
   const auto number = [&](const char* key) { return section.number(path + key); };
   const auto vector = [&](const char* key) { return read_vector<D>(section, path + key); };
   const auto schedule = [&](const auto& value) {

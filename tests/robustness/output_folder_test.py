@@ -103,6 +103,7 @@ class OutputFolder(RunTest):
         again = self.folder / "again"
         done = perifrac("run", MANDEL, "--no-report", "--output", again, *settings(keys), **limit_files_to(size - 1))
         self.assertEqual(self.assert_fails_to_write(done), "history.csv")
+        self.assertTrue((again / "history.csv").read_text().endswith("\n"), "a torn row")
         self.run_scene(keys, again, "--restart", checkpoints(again)[-1])
         self.assert_same_results(whole, again)
 

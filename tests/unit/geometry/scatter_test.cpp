@@ -54,7 +54,8 @@ TEST(Scatter, KeepsTheMean) {
   EXPECT_NEAR(mean, 1.0, 0.03);
   EXPECT_NEAR(std::sqrt(square - mean * mean), variation, 0.05);
   for (const auto& [deviation, part] : {std::pair(-0.6745, 0.25), {0.0, 0.5}, {0.6745, 0.75}}) {
-    const auto below = std::ranges::count_if(field, [&](double g) { return g < deviation; });
+    const auto below =
+        std::ranges::count_if(field, [limit = deviation](double g) { return g < limit; });
     EXPECT_NEAR(double(below) / points.size(), part, 0.03);
   }
 }
