@@ -159,6 +159,7 @@ def test_plane() -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", type=Path, nargs="?", help="folder of results")
+    parser.add_argument("--sealed", type=float, default=0.0, help="depth to which walls are sealed [m]")
     parser.add_argument("--facet", type=float, default=1e-3, help="length of a facet [m]")
     parser.add_argument("--size", type=float, nargs=2, default=(0.15, 0.2), help="of the box [m]")
     parser.add_argument("--cell", type=float, default=5e-4, help="of `plane` [m]")
@@ -172,6 +173,7 @@ def main() -> None:
         return test_plane()
     rock = Rock(**{name: getattr(a, name) for name in vars(Rock())})
     times, places, pressure = frames(a.run)
+    pressure = pressure * (a.size[1] - places[:, 1] > a.sealed)
     carter = 2 * a.facet * sum(superposed(times, p, rock.half_space()) for p in pressure.T)
     plane = diffused(rock, times, a.size[1] - places[:, 1], pressure, a.facet, a.cell, a.size)
     run = leaked_by_run(a.run, times, a.density)
