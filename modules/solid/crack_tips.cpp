@@ -15,6 +15,10 @@ constexpr double viscous_offset = 0.25;
 /// Of what it takes: below this the opening says for certain that J is not enough.
 constexpr double worth_asking = 0.9;
 
+/// J is asked where what the opening says lies between these, or the opening has changed by more
+/// than this part.
+constexpr double surely_not = 0.985, surely = 1.03, telling_change = 0.15;
+
 /// A turn below this is rounding [rad].
 constexpr double straight = 1e-6;
 
@@ -67,7 +71,7 @@ double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
       {0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
 }
 
-double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
+double CrackTips::readiness(Tip& tip, const CrackState& state) const {
   const IsotropicElasticity<2>& law = cracked_.elastic().law(tip.nearest);
   const double shear = law.shear_modulus, lame = law.lame_lambda;
   // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
@@ -82,13 +86,21 @@ double CrackTips::readiness(const Tip& tip, const CrackState& state) const {
   return std::max(followed_readiness(tip, tip_law, state), lagging_readiness(tip, tip_law, state));
 }
 
-/// From K_I, without what fluid does beyond its pressure.
-double CrackTips::dry_readiness(const Tip& tip, const TipLaw& tip_law,
-                                const CrackState& state) const {
+/// From K_I, without what fluid does beyond its pressure. J asks for the displacements, which are
+/// dear: away from growth K_I goes with the opening of the last facet since J was asked last.
+double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState& state) const {
+  const double opening = state.opening[tip.at.facet];
+  if (tip.asked_opening > 0.0 && !state.inertia) {
+    const double guess = tip.asked * opening / tip.asked_opening;
+    const bool is_near = std::abs(opening / tip.asked_opening - 1.0) < telling_change;
+    if (is_near && (guess < surely_not || guess > surely)) return guess;
+  }
   const TipLoad load = energy_release_.at(tip.at, state.unknowns(), state.pressure,
                                           state.pore_stress, state.inertia);
-  if (!(load.opening > 0.0) || !(load.energy_release > 0.0)) return 0.0;
-  return std::sqrt(load.energy_release / tip_law.fracture_energy);
+  const bool opens = load.opening > 0.0 && load.energy_release > 0.0;
+  tip.asked = opens ? std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
+  tip.asked_opening = opens ? opening : 0.0;
+  return tip.asked;
 }
 
 /// From the opening at the last facet but one, for fluid that stays up with the tip.
@@ -105,7 +117,7 @@ double CrackTips::followed_readiness(const Tip& tip, const TipLaw& tip_law,
 
 /// Fluid holds a tip back by the pressure that it loses on its way there, and it cannot lose more
 /// than it has: a tip that would go on if its last facet were empty does, and the fluid lags.
-double CrackTips::lagging_readiness(const Tip& tip, const TipLaw& tip_law,
+double CrackTips::lagging_readiness(Tip& tip, const TipLaw& tip_law,
                                     const CrackState& state) const {
   const CrackTip& at = tip.at;
   // K_I of a pressure that ends a facet behind the tip of a long crack.
@@ -176,6 +188,7 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   const FaceJump& jump = cracked_.jumps().back();
   tip.at = {facet[1], jump.tangent, static_cast<Index>(cracked_.facets().size()) - 1, tip.at.facet};
   tip.since = t;
+  tip.asked = tip.asked_opening = 0.0;
   tip.nearest = body_.nearest_point(tip.at.place);
   tip.intensity_ratio =
       known ? std::min(1.0, cracked_.intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
@@ -204,15 +217,16 @@ void CrackTips::visit_state(StateVisitor& visitor) {
   std::vector<double> numbers;
   std::vector<std::int64_t> indices;
   for (const Tip& tip : tips_) {
-    numbers.insert(numbers.end(), {tip.at.place[0], tip.at.place[1], tip.at.direction[0],
-                                   tip.at.direction[1], tip.since, tip.intensity_ratio});
+    numbers.insert(numbers.end(),
+                   {tip.at.place[0], tip.at.place[1], tip.at.direction[0], tip.at.direction[1],
+                    tip.since, tip.intensity_ratio, tip.asked, tip.asked_opening});
     indices.insert(indices.end(), {tip.at.facet, tip.at.before, tip.grows});
   }
   visitor.visit("tips", numbers);
   visitor.visit("tip_facets", indices);
   tips_.resize(indices.size() / 3);
   for (std::size_t k = 0; k < tips_.size(); ++k) {
-    const double* const n = &numbers[6 * k];
+    const double* const n = &numbers[8 * k];
     const std::int64_t* const i = &indices[3 * k];
     const Vector<2> place = {n[0], n[1]};
     const bool is_known = tips_[k].nearest >= 0 && tips_[k].at.place == place;
@@ -221,7 +235,9 @@ void CrackTips::visit_state(StateVisitor& visitor) {
                 n[4],
                 i[2] != 0,
                 nearest,
-                n[5]};
+                n[5],
+                n[6],
+                n[7]};
   }
 }
 

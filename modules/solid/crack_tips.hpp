@@ -60,14 +60,16 @@ class CrackTips {
     Index nearest = -1;  ///< point, whose rock it is in
     /// K_I under fluid of fixed volume, over that before the last step: falls as the crack grows.
     double intensity_ratio = 1.0;
+    /// What J said last, in the same unit, and the opening of the last facet then [m].
+    double asked = 0.0, asked_opening = 0.0;
     double readiness = 0.0;
   };
 
   double energy_to_cut(const CrackFacet<2>& facet) const;
-  double readiness(const Tip& tip, const CrackState& state) const;
-  double dry_readiness(const Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
+  double readiness(Tip& tip, const CrackState& state) const;
+  double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
   double followed_readiness(const Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
-  double lagging_readiness(const Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
+  double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
   double behind(const CrackTip& at) const;
   double within_crack(const Tip& tip, double s) const;
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
