@@ -54,7 +54,7 @@ def page(lines):
 
 `perifrac check SCENE` runs the first windows of a scene for four seconds of processor time (`--trial SECONDS`; 0: not at all), until cracks that are to grow have done so ten times or for twelve, and says what the whole run takes. A window costs a module what it did on average in the latter half of the trial or, where the module has a stable step of its own, what a step did; a facet that a crack gains costs what it did and a window more, and how many are to come is known where the [regime](fracture.md#regime) of the crack is. Why so: [decision 15](decisions/0015-run-times-are-tried.md).
 
-`make forecast` writes this page: foretold and taken by the shipped scenes that take less than some minutes, one of each kind, on one thread, without writing results. Where the trial came to the end ("whole") nothing is extrapolated. (!): off by more than 30 %.
+`make forecast` writes this page: foretold and taken by the shipped scenes that take less than some minutes, one of each kind, on one thread, without writing results. Where the trial came to the end ("whole") nothing is extrapolated. (!): off by more than 30 %: in `hf_storage` the regime, of an infinite body, expects a third more facets than the specimen lets its crack gain.
 
 {HEADER}
 {os.linesep.join(lines)}
