@@ -25,7 +25,7 @@ COUPLING = {f"coupling/{name}": 1 for name in ("time", "step", "window_length", 
 EQUILIBRIUM = {"solid/displacement": UNKNOWNS, "solid/external_force": UNKNOWNS, "solid/external_work": 1, **COUPLING}
 MOTION = {**EQUILIBRIUM, "solid/velocity": 2 * POINTS, "solid/damped_energy": 1}
 CRACKS = {"solid/relief_work": 1, "solid/fracture_energy": 1, "solid/crack_facets": 4 * FACETS,
-          "solid/broken_bonds": 3 * 222, "solid/tips": 2 * 6, "solid/tip_facets": 2 * 3}
+          "solid/broken_bonds": 3 * 222, "solid/tips": 2 * 8, "solid/tip_facets": 2 * 3}
 CRACKS_IN_MOTION = {**CRACKS, "solid/contact_loss": 1, "solid/given_impulse": FACETS,
                     "solid/given_contact_impulse": FACETS}
 CRACKS_AT_REST = {**CRACKS, "solid/readiness": 1, "solid/last_growth": 1, "solid/crack_opening": FACETS,
