@@ -79,9 +79,6 @@ TEST(Profile, WeighsWhatIsHeld) {
   GTEST_SKIP();
 #endif
 #endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP();
-#endif
   Profile profile;
   std::vector<double> held, more;
   {
