@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/operators/bond_lengths.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -23,22 +25,6 @@ struct Grid {
     return index;
   }
 };
-
-template <int D>
-double shortest_bond(const Family<D>& family) {
-  double shortest = INFINITY;
-  for (Index i = 0; i < family.point_count; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      double square = 0.0;
-      for (int a = 0; a < D; ++a) {
-        const double xi = family.position[a][family.other[bond]] - family.position[a][i];
-        square += xi * xi;
-      }
-      shortest = std::min(shortest, square);
-    }
-  }
-  return std::sqrt(shortest);
-}
 
 template <int D>
 std::optional<Grid<D>> find_grid(const Family<D>& family, double spacing) {
@@ -65,7 +51,7 @@ std::optional<Grid<D>> find_grid(const Family<D>& family, double spacing) {
 
 template <int D>
 std::optional<LatticeBonds<D>> LatticeBonds<D>::find(const Family<D>& family) {
-  const double spacing = shortest_bond(family);
+  const double spacing = bond_lengths(family).shortest;
   if (family.curved || !std::isfinite(spacing)) return {};
   std::optional<Grid<D>> grid = find_grid(family, spacing);
   if (!grid) return {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/operators/bond_lengths.hpp"
 #include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
@@ -15,28 +16,12 @@ constexpr double at_once = -1.0;
 /// for rounding to stay far below that.
 constexpr double margin = 1e-9, farthest = 1e3;
 
-template <int D>
-double longest_bond(const Family<D>& family) {
-  double longest = 0.0;
-  for (Index i = 0; i < family.point_count; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      double square = 0.0;
-      for (int a = 0; a < D; ++a) {
-        const double xi = family.position[a][family.other[bond]] - family.position[a][i];
-        square += xi * xi;
-      }
-      longest = std::max(longest, square);
-    }
-  }
-  return std::sqrt(longest);
-}
-
 }  // namespace
 
 template <int D>
 StretchBudget<D>::StretchBudget(const Family<D>& family)
     : points_(family.point_count),
-      rounding_(margin * longest_bond(family)),
+      rounding_(margin * bond_lengths(family).longest),
       last_(static_cast<std::size_t>(D) * points_) {
   for (Index i = 0; i < points_; ++i) {
     const auto begin = family.other.begin() + family.offset[i];
