@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/array_list.hpp"
+#include "app/coarse_twin.hpp"
 #include "app/forecast.hpp"
 #include "app/output_times.hpp"
 #include "app/recorder.hpp"
@@ -61,12 +62,16 @@ void print_regime(const nlohmann::json& regime) {
   }
 }
 
-/// Those of cracks from the start are part of the crack that is expected.
-std::optional<double> facets_at_end(const Simulation& simulation,
-                                    const std::optional<SceneRegime>& regime) {
+/// Those of cracks from the start are part of them.
+std::optional<double> facets_at_end(const Simulation& simulation, std::optional<double> length) {
+  if (!length) return {};
+  return std::visit([&](const auto& body) { return *length / body->spacing(); }, simulation.body);
+}
+
+/// Of the crack in an infinite body.
+std::optional<double> length_at_end(const std::optional<SceneRegime>& regime) {
   if (!regime) return {};
-  const double length = regime->wings * expected_crack(regime->fracture, regime->time).length;
-  return std::visit([&](const auto& body) { return length / body->spacing(); }, simulation.body);
+  return regime->wings * expected_crack(regime->fracture, regime->time).length;
 }
 
 nlohmann::json forecast_json(const Forecast& forecast) {
@@ -99,6 +104,10 @@ void print_forecast(const nlohmann::json& forecast) {
   if (!trial["is_whole"].get<bool>()) {
     fmt::print("    from a trial to t = {:.3g} s, {:.1f} s long\n", trial["time"].get<double>(),
                trial["seconds"].get<double>());
+  }
+  if (forecast.contains("crack_length")) {
+    fmt::print("    for a crack that gets {:.3g} m long\n",
+               forecast["crack_length"]["value"].get<double>());
   }
   if (forecast.contains("failure")) {
     fmt::print("  warning: a run stops: {}\n", forecast["failure"].get<std::string>());
@@ -153,8 +162,14 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
   if (trial_seconds > 0.0) {
     const double building =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    std::optional<double> length;
+    if (!regime || !regime->is_as_in_infinite_body) {
+      length = crack_length_of_coarse_twin(scene_file, overrides, scene, trial_seconds);
+    }
+    if (!length) length = length_at_end(regime);
     result["forecast"] = forecast_json(
-        forecast(simulation, outputs, trial_seconds, building, facets_at_end(simulation, regime)));
+        forecast(simulation, outputs, trial_seconds, building, facets_at_end(simulation, length)));
+    if (length) result["forecast"]["crack_length"] = {{"value", *length}, {"unit", "m"}};
   }
   if (json) {
     fmt::print("{}", json_text(result));

@@ -108,7 +108,7 @@ std::vector<std::string> warnings(const Section& scene, const SceneRegime& regim
   const double length = expected_crack(regime.fracture, regime.time).length;
   const double lag = largest_lag(regime.fracture, regime.time);
   const std::string reference = writes(scene, "reference") ? scene.word("reference.type") : "";
-  if (to_faces < enough * length) {
+  if (!regime.is_as_in_infinite_body) {
     warnings.push_back(fmt::format(
         "faces of the body are only {:.2g} times the crack's length from the inlet: the figures{} "
         "are those of an infinite body, good from 8 times on",
@@ -145,6 +145,7 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
                                   scene.number("crack_fluid.inlets[0].rate")}},
       .wings = mouth.at_end ? 1 : 2,
       .time = pumping_time(scene),
+      .is_as_in_infinite_body = false,
       .warnings = {}};
   if (!(regime.time > 0.0)) return std::nullopt;
   HydraulicFracture& fracture = regime.fracture;
@@ -164,8 +165,10 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
     fracture.leak_off_coefficient =
         leak_off_into_pores(scene.at("pore_flow"), rock, mouth.normal, pressure);
   }
-  const double spacing = scene.number("body.spacing");
-  regime.warnings = warnings(scene, regime, distance_to_faces(simulation.points(), inlet, spacing));
+  const double to_faces =
+      distance_to_faces(simulation.points(), inlet, scene.number("body.spacing"));
+  regime.is_as_in_infinite_body = to_faces >= enough * expected_crack(fracture, regime.time).length;
+  regime.warnings = warnings(scene, regime, to_faces);
   return regime;
 }
 

@@ -13,8 +13,9 @@ namespace perifrac {
 /// The crack in an infinite body that a scene's crack comes nearest to, when most fluid is in it.
 struct SceneRegime {
   HydraulicFracture fracture;
-  int wings;    ///< of it, that the body holds
-  double time;  ///< in which the inlet's full rate brings as much [s]
+  int wings;                    ///< of it, that the body holds
+  double time;                  ///< in which the inlet's full rate brings as much [s]
+  bool is_as_in_infinite_body;  ///< the body's faces are far enough off
   /// Where what the scene does is not what that crack does, or is resolved too coarsely.
   std::vector<std::string> warnings;
 };

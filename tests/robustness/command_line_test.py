@@ -85,6 +85,13 @@ class CommandLine(RunTest):
             self.assertEqual(set(said["seconds_by_part"]), {"building", "coupling", "pore_flow", "solid"})
             self.assertGreaterEqual(min(said["seconds_by_part"].values()), 0.0)
         self.assertIsNone(foretold(MANDEL, "--trial", "0"))
+        self.assertNotIn("crack_length", whole)
+        # A crack gets as long as on points five times as far apart, or, in a body as good as infinite, as its
+        # regime says: 0.1457 m it would be of the first.
+        coarse = foretold(CONFIGS / "hf_storage.yaml", "--trial", "1", "--set", "body.spacing=2.5 mm")
+        self.assertAlmostEqual(coarse["crack_length"]["value"], 0.113, delta=0.011)
+        infinite = foretold(CONFIGS / "kgd_mixed.yaml", "--trial", "0.001", "--set", "body.spacing=20 mm")
+        self.assertAlmostEqual(infinite["crack_length"]["value"], 0.1014, delta=1e-4)
         # What stops a run stops the trial.
         wild = foretold(MANDEL, "--trial", "100", "--set", "coupling.split=drained", "--set", "coupling.iterations.max=3",
                         "--set", "coupling.window.retries=0", "--set", "pore_flow.fluid.bulk_modulus=200 GPa")

@@ -52,9 +52,9 @@ HEADER = ("| scene | foretold [s] | taken [s] | ratio | most in | windows | memo
 def page(lines):
     return f"""# What `perifrac check` foretells
 
-`perifrac check SCENE` runs the first windows of a scene for four seconds of processor time (`--trial SECONDS`; 0: not at all), until cracks that are to grow have done so ten times or for twelve, and says what the whole run takes. A window costs a module what it did on average in the latter half of the trial or, where the module has a stable step of its own, what a step did; a facet that a crack gains costs what it did and a window more, and how many are to come is known where the [regime](fracture.md#regime) of the crack is. Why so: [decision 15](decisions/0015-run-times-are-tried.md).
+`perifrac check SCENE` runs the first windows of a scene for four seconds of processor time (`--trial SECONDS`; 0: not at all), until cracks that are to grow have done so ten times or for twelve, and says what the whole run takes. A window costs a module what it did on average in the latter half of the trial or, where the module has a stable step of its own, what a step did; a facet that a crack gains costs what it did and a window more, and how many are to come is known from the [regime](fracture.md#regime) of the crack where the body is as good as infinite, elsewhere from a run of the same scene on points two to five times as far apart, which takes seconds at most. Why so: [decision 15](decisions/0015-run-times-are-tried.md).
 
-`make forecast` writes this page: foretold and taken by the shipped scenes that take less than some minutes, one of each kind, on one thread, without writing results. Where the trial came to the end ("whole") nothing is extrapolated. (!): off by more than 30 %: in `hf_storage` the regime, of an infinite body, expects a third more facets than the specimen lets its crack gain.
+`make forecast` writes this page: foretold and taken by the shipped scenes that take less than some minutes, one of each kind, on one thread, without writing results. Where the trial came to the end ("whole") nothing is extrapolated. (!): off by more than 30 %.
 
 {HEADER}
 {os.linesep.join(lines)}
