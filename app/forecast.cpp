@@ -163,10 +163,10 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
       ++result.windows;
     });
     const double facets = std::max(0.0, facets_at_end.value_or(0.0) - facet_count(simulation));
-    // A facet costs a window of its own, too: growth ends the one that it comes in.
-    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * facets;
+    // A facet costs half a window of its own, too: growth ends the one that it comes in, anywhere.
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * 0.5 * facets;
     parts[parts.size() - 2] += cost.facet * facets;  // the solid is the last module
-    result.windows += std::llround(facets);
+    result.windows += std::llround(0.5 * facets);
   }
   // As if nothing else ran: one thread is then never kept waiting.
   const double used = processor_time() - processors_before;
