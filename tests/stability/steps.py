@@ -179,7 +179,7 @@ def fracture():
                             abs(length[-1] / fine.last("crack_length") - 1.0), 0.05),
                      Figure("largest pressure against half the window",
                             float(abs(opened[0] / opened[1] - 1.0)), 0.1)])
-        settings = {"crack_fluid.inlets[0].rate": 1.6e-4 * factor, "time.end": end,
+        settings = {"body.spacing": 0.005, "crack_fluid.inlets[0].rate": 1.6e-4 * factor, "time.end": end,
                     "output.interval": end / 4, "coupling.window.largest": end / 160,
                     "crack_fluid.inlets[0].schedule.times":
                         f"[{end / 4}, {end / 4 * 1.005}, {end / 2}, {end / 2 * 1.0025}]"}
