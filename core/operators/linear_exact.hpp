@@ -146,6 +146,18 @@ class LinearExactOperator {
     return on_unknowns(*family_, mirror_, i, family_->volume[i] * matrix);
   }
 
+  /// Adds the unknowns that the gradient and the energy of point i depend on.
+  void append_unknowns(Index i, std::vector<Index>& unknowns) const {
+    for (int r = 0; r < R; ++r) {
+      const auto append = [&](Index node) {
+        const Combination end = node_unknowns(*family_, mirror_, node, r);
+        for (int k = 0; k < end.count; ++k) unknowns.push_back(end.terms[k].unknown);
+      };
+      append(i);
+      for (Index b = family_->offset[i]; b < family_->offset[i + 1]; ++b) append(family_->other[b]);
+    }
+  }
+
   /// The energy of point i alone in the field that is looked at.
   double energy(Index i) const {
     const Tensor<R, D> f = gradient_at(i);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -25,6 +26,10 @@ class CholeskyBackend {
   virtual std::optional<Eigen::Index> factor(const Eigen::SparseMatrix<double>& a) = 0;
 
   virtual void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) = 0;
+
+  /// As SparseCholesky::solve_part().
+  virtual void solve_part(std::span<const int> rows, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                          std::span<const int> wanted, Eigen::Ref<Eigen::MatrixXd> x) = 0;
 };
 
 }  // namespace perifrac

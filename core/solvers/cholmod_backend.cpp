@@ -2,12 +2,15 @@
 #include <cassert>
 #include <cblas.h>
 #include <new>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include <cholmod.h>
 #include <omp.h>
 
 #include "core/solvers/cholesky_backend.hpp"
+#include "core/solvers/supernodal_part.hpp"
 
 namespace perifrac {
 namespace {
@@ -87,6 +90,7 @@ class CholmodBackend final : public CholeskyBackend {
     cholmod_free_factor(&factor_, &common_);
     factor_ = cholmod_analyze(&view, &common_);
     check();
+    part_.reset();
   }
 
   std::optional<Eigen::Index> factor(const Eigen::SparseMatrix<double>& a) override {
@@ -113,7 +117,25 @@ class CholmodBackend final : public CholeskyBackend {
     }
   }
 
+  void solve_part(std::span<const int> rows, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                  std::span<const int> wanted, Eigen::Ref<Eigen::MatrixXd> x) override {
+    assert(factor_ && factor_->minor == factor_->n && factor_->is_super);
+    if (!part_) part_.emplace(supernodes());
+    part_->solve(static_cast<const double*>(factor_->x), rows, b, wanted, x);
+  }
+
  private:
+  Supernodes supernodes() const {
+    const auto span_of = [](const void* data, std::size_t count) {
+      return std::span(static_cast<const int*>(data), count);
+    };
+    return {.columns = span_of(factor_->super, factor_->nsuper + 1),
+            .rows_begin = span_of(factor_->pi, factor_->nsuper + 1),
+            .values_begin = span_of(factor_->px, factor_->nsuper + 1),
+            .rows = span_of(factor_->s, factor_->ssize),
+            .permutation = span_of(factor_->Perm, factor_->n)};
+  }
+
   void check() const {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common_.status < CHOLMOD_OK)
@@ -122,6 +144,7 @@ class CholmodBackend final : public CholeskyBackend {
 
   cholmod_common common_{};
   cholmod_factor* factor_ = nullptr;
+  std::optional<SupernodalPart> part_;  ///< made when it is first asked for
   cholmod_dense* work_y_ = nullptr;
   cholmod_dense* work_e_ = nullptr;
 };

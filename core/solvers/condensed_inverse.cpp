@@ -18,17 +18,14 @@ void CondensedInverse::add(std::span<const int> unknowns) {
   const Eigen::Index added = all - before;
   if (added == 0) return;
 
-  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(place_.size()), added);
-  for (Eigen::Index k = 0; k < added; ++k) unit(unknowns_[before + k], k) = 1.0;
-  Eigen::MatrixXd response(unit.rows(), added);
-  factor_.solve(unit, response);
   Eigen::MatrixXd columns(all, added);  // of A0^-1
-  for (Eigen::Index k = 0; k < all; ++k) columns.row(k) = response.row(unknowns_[k]);
+  factor_.solve_part(std::span(unknowns_).subspan(before), Eigen::MatrixXd::Identity(added, added),
+                     unknowns_, columns);
 
   const Eigen::MatrixXd old = columns.topRows(before);
-  const Eigen::MatrixXd corrected = old - block_ * times_changes(old);
+  const Eigen::MatrixXd corrected = old - block_ * force_of_changes(old);
   const Eigen::MatrixXd own =
-      columns.bottomRows(added) - old.transpose() * times_changes(corrected);
+      columns.bottomRows(added) - old.transpose() * force_of_changes(corrected);
   block_.conservativeResize(all, all);
   block_.topRightCorner(before, added) = corrected;
   block_.bottomLeftCorner(added, before) = corrected.transpose();
@@ -49,7 +46,7 @@ void CondensedInverse::change(std::span<const int> places, const Eigen::MatrixXd
   changes_.push_back({{places.begin(), places.end()}, delta});
 }
 
-Eigen::MatrixXd CondensedInverse::times_changes(const Eigen::MatrixXd& x) const {
+Eigen::MatrixXd CondensedInverse::force_of_changes(const Eigen::MatrixXd& x) const {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(x.rows(), x.cols());
   for (const auto& [places, delta] : changes_) {
     Eigen::MatrixXd part(delta.rows(), x.cols());
@@ -61,14 +58,7 @@ Eigen::MatrixXd CondensedInverse::times_changes(const Eigen::MatrixXd& x) const 
 }
 
 Eigen::VectorXd CondensedInverse::correct_block(const Eigen::VectorXd& x0) const {
-  return x0 - block_ * times_changes(x0);
-}
-
-Eigen::VectorXd CondensedInverse::force_of_changes(const Eigen::VectorXd& block) const {
-  const Eigen::VectorXd force = times_changes(block);
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(place_.size()));
-  for (Eigen::Index k = 0; k < force.size(); ++k) all[unknowns_[k]] = force[k];
-  return all;
+  return x0 - block_ * force_of_changes(x0);
 }
 
 }  // namespace perifrac

@@ -33,16 +33,15 @@ class CondensedInverse {
 
   /// The block's part of A^-1 b from that of A0^-1 b, at no back-substitution.
   Eigen::VectorXd correct_block(const Eigen::VectorXd& x0) const;
-  /// What the changes do on all unknowns where the block's part of x is this: A x = A0 x + that.
-  Eigen::VectorXd force_of_changes(const Eigen::VectorXd& block) const;
+  /// What the changes do where the block's part of x is this, both on the block, a column each:
+  /// A x = A0 x + that.
+  Eigen::MatrixXd force_of_changes(const Eigen::MatrixXd& block) const;
 
  private:
   struct Change {
     std::vector<int> places;
     Eigen::MatrixXd delta;
   };
-  /// The sum of all changes times x, both on the block.
-  Eigen::MatrixXd times_changes(const Eigen::MatrixXd& x) const;
 
   const SparseCholesky& factor_;
   std::vector<int> place_;

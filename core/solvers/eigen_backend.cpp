@@ -26,6 +26,14 @@ class EigenBackend final : public CholeskyBackend {
     x = ldlt_.solve(b);
   }
 
+  void solve_part(std::span<const int> rows, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                  std::span<const int> wanted, Eigen::Ref<Eigen::MatrixXd> x) override {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(ldlt_.rows(), b.cols());
+    for (std::size_t k = 0; k < rows.size(); ++k) all.row(rows[k]) = b.row(k);
+    all = ldlt_.solve(all).eval();
+    for (std::size_t k = 0; k < wanted.size(); ++k) x.row(k) = all.row(wanted[k]);
+  }
+
  private:
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt_;
 };

@@ -53,6 +53,15 @@ void SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& b,
   backend_->solve(b, x);
 }
 
+void SparseCholesky::solve_part(std::span<const int> rows,
+                                const Eigen::Ref<const Eigen::MatrixXd>& b,
+                                std::span<const int> wanted, Eigen::Ref<Eigen::MatrixXd> x) const {
+  assert(b.rows() == std::ssize(rows) && x.rows() == std::ssize(wanted) && b.cols() == x.cols());
+  const ProfileScope profiled("solves");
+  solves.fetch_add(1, std::memory_order_relaxed);
+  backend_->solve_part(rows, b, wanted, x);
+}
+
 CholeskyWork SparseCholesky::work() { return {factorisations, solves}; }
 
 const char* SparseCholesky::backend() { return CholeskyBackend::name(); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/operators/point_stiffness.hpp"
 #include "modules/solid/elastic_operator.hpp"
@@ -17,6 +18,9 @@ class BreakableElasticity : public ElasticOperator<D> {
   virtual void look_at(std::span<const double> u) = 0;
   /// Gradient of the displacement at a point.
   virtual Tensor<D, D> gradient_at(Index i) const = 0;
+
+  /// Adds the unknowns that gradient_at() and point_energy() of point i depend on.
+  virtual void append_unknowns(Index i, std::vector<Index>& unknowns) const = 0;
 
   /// What the energy of point i alone adds to the stiffness.
   virtual PointStiffness point_stiffness(Index i) const = 0;

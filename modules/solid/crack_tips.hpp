@@ -24,8 +24,8 @@ struct CrackState {
   std::span<const double> leak_off;
   /// Of all points [Pa]; empty where no pore flow is simulated.
   std::span<const double> pore_stress;
-  /// Displacements, found when they are asked for.
-  std::function<std::span<const double>()> unknowns;
+  /// All displacements, of which those named count: they are found when they are asked for.
+  std::function<std::span<const double>(std::span<const Index> named)> unknowns;
   /// Mean jumps across all facets along their normal and tangent [m], when they are asked for.
   std::function<std::vector<Vector<2>>()> jumps;
   PointInertia inertia{};

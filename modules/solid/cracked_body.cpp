@@ -241,11 +241,18 @@ Eigen::VectorXd CrackedBody::face_force(const Eigen::VectorXd& pressure, bool re
   return force;
 }
 
-/// What would move the body with its first cracks alone as the faces' force moves the present one.
+/// What would move the body with its first cracks alone as the faces' force moves the present one;
+/// on the condensed unknowns, for it is nothing elsewhere.
+Eigen::VectorXd CrackedBody::block_force_on_first_body(const Eigen::VectorXd& force,
+                                                       const Eigen::VectorXd& block) const {
+  return force - inverse_->force_of_changes(block);
+}
+
 Eigen::VectorXd CrackedBody::force_on_first_body(const Eigen::VectorXd& force,
                                                  const Eigen::VectorXd& block) const {
-  Eigen::VectorXd all = -inverse_->force_of_changes(block);
-  for (Eigen::Index k = 0; k < force.size(); ++k) all[inverse_->unknowns()[k]] += force[k];
+  const Eigen::VectorXd own = block_force_on_first_body(force, block);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(free_unknowns_.cols());
+  for (Eigen::Index k = 0; k < own.size(); ++k) all[inverse_->unknowns()[k]] = own[k];
   return all;
 }
 
@@ -256,6 +263,23 @@ Eigen::VectorXd CrackedBody::unknowns(const Eigen::VectorXd& pressure) const {
   Eigen::VectorXd moved(all.size());
   factor_.solve(all, moved);
   return free_unknowns_ * (intact_move_ + moved);
+}
+
+void CrackedBody::find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
+                                std::span<double> all) const {
+  const Eigen::VectorXd force = block_force(pressure);
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  std::vector<int> wanted;
+  for (const Index unknown : named) {
+    if (free_of_[unknown].first >= 0) wanted.push_back(free_of_[unknown].first);
+  }
+  Eigen::VectorXd moved(std::ssize(wanted));
+  factor_.solve_part(inverse_->unknowns(), block_force_on_first_body(force, block), wanted, moved);
+  Eigen::Index next = 0;
+  for (const Index unknown : named) {
+    const auto [free, by] = free_of_[unknown];
+    all[unknown] = free < 0 ? 0.0 : by * (intact_move_[free] + moved[next++]);
+  }
 }
 
 std::vector<Vector<2>> CrackedBody::jumps_under(const Eigen::VectorXd& pressure) const {

@@ -55,6 +55,9 @@ class CrackedBody final : public CutBody {
 
   /// All unknowns without what is prescribed, under the load and a pressure on the faces [m].
   Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure) const;
+  /// The same, those named only, which alone are written: cheap where they lie close together.
+  void find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
+                     std::span<double> all) const;
   /// What the body holds and what its loads would have done, had they been there from the start
   /// [J/m]; at no back-substitution.
   struct Energies {
@@ -82,6 +85,8 @@ class CrackedBody final : public CutBody {
   void find_compliance();
   void find_opening();
   Eigen::VectorXd block_force(const Eigen::VectorXd& pressure) const;
+  Eigen::VectorXd block_force_on_first_body(const Eigen::VectorXd& force,
+                                            const Eigen::VectorXd& block) const;
   Eigen::VectorXd force_on_first_body(const Eigen::VectorXd& force,
                                       const Eigen::VectorXd& block) const;
 

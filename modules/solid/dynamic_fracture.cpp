@@ -151,7 +151,7 @@ CrackState DynamicFracture::crack_state() {
           .viscosity = crack_viscosity_,
           .leak_off = crack_leak_off_,
           .pore_stress = {},
-          .unknowns = [this]() -> std::span<const double> { return system_->unknowns(); },
+          .unknowns = [this](auto) -> std::span<const double> { return system_->unknowns(); },
           .jumps = [this] { return cracks_.jumps_at(system_->unknowns()); },
           .inertia =
               [this, on_faces](Index i) {

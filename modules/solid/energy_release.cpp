@@ -73,6 +73,34 @@ TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
   return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, pore_stress, inertia)};
 }
 
+/// Near a boundary the ring is drawn in, so as to lie within the body [m].
+double EnergyRelease::radius(const CrackTip& tip) const {
+  return (body_.reaches(tip.place, 4.5 * spacing_) ? 4.5 : 3.0) * spacing_;
+}
+
+std::vector<Index> EnergyRelease::looks_at(const CrackTip& tip) const {
+  const Family<2>& family = body_.family();
+  const Cutoff cutoff{tip.place, spacing_, radius(tip)};
+  std::vector<Index> unknowns;
+  for (Index i = 0; i < family.point_count; ++i) {
+    if (!cutoff.reaches({family.position[0][i], family.position[1][i]})) continue;
+    body_.elastic().append_unknowns(i, unknowns);
+  }
+  // A facet that is within the ring, behind the tip, or beside one of these.
+  const Cutoff beside{tip.place, spacing_, cutoff.outer + 2.0 * spacing_};
+  for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
+    const CrackFacet<2>& facet = body_.facets()[f];
+    if (!beside.reaches(facet[0]) && !beside.reaches(facet[1])) continue;
+    for (const auto& [point, coefficient] : body_.jumps()[f].terms) {
+      for (int a = 0; a < 2; ++a) unknowns.push_back(a * family.point_count + point);
+    }
+  }
+  std::ranges::sort(unknowns);
+  const auto twice = std::ranges::unique(unknowns);
+  unknowns.erase(twice.begin(), twice.end());
+  return unknowns;
+}
+
 TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
   TipJump mean{0.0, 0.0};
   int count = 0;
@@ -126,9 +154,7 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
                                       const PointInertia& inertia) const {
   const Family<2>& family = body_.family();
   const Index points = family.point_count;
-  // Near a boundary the ring is drawn in, so as to lie within the body.
-  const double radius = (body_.reaches(tip.place, 4.5 * spacing_) ? 4.5 : 3.0) * spacing_;
-  const Cutoff cutoff{tip.place, spacing_, radius};
+  const Cutoff cutoff{tip.place, spacing_, radius(tip)};
   BreakableElasticity<2>& elastic = body_.elastic();
   elastic.look_at(unknowns);
   double sum = 0.0;

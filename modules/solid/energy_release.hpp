@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -53,10 +54,13 @@ class EnergyRelease {
   /// points [Pa], or empty.
   TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
              std::span<const double> pore_stress = {}, const PointInertia& inertia = {}) const;
+  /// The unknowns that at() depends on, but for `inertia`.
+  std::vector<Index> looks_at(const CrackTip& tip) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
   TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
 
  private:
+  double radius(const CrackTip& tip) const;
   Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
                     std::span<const Vector<2>> jumps) const;
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,

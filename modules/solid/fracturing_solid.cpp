@@ -257,6 +257,19 @@ void FracturingSolid::find_unknowns() {
   derived_ = false;
 }
 
+/// Those named of an array of all, which the next call may write to again.
+std::span<const double> FracturingSolid::find_unknowns(std::span<const Index> named) {
+  if (unknowns_are_current_) return unknowns_;
+  take_load();
+  some_unknowns_.resize(unknowns_.size());
+  cracked_.find_unknowns(faces_.pressure, named, some_unknowns_);
+  if (prescribes_) {
+    const Eigen::VectorXd prescribed = prescribed_.at(window_end_);
+    for (const Index unknown : named) some_unknowns_[unknown] += prescribed[unknown];
+  }
+  return some_unknowns_;
+}
+
 void FracturingSolid::derive() {
   find_unknowns();
   if (derived_) return;
@@ -329,10 +342,7 @@ CrackState FracturingSolid::crack_state() {
           .viscosity = crack_viscosity_,
           .leak_off = crack_leak_off_,
           .pore_stress = pore_stress_,
-          .unknowns = [this]() -> std::span<const double> {
-            find_unknowns();
-            return unknowns_;
-          },
+          .unknowns = [this](std::span<const Index> named) { return find_unknowns(named); },
           .jumps = [this] { return cracked_.jumps_under(faces_.pressure); }};
 }
 

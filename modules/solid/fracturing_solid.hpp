@@ -81,6 +81,7 @@ class FracturingSolid final : public PhysicsModule {
   void take_load();
   void solve_faces();
   void find_unknowns();
+  std::span<const double> find_unknowns(std::span<const Index> named);
   void derive();
   void book_work();
 
@@ -101,6 +102,7 @@ class FracturingSolid final : public PhysicsModule {
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   bool unknowns_are_current_ = false;
+  std::vector<double> some_unknowns_;    ///< where a tip was last looked at
   bool load_is_current_ = false;         ///< the body has that of the window's end
   bool derived_ = false;                 ///< dilatation and energy are those of the unknowns
   std::vector<double> unknowns_before_;  ///< at the beginning of the window

@@ -89,6 +89,10 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
   void look_at(std::span<const double> u) override { operator_.look_at(u); }
   Tensor<D, D> gradient_at(Index i) const override { return operator_.gradient_at(i); }
 
+  void append_unknowns(Index i, std::vector<Index>& unknowns) const override {
+    operator_.append_unknowns(i, unknowns);
+  }
+
   PointStiffness point_stiffness(Index i) const override {
     const auto thin = find_thin(i);
     return is_at(thin, i) ? thin->stiffness : operator_.point_stiffness(i);

@@ -105,16 +105,18 @@ struct CrackedPlate {
   Eigen::VectorXd pressure;
 
   /// The tip of a straight crack at its end (1) or its beginning (0).
-  TipLoad tip_load(const ExactCrack& exact, int end, const Eigen::VectorXd& u) const {
+  static CrackTip tip(const ExactCrack& exact, int end) {
     const double sign = end == 1 ? 1.0 : -1.0;
     const Vector<2> ahead = {sign * std::cos(exact.angle), sign * std::sin(exact.angle)};
-    const CrackTip tip{{exact.centre[0] + exact.half_length * ahead[0],
-                        exact.centre[1] + exact.half_length * ahead[1]},
-                       ahead,
-                       no_facet,
-                       no_facet};
+    return {{exact.centre[0] + exact.half_length * ahead[0],
+             exact.centre[1] + exact.half_length * ahead[1]},
+            ahead,
+            no_facet,
+            no_facet};
+  }
+  TipLoad tip_load(const ExactCrack& exact, int end, const Eigen::VectorXd& u) const {
     return EnergyRelease(*cracked, 1.0)
-        .at(tip, {u.data(), static_cast<std::size_t>(u.size())}, pressure);
+        .at(tip(exact, end), {u.data(), static_cast<std::size_t>(u.size())}, pressure);
   }
 
  private:

@@ -75,6 +75,40 @@ TEST(SparseCholesky, WritesIntoPartOfALargerArrayAndNowhereElse) {
   EXPECT_TRUE((x.bottomRows(2).array() == 7.0).all());
 }
 
+/// Rows far apart, close together and all of them; one right-hand side and many, in turn, so that
+/// nothing may be left of the call before.
+TEST(SparseCholesky, SolvesForAPartAsForAll) {
+  const Matrix a = grid_laplacian(30, 2, 0.1);
+  SparseCholesky cholesky;
+  cholesky.factor(a);
+  std::vector<int> all(a.rows());
+  for (int k = 0; k < a.rows(); ++k) all[k] = k;
+  const std::vector<std::vector<int>> parts = {{451, 420, 450}, {0, 899, 17, 464}, all, {899}};
+  for (const int columns : {1, 7, 1, 3}) {
+    for (const std::vector<int>& rows : parts) {
+      for (const std::vector<int>& wanted : parts) {
+        const Eigen::MatrixXd b = right_hand_sides(std::ssize(rows), columns);
+        Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(a.rows(), columns), x(a.rows(), columns);
+        for (std::size_t k = 0; k < rows.size(); ++k) whole.row(rows[k]) = b.row(k);
+        cholesky.solve(whole, x);
+        Eigen::MatrixXd part(std::ssize(wanted), columns), expected(std::ssize(wanted), columns);
+        for (std::size_t k = 0; k < wanted.size(); ++k) expected.row(k) = x.row(wanted[k]);
+        cholesky.solve_part(rows, b, wanted, part);
+        EXPECT_LT(relative_difference(part, expected), 1e-13);
+      }
+    }
+  }
+  // Another matrix of the same pattern, and one of another.
+  for (const Matrix& other : {grid_laplacian(30, 2, 0.7), grid_laplacian(20, 3, 0.7)}) {
+    cholesky.factor(other);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(other.rows()), x(other.rows()), part(1);
+    b[3] = 2.0;
+    cholesky.solve(b, x);
+    cholesky.solve_part(std::vector{3}, Eigen::VectorXd::Constant(1, 2.0), std::vector{211}, part);
+    EXPECT_NEAR(part[0], x[211], 1e-13 * x.norm());
+  }
+}
+
 TEST(SparseCholesky, ReadsTheLowerHalfOnly) {
   const Matrix a = grid_laplacian(8, 2, 1.0);
   const Matrix lower = a.triangularView<Eigen::Lower>();

@@ -1,0 +1,115 @@
+#include "core/solvers/supernodal_part.hpp"
+
+#include <algorithm>
+
+namespace perifrac {
+
+namespace {
+
+using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+}  // namespace
+
+SupernodalPart::SupernodalPart(const Supernodes& factor)
+    : factor_(factor),
+      place_(factor.permutation.size()),
+      supernode_of_(factor.permutation.size()),
+      is_on_path_(factor.columns.size() - 1, 0) {
+  for (std::size_t k = 0; k < place_.size(); ++k)
+    place_[factor.permutation[k]] = static_cast<int>(k);
+  for (int s = 0; s < std::ssize(is_on_path_); ++s) {
+    std::fill(supernode_of_.begin() + factor.columns[s],
+              supernode_of_.begin() + factor.columns[s + 1], s);
+  }
+}
+
+/// The supernodes on the ways from these rows of A to the root, each once, ascending: those that
+/// come first are eliminated first.
+void SupernodalPart::find_paths(std::span<const int> rows, std::vector<int>& path) {
+  path.clear();
+  for (const int row : rows) {
+    int s = supernode_of_[place_[row]];
+    while (!is_on_path_[s]) {
+      is_on_path_[s] = 1;
+      path.push_back(s);
+      if (below(s).empty()) break;
+      s = supernode_of_[below(s).front()];
+    }
+  }
+  for (const int s : path) is_on_path_[s] = 0;
+  std::ranges::sort(path);
+}
+
+/// `Columns`: int of many right-hand sides; of one, a constant, for which Eigen takes vectors.
+template <class Columns>
+void SupernodalPart::forward(const double* values, int s, Columns columns) {
+  const Block own(values + factor_.values_begin[s], width(s), width(s),
+                  Eigen::OuterStride<>(height(s)));
+  auto solved = work_.leftCols(columns).middleRows(factor_.columns[s], width(s));
+  own.triangularView<Eigen::Lower>().solveInPlace(solved);
+  const std::span<const int> rows = below(s);
+  const Block others(values + factor_.values_begin[s] + width(s), std::ssize(rows), width(s),
+                     Eigen::OuterStride<>(height(s)));
+  auto change = gathered_.leftCols(columns).topRows(std::ssize(rows));
+  change.noalias() = others * solved;
+  for (Eigen::Index c = 0; c < change.cols(); ++c) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      work_(rows[k], c) -= change(static_cast<Eigen::Index>(k), c);
+    }
+  }
+}
+
+template <class Columns>
+void SupernodalPart::backward(const double* values, int s, Columns columns) {
+  const Block own(values + factor_.values_begin[s], width(s), width(s),
+                  Eigen::OuterStride<>(height(s)));
+  const std::span<const int> rows = below(s);
+  const Block others(values + factor_.values_begin[s] + width(s), std::ssize(rows), width(s),
+                     Eigen::OuterStride<>(height(s)));
+  auto known = gathered_.leftCols(columns).topRows(std::ssize(rows));
+  for (Eigen::Index c = 0; c < known.cols(); ++c) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      known(static_cast<Eigen::Index>(k), c) = work_(rows[k], c);
+    }
+  }
+  auto solved = work_.leftCols(columns).middleRows(factor_.columns[s], width(s));
+  solved.noalias() -= others.transpose() * known;
+  own.transpose().triangularView<Eigen::Upper>().solveInPlace(solved);
+}
+
+void SupernodalPart::solve(const double* values, std::span<const int> rows,
+                           const Eigen::Ref<const Eigen::MatrixXd>& b, std::span<const int> wanted,
+                           Eigen::Ref<Eigen::MatrixXd> x) {
+  const Eigen::Index columns = b.cols();
+  find_paths(rows, up_);
+  find_paths(wanted, down_);
+  std::ptrdiff_t most = 0;
+  for (const int s : up_) most = std::max(most, std::ssize(below(s)));
+  for (const int s : down_) most = std::max(most, std::ssize(below(s)));
+  if (work_.cols() < columns) work_.setZero(std::ssize(place_), columns);
+  if (gathered_.rows() < most || gathered_.cols() < columns) {
+    gathered_.resize(std::max<Eigen::Index>(most, gathered_.rows()), work_.cols());
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    work_.row(place_[rows[k]]).head(columns) = b.row(static_cast<Eigen::Index>(k));
+  }
+  const auto pass = [&](auto count) {
+    for (const int s : up_) forward(values, s, count);
+    for (auto s = down_.rbegin(); s != down_.rend(); ++s) backward(values, *s, count);
+  };
+  if (columns == 1) {
+    pass(Eigen::fix<1>());
+  } else {
+    pass(columns);
+  }
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    x.row(static_cast<Eigen::Index>(k)) = work_.row(place_[wanted[k]]).head(columns);
+  }
+  for (const std::vector<int>* path : {&up_, &down_}) {
+    for (const int s : *path) {
+      work_.leftCols(columns).middleRows(factor_.columns[s], width(s)).setZero();
+    }
+  }
+}
+
+}  // namespace perifrac
