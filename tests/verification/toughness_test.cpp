@@ -150,6 +150,26 @@ TEST(ApparentToughness, OfCriticalStretchAsItIs) {
   }
 }
 
+/// Points moved by up to a fifth of a spacing: the crack meets other bonds at every step.
+TEST(ApparentToughness, IsThatOfTheMaterialOnJitteredPoints) {
+  constexpr int half_length = 10, steps = 10;
+  constexpr int n = 2 * (half_length + steps / 2 + 20);
+  fmt::print("K_app / K_IC of energy_release, jitter 0.2, a/dx 10: mean (largest)\n");
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const auto body = irregular_box<2>({n, n}, 1.0, seed);
+    for (const double angle : {0.0, 26.565051177}) {
+      for (const Loading& loading : {loadings[0], loadings[2]}) {
+        const Apparent found =
+            apparent_toughness(loading, angle * degree, half_length, steps, 0.25, body);
+        fmt::print("seed {} {:>5.1f} {:<9} {:.4f} ({:.3f})\n", seed, angle, loading.name,
+                   found.mean, found.largest);
+        EXPECT_NEAR(found.mean, 1.0, 0.08) << seed << ' ' << angle << ' ' << loading.name;
+        EXPECT_LE(found.largest, 1.08) << seed << ' ' << angle << ' ' << loading.name;
+      }
+    }
+  }
+}
+
 TEST(ApparentToughness, DoesNotDependOnPoissonsRatio) {
   for (const double poisson : {0.1, 0.2, 0.3, 0.4}) {
     const Apparent found = apparent_toughness(loadings[0], 0.0, 10, 5, poisson);
