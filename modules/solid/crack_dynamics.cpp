@@ -13,7 +13,7 @@ namespace perifrac {
 
 CrackDynamics::CrackDynamics(std::shared_ptr<Family<2>> family, double spacing,
                              std::shared_ptr<BreakableElasticity<2>> elastic, BondState<2>& bonds,
-                             std::optional<Vector<2>> initial_stress,
+                             std::optional<InitialStress<2>> initial_stress,
                              std::vector<CrackFacet<2>> seeds, double release)
     : CutBody(std::move(family), spacing, std::move(elastic), bonds, initial_stress,
               std::move(seeds)),

@@ -28,7 +28,7 @@ class CrackDynamics final : public CutBody, public AddedForce {
   /// As CutBody. `release`: how long bonds take to let go [s].
   CrackDynamics(std::shared_ptr<Family<2>> family, double spacing,
                 std::shared_ptr<BreakableElasticity<2>> elastic, BondState<2>& bonds,
-                std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
+                std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
                 double release);
 
   /// Of the motion that the cracks are part of, which must stay.

@@ -111,7 +111,7 @@ double CrackTips::followed_readiness(const Tip& tip, const TipLaw& tip_law,
   const TipFluid fluid{state.viscosity[at.facet],
                        state.leak_off.empty() ? 0.0 : state.leak_off[at.facet]};
   const double s = behind(at);
-  return state.opening[at.before] /
+  return (state.opening[at.before] - opening_by_layers(at, s, tip_law)) /
          tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
 }
 
@@ -129,6 +129,31 @@ double CrackTips::lagging_readiness(Tip& tip, const TipLaw& tip_law,
       state.opening[at.before] / tip_law.opening(within_crack(tip, behind(at)), 0.0, {}, 1.0);
   if (most - lost < worth_asking) return 0.0;
   return dry_readiness(tip, tip_law, state) - lost;
+}
+
+/// What the opening at s behind the tip has beyond K_I's share of it, K' sqrt(s) / E', where the
+/// rock that faces are relieved of is not under the same stress as at the tip: of the load q(s')
+/// behind the tip of a long crack
+///   w(s) = 4 / (pi E') int q ln|(sqrt s + sqrt s') / (sqrt s - sqrt s')| ds',
+///   K_I = sqrt(8 / pi) int q / sqrt(4 s') ds'   [m].
+double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const {
+  if (!cracked_.relief_varies()) return 0.0;
+  const auto integral = [s](double t) {
+    if (t == s) return -2.0 * s;
+    const double a = std::sqrt(s), b = std::sqrt(t);
+    return (t - s) * std::log(std::abs((a + b) / (a - b))) - 2.0 * a * b;
+  };
+  double sum = 0.0;
+  for (std::size_t f = 0; f < cracked_.facets().size(); ++f) {
+    const CrackFacet<2>& facet = cracked_.facets()[f];
+    const auto from_tip = [&](const Vector<2>& x) {
+      return std::hypot(x[0] - at.place[0], x[1] - at.place[1]);
+    };
+    const double one = from_tip(facet[0]), other = from_tip(facet[1]);
+    const double more = cracked_.relief(static_cast<Index>(f))[0] - cracked_.relief(at.facet)[0];
+    sum += more * (integral(std::max(one, other)) - integral(std::min(one, other)));
+  }
+  return 4.0 / (M_PI * tip_law.plane_strain_modulus) * sum;
 }
 
 /// From the tip to the middle of the last facet but one [m].

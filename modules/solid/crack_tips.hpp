@@ -70,6 +70,7 @@ class CrackTips {
   double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
   double followed_readiness(const Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
+  double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
   double behind(const CrackTip& at) const;
   double within_crack(const Tip& tip, double s) const;
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;

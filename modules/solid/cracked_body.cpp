@@ -23,7 +23,8 @@ double dot(const std::vector<std::pair<int, double>>& mode, const Eigen::VectorX
 CrackedBody::CrackedBody(std::shared_ptr<Family<2>> family, double spacing,
                          std::shared_ptr<BreakableElasticity<2>> elastic,
                          Eigen::SparseMatrix<double> free_unknowns, BondState<2>& bonds,
-                         std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds)
+                         std::optional<InitialStress<2>> initial_stress,
+                         std::vector<CrackFacet<2>> seeds)
     : CutBody(std::move(family), spacing, std::move(elastic), bonds, initial_stress,
               std::move(seeds)),
       free_unknowns_(std::move(free_unknowns)),

@@ -26,7 +26,7 @@ class CrackedBody final : public CutBody {
   CrackedBody(std::shared_ptr<Family<2>> family, double spacing,
               std::shared_ptr<BreakableElasticity<2>> elastic,
               Eigen::SparseMatrix<double> free_unknowns, BondState<2>& bonds,
-              std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds);
+              std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds);
 
   /// Factors the body with its first cracks.
   void start();

@@ -8,7 +8,7 @@ namespace perifrac {
 
 CutBody::CutBody(std::shared_ptr<Family<2>> family, double spacing,
                  std::shared_ptr<BreakableElasticity<2>> elastic, BondState<2>& bonds,
-                 std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds)
+                 std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds)
     : family_(std::move(family)),
       intact_(*family_),
       spacing_(spacing),
@@ -60,10 +60,13 @@ Vector<2> CutBody::relief(Index f) const {
   if (!initial_stress_) return {};
   const Vector<2>& n = jumps_[f].normal;
   const Vector<2>& t = jumps_[f].tangent;
+  const CrackFacet<2>& facet = bonds_.facets()[f];
+  const Vector<2> there =
+      initial_stress_->at({0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
   Vector<2> stress{};
   for (int a = 0; a < 2; ++a) {
-    stress[0] += n[a] * (*initial_stress_)[a] * n[a];
-    stress[1] += t[a] * (*initial_stress_)[a] * n[a];
+    stress[0] += n[a] * there[a] * n[a];
+    stress[1] += t[a] * there[a] * n[a];
   }
   return stress;
 }

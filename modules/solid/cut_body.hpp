@@ -10,6 +10,7 @@
 #include "core/geometry/bond_state.hpp"
 #include "modules/solid/breakable_elasticity.hpp"
 #include "modules/solid/face_jump.hpp"
+#include "modules/solid/initial_stress.hpp"
 
 namespace perifrac {
 
@@ -17,11 +18,11 @@ namespace perifrac {
 /// are, whatever moves it.
 class CutBody {
  public:
-  /// `family` is the one of `elastic`, with nothing broken. `initial_stress`: normal stresses of
-  /// the body at rest, tension positive [Pa], which new faces are relieved of. Writes `bonds`.
+  /// `family` is the one of `elastic`, with nothing broken. New faces are relieved
+  /// of the `initial_stress`. Writes `bonds`.
   CutBody(std::shared_ptr<Family<2>> family, double spacing,
           std::shared_ptr<BreakableElasticity<2>> elastic, BondState<2>& bonds,
-          std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds);
+          std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds);
   virtual ~CutBody() = default;
   CutBody(const CutBody&) = delete;
   CutBody& operator=(const CutBody&) = delete;
@@ -38,6 +39,7 @@ class CutBody {
   std::span<const FaceJump> jumps() const { return jumps_; }
   /// Normal and tangential stress that facet f is relieved of [Pa].
   Vector<2> relief(Index f) const;
+  bool relief_varies() const { return initial_stress_ && !initial_stress_->inside.empty(); }
   /// Mean jump across facet f in a field of all unknowns, along normal and tangent [m].
   Vector<2> jump(Index f, std::span<const double> unknowns) const;
 
@@ -61,7 +63,7 @@ class CutBody {
   BondState<2>& bonds_;
   std::uint64_t followed_ = 0;  ///< version of the bonds that this body has
   std::vector<CrackFacet<2>> seeds_;
-  std::optional<Vector<2>> initial_stress_;
+  std::optional<InitialStress<2>> initial_stress_;
   std::vector<FaceJump> jumps_;                   ///< by facet
   std::array<std::pair<double, double>, 2> box_;  ///< of the points, by axis
 };

@@ -58,11 +58,11 @@ bool names_critical_stretch(const Section& scene) {
 }
 
 FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body) {
-  if (!scene.has("damage")) return {std::numeric_limits<double>::infinity()};
+  if (!scene.has("damage")) return {{std::numeric_limits<double>::infinity()}};
   if (names_critical_stretch(scene)) {
     scene.fail("damage.type", "'critical_stretch' in a quasi_static solid", "energy_release");
   }
-  FractureEnergy<2> energy{required_fracture_energy(scene)};
+  FractureEnergy<2> energy{{required_fracture_energy(scene)}};
   energy.scatter = read_scatter<2>(scene, "damage.scatter");
   if (!scene.has("damage.regions")) return energy;
   for (const std::string& name : scene.names("damage.regions")) {
@@ -76,7 +76,7 @@ FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body
     if (!scene.has(path + ".fracture_energy")) {
       scene.fail(path, "missing key 'fracture_energy'", "a number in J/m^2");
     }
-    energy.inside.emplace_back(*found, scene.number(path + ".fracture_energy"));
+    energy.by_region.inside.emplace_back(*found, scene.number(path + ".fracture_energy"));
   }
   return energy;
 }

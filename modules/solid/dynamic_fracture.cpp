@@ -41,7 +41,7 @@ DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
                                  std::shared_ptr<Family<2>> family,
                                  std::shared_ptr<BreakableElasticity<2>> elastic,
                                  const SolidBoundary<2>& boundary, double density, double damping,
-                                 double safety, std::optional<Vector<2>> initial_stress,
+                                 double safety, std::optional<InitialStress<2>> initial_stress,
                                  std::vector<CrackFacet<2>> seeds,
                                  FractureEnergy<2> fracture_energy)
     : DynamicSolid<2>(body, elastic, boundary, density, damping, safety),

@@ -23,7 +23,7 @@ class DynamicFracture final : public DynamicSolid<2> {
   DynamicFracture(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
                   std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
                   double density, double damping, double safety,
-                  std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
+                  std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
                   FractureEnergy<2> fracture_energy);
 
   PortView port(PortId id) override;

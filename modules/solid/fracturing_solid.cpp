@@ -37,7 +37,7 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
                                  std::shared_ptr<Family<2>> family,
                                  std::shared_ptr<BreakableElasticity<2>> elastic,
                                  const SolidBoundary<2>& boundary,
-                                 std::optional<Vector<2>> initial_stress,
+                                 std::optional<InitialStress<2>> initial_stress,
                                  std::vector<CrackFacet<2>> seeds,
                                  FractureEnergy<2> fracture_energy)
     : body_(std::move(body)),
@@ -119,9 +119,9 @@ PortView FracturingSolid::port(PortId id) {
       effective_stress_.resize(4 * body_->points().volume.size());
       cracked_.elastic().stress(unknowns_, effective_stress_);
       for (Index i = 0; i < body_->points().size() && initial_stress_; ++i) {
-        effective_stress_[i] += (*initial_stress_)[0];
-        effective_stress_[3 * static_cast<std::size_t>(body_->points().size()) + i] +=
-            (*initial_stress_)[1];
+        const Vector<2> there = initial_stress_->at(body_->points().at(i));
+        effective_stress_[i] += there[0];
+        effective_stress_[3 * static_cast<std::size_t>(body_->points().size()) + i] += there[1];
       }
       return {points, effective_stress_};
     case damage:

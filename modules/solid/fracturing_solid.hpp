@@ -33,7 +33,7 @@ class FracturingSolid final : public PhysicsModule {
   /// `fracture_energy` infinite: no crack grows.
   FracturingSolid(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
                   std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
-                  std::optional<Vector<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
+                  std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
                   FractureEnergy<2> fracture_energy);
 
   /// As QuasiStaticSolid's.
@@ -90,7 +90,7 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<Port> ports_;
   std::vector<Index> plate_unknowns_;
   Eigen::SparseMatrix<double> free_unknowns_;
-  std::optional<Vector<2>> initial_stress_;
+  std::optional<InitialStress<2>> initial_stress_;
   ScheduledVector prescribed_{0};
   ScheduledVector load_{0};
   bool prescribes_ = false;  ///< some displacement other than 0

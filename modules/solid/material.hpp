@@ -8,6 +8,7 @@
 #include "core/geometry/body.hpp"
 #include "modules/solid/breakable_elasticity.hpp"
 #include "modules/solid/elastic_operator.hpp"
+#include "modules/solid/initial_stress.hpp"
 #include "modules/solid/solid_boundary.hpp"
 
 namespace perifrac {
@@ -28,8 +29,9 @@ std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
     const Section& section, const Body<D>& body, std::shared_ptr<const Family<D>> family,
     const MirrorCondition<D, D>& mirror);
 
-/// Normal stresses of the body at rest, tension positive [Pa]; nothing where the scene has none.
+/// Nothing where the scene has none; throws InputError, also where regions have another and the
+/// body would not be at rest.
 template <int D>
-std::optional<Vector<D>> read_initial_stress(const Section& section);
+std::optional<InitialStress<D>> read_initial_stress(const Section& section, const Body<D>& body);
 
 }  // namespace perifrac

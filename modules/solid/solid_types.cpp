@@ -47,8 +47,8 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
   auto elastic =
       read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
   auto solid = std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
-                                                 read_initial_stress<2>(section), cracks.seeds,
-                                                 cracks.fracture_energy);
+                                                 read_initial_stress<2>(section, *body),
+                                                 cracks.seeds, cracks.fracture_energy);
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -66,7 +66,7 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
   return std::make_unique<DynamicFracture>(
       body, family, std::move(elastic), boundary, section.number("density"),
       section.number("damping"), section.number("integrator.safety"),
-      read_initial_stress<2>(section), cracks.seeds, cracks.fracture_energy);
+      read_initial_stress<2>(section, *body), cracks.seeds, cracks.fracture_energy);
 }
 
 std::unique_ptr<PhysicsModule> refuse_cracks_in_3d(const Section& section) {
@@ -119,6 +119,7 @@ std::unique_ptr<CriticalStretch<D>> make_breaking(const Section& section, const 
     section.fail("confining_stress", "beside bonds that break in a dynamic solid",
                  "loads on the faces, or type: quasi_static");
   }
+  read_initial_stress<D>(section, body);  // says what regions may not have
   std::vector<CrackFacet<D>> seeds = read_seeds(scene, body);
   const double limit =
       read_stretch_limit<D>(scene, body, *family, read_isotropic_elasticity<D>(section));

@@ -158,6 +158,49 @@ TEST(Inlets, KeepToTheirSchedulesSideBySide) {
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
 }
 
+/// What a crack of half length a in a layer of half its thickness h asks for over the layer's
+/// stress, where the rest is under `more` (Simonson, Abou-Sayed & Clifton 1978) [Pa].
+double pressure_between_barriers(double a) {
+  constexpr double layer = 0.05, more = 0.15e6;
+  const double toughness = std::sqrt(700e6 / (1.0 - 0.25 * 0.25) * 5.0);
+  const double alone = toughness / std::sqrt(M_PI * a);
+  return a <= layer ? alone : alone + more * (1.0 - 2.0 / M_PI * std::asin(layer / a));
+}
+
+/// Steps in the layer in the mean; in the barrier, where a step takes more pressure than the one
+/// before, also when it ends. Rows in which the crack grows show the pressure of before.
+TEST(Barriers, AskForMorePressureAsTheCrackGoesOn) {
+  const SceneRun run = run_config("hf_barriers");
+  ASSERT_EQ(run.exit_code, 0);
+  const std::vector<double> pressure = run.column("inlet_well_pressure [Pa]");
+  const std::vector<double> length = run.column("crack_length [m]");
+  int in_layer = 0, in_barrier = 0;
+  double sum = 0.0;
+  int rows = 0;
+  for (std::size_t k = 1; k < length.size(); ++k) {
+    const double a = length[k - 1];
+    if (length[k] < a + 1e-6) {
+      sum += pressure[k] - 3e6;
+      ++rows;
+      continue;
+    }
+    const double exact = pressure_between_barriers(a), last = pressure[k] - 3e6;
+    if (a > 0.029 && a < 0.051) {
+      EXPECT_NEAR(sum / rows, exact, 0.03 * exact) << a;
+      ++in_layer;
+    } else if (a > 0.054) {
+      EXPECT_NEAR(sum / rows, exact, 0.06 * exact) << a;
+      EXPECT_NEAR(last, exact, 0.03 * exact) << a;
+      ++in_barrier;
+    }
+    sum = rows = 0;
+  }
+  EXPECT_GE(in_layer, 8);
+  EXPECT_GE(in_barrier, 10);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+}
+
 /// Once the well is shut its pressure falls, in the end the crack is closed.
 TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
   const SceneRun run = run_config("shut_in");

@@ -92,7 +92,7 @@ TEST(CrackedBody, SlidesWhereItIsClosed) {
 TEST(CrackedBody, BearsItsInitialStressWhereItIsClosed) {
   const double angle = 0.3;
   CrackedPlate plate(40, straight_crack({20.0, 20.0}, angle, 10), 0.25, nullptr,
-                     Vector<2>{-2e-3, -2e-3});
+                     InitialStress<2>{{-2e-3, -2e-3}});
   plate.solve(crack_in(plate, angle, 5));
   const auto faces = plate.cracked->faces(Eigen::VectorXd::Zero(10));
   EXPECT_EQ(faces.opening.maxCoeff(), 0.0);

@@ -35,7 +35,7 @@ struct CrackedPlate {
 
   CrackedPlate(int count, std::vector<CrackFacet<2>> seeds, double poisson = 0.25,
                std::shared_ptr<const Body<2>> shape = nullptr,
-               std::optional<Vector<2>> initial_stress = {})
+               std::optional<InitialStress<2>> initial_stress = {})
       : n(count),
         poisson_ratio(poisson),
         body(shape ? shape : box_body<2>({n, n}, 1.0)),

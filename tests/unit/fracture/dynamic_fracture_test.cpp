@@ -15,7 +15,7 @@ namespace {
 struct Cracking : Moving<2> {
   std::vector<CrackFacet<2>> seeds;
   double fracture_energy = std::numeric_limits<double>::infinity();
-  std::optional<Vector<2>> initial_stress{};
+  std::optional<InitialStress<2>> initial_stress{};
 
   Cracking(const std::array<int, 2>& counts, std::vector<CrackFacet<2>> crack)
       : Moving<2>(counts, 1.0), seeds(std::move(crack)) {}
@@ -24,7 +24,7 @@ struct Cracking : Moving<2> {
     const Breakable<2> parts(*body, boundary, law);
     module = std::make_unique<DynamicFracture>(body, parts.family, parts.elastic, boundary, density,
                                                damping, safety, initial_stress, seeds,
-                                               FractureEnergy<2>{fracture_energy});
+                                               FractureEnergy<2>{{fracture_energy}});
     module->initialize(0.0);
   }
   double step() const { return module->stable_time_step(); }
@@ -91,7 +91,7 @@ TEST(DynamicFracture, IsStableAroundAnIncompressibleFluid) {
 TEST(DynamicFracture, RestsClosedUnderItsInitialStressUntilFluidExceedsIt) {
   for (const double angle : {0.0, 0.3}) {
     Cracking solid({24, 20}, straight_crack({12.0, 10.0}, angle, 8));
-    solid.initial_stress = Vector<2>{-0.2, -0.2};
+    solid.initial_stress = InitialStress<2>{{-0.2, -0.2}};
     solid.start();
     for (int n = 0; n < 50; ++n) solid.press(Eigen::VectorXd::Constant(8, 0.004 * n));
     EXPECT_LE(largest(solid.field("displacement")), 1e-13) << angle;
