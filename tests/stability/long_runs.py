@@ -89,6 +89,7 @@ def measure_injected(run, fine, most_passes=100):
     means = [float(one.frames[-1]["pore_pressure"].mean()) for one in (run, fine)]
     return ([Figure("undershoot over the largest pressure", float(max(0.0, -last.min()) / last.max()), 0.02),
              Figure("mass error", run.mass_error, 1e-12),
+             Figure("open energy", run.summary["ledger"]["energy_error"], 0.02),
              Figure("passes in a window", float(run.summary["counts"]["most_passes"]), most_passes)],
             [Figure("mean pressure against half the spacing", abs(means[0] / means[1] - 1.0), 0.05)])
 

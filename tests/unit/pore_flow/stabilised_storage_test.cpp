@@ -1,5 +1,7 @@
 #include "modules/pore_flow/stabilised_storage.hpp"
 
+#include <cmath>
+
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
@@ -153,45 +155,91 @@ TEST(StabilisedStorage, KnowsNothingAcrossBrokenBonds) {
   }
 }
 
-TEST(StabilisedStorage, TakesPartInTheSystemsDerivative) {
-  const auto body = test::box_body<2>({11, 9}, 0.5, Cloud::jittered);
-  PoreBoundary<2> boundary(*body);
-  boundary.pressure(0, 0.4);
-  boundary.source(3, 0.7);
-  const auto flow = [&] { return test::flow_operator<2>(*body, boundary, 0.7); };
-  const auto n = static_cast<std::size_t>(body->points().size());
-  for (const FlowScheme scheme : {FlowScheme::conservative, FlowScheme::bond}) {
-    PoreMaterials materials{{{alpha, 0.2, 0.0, storage}},
-                            std::vector<std::uint8_t>(n, std::uint8_t{0})};
-    DarcySystem<2> system(make_flow(scheme, flow()),
-                          std::make_unique<StabilisedStorage<2>>(std::move(materials),
-                                                                 body->family(0), strength, 0.5),
-                          PoreFluid{.bulk_modulus = 1.0, .viscosity = 1.0, .density = 1.5},
-                          boundary.face_pressures(flow().mirror()),
-                          boundary.sources(flow().gradient_matrix()));
-    const std::vector<double> zero(n, 0.0), slope(n, 0.3);
+/// A body whose left face holds a pressure, and the equations of flow in it.
+struct Flow {
+  std::shared_ptr<const Body<2>> body = test::box_body<2>({11, 9}, 0.5, Cloud::jittered);
+  std::vector<double> zero, slope;
+  DarcySystem<2> system;
+
+  explicit Flow(FlowScheme scheme)
+      : zero(body->points().volume.size(), 0.0), slope(zero.size(), 0.3), system(make(scheme)) {
     system.set_dilatation({zero, zero, slope, 1.0});
+  }
+
+  DarcySystem<2> make(FlowScheme scheme) const {
+    PoreBoundary<2> boundary(*body);
+    boundary.pressure(0, 0.4);
+    boundary.source(3, 0.7);
+    auto flow = test::flow_operator<2>(*body, boundary, 0.7);
+    const ScheduledVector pressures = boundary.face_pressures(flow.mirror());
+    const ScheduledVector sources = boundary.sources(flow.gradient_matrix());
+    PoreMaterials materials{{{alpha, 0.2, 0.0, storage}},
+                            std::vector<std::uint8_t>(zero.size(), std::uint8_t{0})};
+    return {make_flow(scheme, std::move(flow)),
+            std::make_unique<StabilisedStorage<2>>(std::move(materials), body->family(0), strength,
+                                                   body->spacing()),
+            PoreFluid{.bulk_modulus = 1.0, .viscosity = 1.0, .density = 1.5}, pressures, sources};
+  }
+};
+
+constexpr std::array symmetric_schemes = {FlowScheme::conservative, FlowScheme::bond};
+
+TEST(StabilisedStorage, TakesPartInTheSystemsDerivative) {
+  for (const FlowScheme scheme : symmetric_schemes) {
+    Flow flow(scheme);
+    DarcySystem<2>& system = flow.system;
     const auto y = test::random_values(system.size(), 1), v = test::random_values(system.size(), 2);
-    std::vector<double> moved(y), here(system.size()), there(system.size()), product(system.size());
+    std::vector<double> moved(y), here(y.size()), there(y.size()), product(y.size());
     for (std::size_t k = 0; k < y.size(); ++k) moved[k] += v[k];
     system.rhs(0.5, y, here);
     system.rhs(0.5, moved, there);
     system.jacobian_times(0.5, y, v, product);
-    const std::size_t followed = system.size() - 2;  // energies are left out
     const double top = test::largest(product);
-    for (std::size_t k = 0; k < followed; ++k) {
+    for (std::size_t k = 0; k < system.size() - 2; ++k) {  // energies are left out
       EXPECT_NEAR(there[k] - here[k], product[k], 1e-12 * top) << k;
     }
+  }
+}
+
+TEST(StabilisedStorage, TakesPartInNewtonsMatrix) {
+  for (const FlowScheme scheme : symmetric_schemes) {
+    Flow flow(scheme);
+    DarcySystem<2>& system = flow.system;
+    const auto y = test::random_values(system.size(), 1), v = test::random_values(system.size(), 2);
+    std::vector<double> solution(y.size()), product(y.size());
     DarcyNewtonMatrix<2> newton(system, DarcyNewtonMatrix<2>::Method::direct);
-    const double gamma = 0.02;
-    std::vector<double> solution(system.size());
-    newton.set_up(0.5, y, gamma);
-    newton.solve(v, solution);
-    system.jacobian_times(0.5, y, solution, product);
-    for (std::size_t k = 0; k < followed; ++k) {
-      EXPECT_NEAR(solution[k] - gamma * product[k], v[k], 1e-12) << k;
+    for (const double gamma : {0.02, 0.5}) {
+      newton.set_up(0.5, y, gamma);
+      newton.solve(v, solution);
+      system.jacobian_times(0.5, y, solution, product);
+      for (std::size_t k = 0; k < system.size() - 2; ++k) {
+        EXPECT_NEAR(solution[k] - gamma * product[k], v[k], 1e-12) << k;
+      }
     }
   }
+}
+
+/// Bonds that break in the body break for what is stored too.
+TEST(StabilisedStorage, FollowsTheBodysBonds) {
+  Flow flow(FlowScheme::conservative);
+  const std::vector<double>& x = flow.body->points().position[0];
+  std::vector<double> y(flow.system.size(), 0.0), p(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) y[i] = x[i] < 2.0 ? std::sin(9.0 * x[i]) : 0.0;
+  const auto largest_beyond = [&] {
+    flow.system.pressure(0.0, y, p);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (x[i] > 2.0) largest = std::max(largest, std::abs(p[i]));
+    }
+    return largest;
+  };
+  EXPECT_GT(largest_beyond(), 1e-3);
+  std::vector<std::pair<Index, Index>> pairs;
+  for (const BrokenBond& bond : cut_at(*flow.body, 2.0)) pairs.emplace_back(bond.i, bond.j);
+  BondState<2> bonds;
+  bonds.break_bonds(pairs);
+  flow.system.follow(bonds);
+  EXPECT_EQ(largest_beyond(), 0.0);
 }
 
 }  // namespace
