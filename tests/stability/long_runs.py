@@ -127,7 +127,29 @@ def injected_case(name, flow, settings, words, known=""):
                 ours=bool(known), fine={**settings, **STABILISED, "body.size": "[15 m, 15 m]", "body.spacing": 0.5})
 
 
+def measure_swing_at_a_step(run, implicit):
+    far = numpy.abs(run.frames[-1]["pore_pressure"] - implicit.frames[-1]["pore_pressure"]).max()
+    return ([Figure("mass error", run.mass_error, 1e-12),
+             Figure("open energy", run.summary["ledger"]["energy_error"], 0.02)],
+            [Figure("pressure against cvode", float(far / implicit.frames[-1]["pore_pressure"].max()), 2e-3)])
+
+
+def one_step_cases():
+    """The same source for long, explicit, in windows that hold just one step at its limit, or two."""
+    rock = Rock()
+    for window, words in ((0.45, {}), (0.8, {}), (0.7, STABILISED), (1.2, STABILISED)):
+        settings = {**words, "time.end": 30.0 / rock.diffusivity, "coupling.window.first": 1e-3 / rock.diffusivity,
+                    "coupling.window.largest": window / rock.diffusivity}
+        known = "explicit steps at their limit, one a window and in one pass, swing at a drained face"
+        yield Case(GROUP, f"source in nearly undrained rock, windows of {window:g} Δx²/c",
+                   "quasi_static, darcy explicit" + (", stabilised" if words else ""),
+                   os.path.join(HERE, "injected.yaml"), {**settings, "pore_flow.integrator.type": "explicit"},
+                   measure_swing_at_a_step, known=known if window in (0.45, 0.7) else "",
+                   ours=window in (0.45, 0.7), fine=settings)
+
+
 def cases():
     yield from million_cases()
     yield from undrained_cases()
     yield from injected_cases()
+    yield from one_step_cases()
