@@ -16,6 +16,10 @@ SCHEMES = {
         "pore_flow.integrator.type": "explicit", "pore_flow.fluid.bulk_modulus": "1 GPa"},
     "fixed stress, iterated with aitken": {
         "coupling.iterations.max": "20", "coupling.iterations.tolerance": "1e-3", "coupling.acceleration": "aitken"},
+    "stabilised": {"pore_flow.undrained_stabilisation": "0.25"},
+    "stabilised, explicit, iterated": {
+        "pore_flow.undrained_stabilisation": "0.25", "pore_flow.integrator.type": "explicit",
+        "coupling.iterations.max": "20"},
     "windows from the end": {"coupling.window": "{}"},
     "rows apart": {"output.history_interval": "0.7 s"},
 }
