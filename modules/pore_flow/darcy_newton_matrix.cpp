@@ -20,6 +20,7 @@ void DarcyNewtonMatrix<D>::assemble() {
   const Eigen::SparseMatrix<double> all =
       method_ == Method::direct ? system_.flow().assemble() : system_.flow().preconditioner();
   flow_ = all.topLeftCorner(system_.points(), system_.points());
+  system_.add_storage_pattern_to(flow_);
   face_flow_ = all.bottomLeftCorner(all.rows() - system_.points(), system_.points());
   matrix_ = flow_;
   face_outflow_.resize(face_flow_.rows());
@@ -32,10 +33,7 @@ void DarcyNewtonMatrix<D>::set_up(double t, std::span<const double> y, double ga
   gamma_ = gamma;
   matrix_.coeffs() = gamma * flow_.coeffs();
   for (const HeldPoint& held : system_.held_points()) uncouple(held.point);
-  const std::span<const double> storage = system_.effective_storage(t, y);
-  for (Index i = 0; i < system_.points(); ++i) {
-    matrix_.coeffRef(i, i) += system_.volume()[i] * storage[i];
-  }
+  system_.add_storage_to(matrix_, t, y);
   factor_.factor(matrix_);
 }
 

@@ -84,6 +84,7 @@ bool DarcySystem<D>::follow(const BondState<D>& bonds) {
   cut_points_.erase(twice.begin(), twice.end());
   flow_->take_bonds(cut_family_, cut_points_);
   if (smoothing_) smoothing_->take_bonds(cut_family_);
+  storage_->take_bonds(bonds.broken());
   ++version_;
   return true;
 }
@@ -242,8 +243,7 @@ void DarcySystem<D>::jacobian_times(double t, std::span<const double> y, std::sp
     if (!y.empty()) pressure(t, y, potential_);
     scale_mobility(std::span(potential_).first(y.empty() ? 0 : points_));
   }
-  const std::span<const double> storage = effective_storage(t, y);
-  for (Index i = 0; i < points_; ++i) potential_[i] = v[i] / storage[i];
+  storage_->pressure_change(t, y.empty() ? y : fluid_content(t, y), v, potential_);
   std::fill(potential_.begin() + points_, potential_.end(), 0.0);
   for (const HeldPoint& held : held_) potential_[held.point] = 0.0;
   flow_->apply(potential_, outflow_);
@@ -347,7 +347,7 @@ double DarcySystem<D>::stored_energy(std::span<const double> zeta,
   for (Index i = 0; i < points_; ++i) {
     sum += volume()[i] * (storage_->energy(i, zeta[i], p[i]) + gravity(i) * zeta[i]);
   }
-  return sum;
+  return sum + storage_->energy_between_points(p);
 }
 
 template class DarcySystem<2>;

@@ -123,6 +123,13 @@ class DarcySystem final : public OdeSystem {
   std::span<const double> effective_storage(double t, std::span<const double> y);
   double biot_coefficient(Index i) const { return storage_->materials().at(i).biot_coefficient; }
   PoreStorage& storage() const { return *storage_; }
+  /// Makes room for, and adds, volume times d(zeta)/d(psi), as a matrix on points; y as above.
+  void add_storage_pattern_to(Eigen::SparseMatrix<double>& matrix) const {
+    storage_->add_pattern_to(matrix);
+  }
+  void add_storage_to(Eigen::SparseMatrix<double>& matrix, double t, std::span<const double> y) {
+    storage_->add_to(matrix, t, y.empty() ? y : fluid_content(t, y), volume());
+  }
   const FlowOperator<D>& flow() const { return *flow_; }
   const PoreFluid& fluid() const { return fluid_; }
   /// -rho_0 g.x of point i [Pa].

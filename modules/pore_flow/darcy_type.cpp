@@ -18,6 +18,7 @@
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "modules/pore_flow/pore_gravity.hpp"
 #include "modules/pore_flow/smoothed_euler.hpp"
+#include "modules/pore_flow/stabilised_storage.hpp"
 #include "modules/pore_flow/tait_storage.hpp"
 
 namespace perifrac {
@@ -136,6 +137,51 @@ Discretisation<D> discretise(const Section& section, const Body<D>& body,
   return discretise(scheme, body, boundary, ScaledDarcyLaw<D>{std::move(law), std::move(ones)});
 }
 
+/// What stabilised storage does not cover. It takes its size from the slope of the dilatation,
+/// which a quasi-static solid sends.
+template <int D>
+void check_stabilised(const Section& section, const Body<D>& body) {
+  const char* const key = "undrained_stabilisation";
+  const Section scene = section.scene();
+  if (!scene.has("solid") || scene.word("solid.type") != "quasi_static") {
+    section.fail(key, "no solid of type quasi_static, whose answer it makes up for",
+                 "0, or such a solid");
+  }
+  if (const std::string split = scene.word("coupling.split");
+      split == "drained" || split == "undrained") {
+    section.fail(key, fmt::format("coupling.split '{}' sends no slope of the dilatation", split),
+                 "0, or coupling.split: automatic");
+  }
+  if (section.word("fluid.equation_of_state") == "tait") {
+    section.fail(key, "storage after Tait is different at every pressure",
+                 "0, or fluid.equation_of_state: linear");
+  }
+  if (section.word("operator") == "nested") {
+    section.fail(key, "operator 'nested' is for comparison as published",
+                 "0, or operator conservative or bond");
+  }
+  for (std::size_t face = 0; face < body.faces().size(); ++face) {
+    if (body.layer(face).empty()) continue;
+    section.fail(key, fmt::format("a bonded layer behind face '{}'", body.faces()[face].name),
+                 "0, or a body without layers");
+  }
+}
+
+/// zeta by pressure and dilatation. What is stabilised has no ghosts: a mirror would make fluid of
+/// linear pressures.
+template <int D>
+std::unique_ptr<PoreStorage> make_storage(const Section& section, const Body<D>& body,
+                                          const PoreFluid& fluid, PoreMaterials materials) {
+  const double strength = section.number("undrained_stabilisation");
+  if (strength > 0.0) {
+    check_stabilised(section, body);
+    return std::make_unique<StabilisedStorage<D>>(std::move(materials), body.family(0), strength,
+                                                  body.spacing());
+  }
+  if (fluid.is_linear()) return std::make_unique<LinearStorage>(std::move(materials));
+  return std::make_unique<TaitStorage>(std::move(materials), fluid);
+}
+
 template <int D>
 InitialPressure<D> read_initial_pressure(const Section& section) {
   InitialPressure<D> initial{.value = section.number("initial_pressure"),
@@ -166,12 +212,7 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
     section.fail("boundary", "bonds that break beside a mirrored sphere",
                  "a sphere that it does not name");
   }
-  std::unique_ptr<PoreStorage> storage;
-  if (fluid.is_linear()) {
-    storage = std::make_unique<LinearStorage>(std::move(materials));
-  } else {
-    storage = std::make_unique<TaitStorage>(std::move(materials), fluid);
-  }
+  auto storage = make_storage(section, *body, fluid, std::move(materials));
   const auto mirror = boundary.mirror_condition(space.flow->family());
   Eigen::VectorXd gravity;
   if (const Vector<D> g = read_gravity<D>(section); g != Vector<D>{}) {
@@ -217,6 +258,13 @@ KeyTable darcy_keys() {
        .range = "(0, 0.1]",
        .fallback = "1e-5",
        .meaning = "cvode: largest error of a step over the largest pressure."},
+      {.path = "undrained_stabilisation",
+       .range = "[0, 1]",
+       .fallback = "0",
+       .meaning =
+           "Storage of what varies from point to point, for fluid that enters nearly "
+           "undrained rock in times short against dx^2/c: 0.25 keeps pressure from "
+           "undershooting. 0: none. Beside a quasi-static solid, a linear fluid, no layers."},
       {.path = "initial_pressure",
        .unit = "Pa",
        .fallback = "0 Pa",

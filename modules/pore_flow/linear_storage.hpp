@@ -7,7 +7,7 @@
 namespace perifrac {
 
 /// Storage of a linear fluid: zeta = alpha theta + S p.
-class LinearStorage final : public PoreStorage {
+class LinearStorage : public PoreStorage {
  public:
   explicit LinearStorage(PoreMaterials materials);
 
@@ -18,6 +18,9 @@ class LinearStorage final : public PoreStorage {
   double content(double t, Index i, double p) const override;
   double undrained_slope(Index i, double zeta, double p) const override;
   double energy(Index i, double zeta, double p) const override;
+
+ protected:
+  const DilatationInput& dilatation() const { return dilatation_; }
 
  private:
   DilatationInput dilatation_;

@@ -3,6 +3,9 @@
 #include <span>
 #include <utility>
 
+#include <Eigen/SparseCore>
+
+#include "core/geometry/bond_state.hpp"
 #include "modules/pore_flow/pore_material.hpp"
 
 namespace perifrac {
@@ -33,12 +36,26 @@ class PoreStorage {
   /// Takes the input of the next window; spans must stay valid. True where its slope is another.
   virtual bool set_dilatation(const DilatationInput& input) = 0;
 
+  /// These bonds are broken, and no others; for storage that reaches from point to point.
+  virtual void take_bonds(std::span<const BrokenBond>) {}
+
   /// Pressure p at fluid content zeta [Pa].
   virtual void pressure(double t, std::span<const double> zeta, std::span<double> p) const = 0;
 
   /// d(zeta)/d(potential) [1/Pa] with the dilatation's answer; see PoreFluid::potential(). Of the
   /// rock at rest where zeta is empty. Valid until the next call.
   virtual std::span<const double> effective_storage(double t, std::span<const double> zeta) = 0;
+
+  /// By how much the potential changes with zeta, near zeta, which may be empty as above [Pa].
+  virtual void pressure_change(double t, std::span<const double> zeta,
+                               std::span<const double> change, std::span<double> dp);
+
+  /// Makes room in a matrix on points for all that add_to() adds.
+  virtual void add_pattern_to(Eigen::SparseMatrix<double>&) const {}
+
+  /// Adds volume times d(zeta)/d(potential), as a matrix on points.
+  virtual void add_to(Eigen::SparseMatrix<double>& matrix, double t, std::span<const double> zeta,
+                      std::span<const double> volume);
 
   /// zeta of point i at pressure p [Pa] and no dilatation.
   virtual double content(Index i, double p) const = 0;
@@ -52,6 +69,9 @@ class PoreStorage {
   /// Energy of point i per volume of rock [J/m^3]: its rates are potential d(zeta) - pore stress
   /// d(dilatation).
   virtual double energy(Index i, double zeta, double p) const = 0;
+
+  /// Energy beyond that of the points [J, per metre in 2D].
+  virtual double energy_between_points(std::span<const double>) const { return 0.0; }
 
  private:
   PoreMaterials materials_;

@@ -16,6 +16,10 @@ SCHEMES = {
         "pore_flow.integrator.type": "explicit", "pore_flow.fluid.bulk_modulus": "1 GPa"},
     "fixed stress, iterated with aitken": {
         "coupling.iterations.max": "20", "coupling.iterations.tolerance": "1e-3", "coupling.acceleration": "aitken"},
+    "stabilised": {"pore_flow.undrained_stabilisation": "0.25"},
+    "stabilised, explicit, iterated": {
+        "pore_flow.undrained_stabilisation": "0.25", "pore_flow.integrator.type": "explicit",
+        "coupling.iterations.max": "20"},
     "windows from the end": {"coupling.window": "{}"},
     "rows apart": {"output.history_interval": "0.7 s"},
 }
@@ -70,9 +74,11 @@ class Restart(RunTest):
         dry = {"body.spacing": "2.5 mm", "time.end": "20 ms"}
         pores = {"body.spacing": "5 mm", "time.end": "10 ms"}
         cvode = pores | {"pore_flow.integrator.type": "cvode", "coupling.window.largest": "1 ms"}
+        stabilised = pores | {"pore_flow.undrained_stabilisation": "0.25"}
         for name, scene, until, keys in (("dry", "hf_storage", "10 ms", dry),
                                          ("inertia", "hf_storage", "10 ms", dry | {"solid.type": "dynamic"}),
                                          ("explicit pores", "hf_storage_pores", "5 ms", pores),
+                                         ("stabilised pores", "hf_storage_pores", "5 ms", stabilised),
                                          ("cvode pores", "hf_storage_pores", "5 ms", cvode)):
             with self.subTest(name):
                 path, keys = CONFIGS / f"{scene}.yaml", keys | {"output.checkpoint_interval": "0 s"}

@@ -10,6 +10,7 @@ FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.t
                 "time.end": "0.04 s"}
 SCHEMES = {"explicit": {"pore_flow.integrator.type": "explicit"},
            "cvode, krylov": {"pore_flow.integrator.linear_solver": "krylov"},
+           "stabilised": {"pore_flow.undrained_stabilisation": "0.25"},
            "cvode, direct, iterated": {"coupling.iterations.max": "20", "coupling.iterations.tolerance": "1e-3",
                         "coupling.acceleration": "anderson"}}
 

@@ -83,34 +83,73 @@ def undrained_cases():
                            measure_undrained(rock, 0.05, 0.15))
 
 
-def measure_injected(run, fine):
+def measure_injected(run, fine, most_passes=100):
     """Pressure falls off from the source and nowhere below what it was."""
     last = run.frames[-1]["pore_pressure"]
     means = [float(one.frames[-1]["pore_pressure"].mean()) for one in (run, fine)]
     return ([Figure("undershoot over the largest pressure", float(max(0.0, -last.min()) / last.max()), 0.02),
-             Figure("mass error", run.mass_error, 1e-12)],
+             Figure("mass error", run.mass_error, 1e-12),
+             Figure("open energy", run.summary["ledger"]["energy_error"], 0.02),
+             Figure("passes in a window", float(run.summary["counts"]["most_passes"]), most_passes)],
             [Figure("mean pressure against half the spacing", abs(means[0] / means[1] - 1.0), 0.05)])
+
+
+def measure_stabilised(run, fine):
+    """The modules agree at once, however stiff the fluid."""
+    return measure_injected(run, fine, most_passes=8)
+
+
+STABILISED = {"pore_flow.undrained_stabilisation": 0.25}
 
 
 def injected_cases():
     """Fluid forced into one point: the sharpest field there is, before diffusion smooths it."""
+    flows = {"cvode": {}, "explicit": {"pore_flow.integrator.type": "explicit"}}
+    more = {"cvode krylov": {"pore_flow.integrator.linear_solver": "krylov"},
+            "bond flow": {"pore_flow.operator": "bond"}}
     for name, rock in (("fluid of 2.2 GPa", Rock()), ("fluid of 100 GPa", Rock(fluid=1e11)),
                        ("fluid of 1e6 GPa", Rock(fluid=1e15))):
         for part in (0.01, 0.1, 1.0, 10.0):
             settings = {"pore_flow.fluid.bulk_modulus": rock.settings["pore_flow.fluid.bulk_modulus"],
                         "time.end": part / rock.diffusivity}
-            known = "no stabilisation of nearly undrained pressure" if part < 1.0 else ""
-            if rock.strength > 1e3:
-                known = "iterations do not agree on a sharp field in undrained rock"
-            explicit = {"pore_flow.integrator.type": "explicit"}
-            for modules, words in {"cvode": {}, "explicit": explicit}.items():
-                yield Case(GROUP, f"source in nearly undrained rock, {name}, c t / Δx² = {part:g}",
-                           f"quasi_static, darcy {modules}", os.path.join(HERE, "injected.yaml"),
-                           {**settings, **words}, measure_injected, known=known, ours=bool(known),
-                           fine={**settings, "body.size": "[15 m, 15 m]", "body.spacing": 0.5})
+            known = "nearly undrained pressure without stabilisation" if part < 1.0 else ""
+            for modules, words in {**flows, **more}.items():
+                yield injected_case(f"{name}, c t / Δx² = {part:g}", f"darcy {modules}, stabilised",
+                                    {**settings, **STABILISED}, words)
+            for modules, words in flows.items():
+                yield injected_case(f"{name}, c t / Δx² = {part:g}", f"darcy {modules}", settings, words, known)
+
+
+def injected_case(name, flow, settings, words, known=""):
+    measure = measure_stabilised if "stabilised" in flow else measure_injected
+    return Case(GROUP, f"source in nearly undrained rock, {name}", f"quasi_static, {flow}",
+                os.path.join(HERE, "injected.yaml"), {**settings, **words}, measure, known=known,
+                ours=bool(known), fine={**settings, **STABILISED, "body.size": "[15 m, 15 m]", "body.spacing": 0.5})
+
+
+def measure_swing_at_a_step(run, implicit):
+    far = numpy.abs(run.frames[-1]["pore_pressure"] - implicit.frames[-1]["pore_pressure"]).max()
+    return ([Figure("mass error", run.mass_error, 1e-12),
+             Figure("open energy", run.summary["ledger"]["energy_error"], 0.02)],
+            [Figure("pressure against cvode", float(far / implicit.frames[-1]["pore_pressure"].max()), 2e-3)])
+
+
+def one_step_cases():
+    """The same source for long, explicit, in windows that hold just one step at its limit, or two."""
+    rock = Rock()
+    for window, words in ((0.45, {}), (0.8, {}), (0.7, STABILISED), (1.2, STABILISED)):
+        settings = {**words, "time.end": 30.0 / rock.diffusivity, "coupling.window.first": 1e-3 / rock.diffusivity,
+                    "coupling.window.largest": window / rock.diffusivity}
+        known = "explicit steps at their limit, one a window and in one pass, swing at a drained face"
+        yield Case(GROUP, f"source in nearly undrained rock, windows of {window:g} Δx²/c",
+                   "quasi_static, darcy explicit" + (", stabilised" if words else ""),
+                   os.path.join(HERE, "injected.yaml"), {**settings, "pore_flow.integrator.type": "explicit"},
+                   measure_swing_at_a_step, known=known if window in (0.45, 0.7) else "",
+                   ours=window in (0.45, 0.7), fine=settings)
 
 
 def cases():
     yield from million_cases()
     yield from undrained_cases()
     yield from injected_cases()
+    yield from one_step_cases()

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "core/geometry/family.hpp"
+#include "core/solvers/sparse_cholesky.hpp"
+#include "modules/pore_flow/linear_storage.hpp"
+
+namespace perifrac {
+
+/// Storage of a linear fluid in rock that answers pressures which vary from point to point too
+/// softly: V zeta = V alpha theta + (V S + B) p. B is `strength` dx^2 times the part of the
+/// linear-exact operator that linear fields do not have, weighted with alpha^2 times the slope of
+/// the dilatation: symmetric, positive semidefinite, nothing on linear pressures, columns that sum
+/// to nothing, so that what the body holds is what the points' own storage says (Brezzi and
+/// Pitkaranta 1984 for the idea). Its bonds are those of the body with all faces free; bonds that
+/// break are taken out.
+template <int D>
+class StabilisedStorage final : public LinearStorage {
+ public:
+  /// `family` without ghosts; `spacing` dx [m].
+  StabilisedStorage(PoreMaterials materials, std::shared_ptr<const Family<D>> family,
+                    double strength, double spacing);
+
+  bool set_dilatation(const DilatationInput& input) override;
+  void take_bonds(std::span<const BrokenBond> broken) override;
+  void pressure(double t, std::span<const double> zeta, std::span<double> p) const override;
+  void pressure_change(double t, std::span<const double> zeta, std::span<const double> change,
+                       std::span<double> dp) override;
+  void add_pattern_to(Eigen::SparseMatrix<double>& matrix) const override;
+  void add_to(Eigen::SparseMatrix<double>& matrix, double t, std::span<const double> zeta,
+              std::span<const double> volume) override;
+  double energy_between_points(std::span<const double> p) const override;
+
+ private:
+  void assemble();
+  void factor();
+
+  std::shared_ptr<const Family<D>> intact_;
+  double scale_;                         ///< strength dx^2 [m^2]
+  std::vector<double> answer_;           ///< alpha^2 slope by point [1/Pa]
+  std::vector<BrokenBond> broken_;       ///< of the bonds in between_
+  Eigen::SparseMatrix<double> between_;  ///< B
+  SparseCholesky factor_;                ///< of V (S + alpha^2 slope) + B
+  mutable Eigen::VectorXd right_side_;   ///< workspace
+};
+
+}  // namespace perifrac
