@@ -166,7 +166,8 @@ double CouplingManager::advance(double stop) {
 void CouplingManager::choose_next_window() {
   constexpr double most = 0.02, room = 1.5;  // of the pore stress
   const double held_back = solver_->held_back();
-  if (options_.window == WindowType::schedule && held_back > most) {
+  const bool can = options_.window == WindowType::schedule && options_.retries > 0;
+  if (can && held_back > most) {
     schedule_.shorten(std::max(0.5, most / held_back), std::pow(0.5, options_.retries));
     if (!has_shortened_) {
       log_info(
