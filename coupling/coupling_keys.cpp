@@ -44,14 +44,18 @@ const KeyTable& coupling_keys() {
       {.path = "window.largest",
        .unit = "s",
        .range = "(0, inf)",
-       .meaning = "Longest window; left out: a fiftieth of the simulated time"},
+       .meaning =
+           "Longest window; left out: a fiftieth of the simulated time. An undrained split in "
+           "one pass keeps windows shorter where more than 0.02 of the pore stress would "
+           "change unseen"},
       {.path = "window.retries",
        .type = KeyType::integer,
        .range = "[0, inf)",
        .fallback = "8",
        .meaning =
            "How often a window in which modules do not agree, or one of them fails, is taken "
-           "back and tried again, half as long, before the run stops; 0: never"},
+           "back and tried again, half as long, before the run stops; 0: never. Also how often an "
+           "undrained split may halve its windows"},
       {.path = "split",
        .type = KeyType::word,
        .fallback = "automatic",

@@ -25,12 +25,16 @@ double slope_times(const std::vector<double>& slope, const std::vector<double>& 
   return sum;
 }
 
+double over(double part, double whole) {
+  if (part == 0.0) return 0.0;
+  return whole > 0.0 ? part / whole : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
-double Link::Mismatch::relative() const {
-  if (absolute == 0.0) return 0.0;
-  return scale > 0.0 ? absolute / scale : std::numeric_limits<double>::infinity();
-}
+double Link::Mismatch::relative() const { return over(absolute, scale); }
+
+double Link::Mismatch::of_output() const { return over(absolute, output); }
 
 Link::Link(LinkEnd source, LinkEnd target, bool lagged)
     : name_(source.module->ports()[source.port].name),
@@ -201,7 +205,7 @@ void Link::compare() {
   const double rounding =
       std::sqrt(static_cast<double>(value_.size())) * std::numeric_limits<double>::epsilon();
   if (is_pure_number_ && mismatch_.absolute <= rounding) mismatch_.absolute = 0.0;
-  mismatch_.scale = norm(reached_.output);
+  mismatch_.scale = mismatch_.output = norm(reached_.output);
   if (!uses_slope()) return;
   for (std::size_t i = 0; i < value_.size(); ++i) {
     difference[i] = slope_times(slope_, reached_.counter, i);

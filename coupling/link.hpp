@@ -45,7 +45,9 @@ class Link {
   struct Mismatch {
     double absolute = 0.0;
     double scale = 0.0;
+    double output = 0.0;  ///< ||output||
     double relative() const;
+    double of_output() const;  ///< absolute over it
   };
 
   Link(LinkEnd source, LinkEnd target, bool lagged);

@@ -1,6 +1,7 @@
 #include "coupling/manager.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -84,7 +85,21 @@ std::optional<CoupledPair> CouplingManager::too_strong_for_one_pass() const {
   return {};
 }
 
+/// What is held answers the vibrations of an explicit solid once a window; iterated, sub-steps of
+/// forward Euler answer them ahead of time, and feed them.
+std::vector<std::string> CouplingManager::iteration_warnings() const {
+  const auto feeds = std::ranges::find_if(links_, [](const Link& link) {
+    return link.holds() && std::isfinite(link.source().module->stable_time_step());
+  });
+  if (iterations_.max == 1 || feeds == links_.end()) return {};
+  return {fmt::format(
+      "iterating {} may let vibrations grow without bound, for {} takes explicit sub-steps; choose "
+      "coupling.iterations.max: 1, whose windows are kept short enough, or an implicit integrator",
+      feeds->path(), feeds->source().module_name)};
+}
+
 std::vector<std::string> CouplingManager::one_pass_warnings() const {
+  if (auto warnings = iteration_warnings(); !warnings.empty()) return warnings;
   const auto pair = too_strong_for_one_pass();
   if (iterations_.max > 1 || !pair) return {};
   const Link& first = links_[pair->first];
@@ -142,8 +157,29 @@ double CouplingManager::advance(double stop) {
   }
   time_ = reached;
   ++step_;
-  if (time_ == end) schedule_.grow(stable_time_step(), solver_->was_easy());
+  if (time_ == end) choose_next_window();
   return time_;
+}
+
+/// An undrained split in one pass holds the fluid content while the solid moves. What the content
+/// changes by in a window, as pore stress, is off at the window's end, and falls with its length.
+void CouplingManager::choose_next_window() {
+  constexpr double most = 0.02, room = 1.5;  // of the pore stress
+  const double held_back = solver_->held_back();
+  const bool can = options_.window == WindowType::schedule && options_.retries > 0;
+  if (can && held_back > most) {
+    schedule_.shorten(std::max(0.5, most / held_back), std::pow(0.5, options_.retries));
+    if (!has_shortened_) {
+      log_info(
+          fmt::format("windows from t = {:.6g} s on are shorter than coupling.window says: in one "
+                      "pass {:.2g} of "
+                      "the pore stress changed unseen",
+                      time_, held_back));
+    }
+    has_shortened_ = true;
+    return;
+  }
+  schedule_.grow(stable_time_step(), solver_->was_easy() && room * held_back <= most);
 }
 
 double CouplingManager::cut(double end, double stop, const NumericalError& error) {

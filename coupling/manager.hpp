@@ -76,9 +76,11 @@ class CouplingManager {
   void start_links();
   /// Half of the window that began at time() and was to reach `end` is left; returns its end.
   double cut(double end, double stop, const NumericalError& error);
+  void choose_next_window();
   /// How often windows are repeated where the scene leaves it open.
   Iterations own_iterations() const;
   std::vector<std::string> one_pass_warnings() const;
+  std::vector<std::string> iteration_warnings() const;
 
   CouplingOptions options_;
   std::vector<ModuleSlot> modules_;
@@ -90,6 +92,7 @@ class CouplingManager {
   double time_ = 0.0;
   std::int64_t step_ = 0;
   bool has_warned_ = false;
+  bool has_shortened_ = false;
 };
 
 }  // namespace perifrac

@@ -29,6 +29,10 @@ void WindowSchedule::grow(double stable, bool easy) {
 
 void WindowSchedule::cut(double length) { share_ = 0.5 * length / length_; }
 
+void WindowSchedule::shorten(double factor, double least) {
+  share_ = std::max(std::min(share_, least), factor * share_);
+}
+
 void WindowSchedule::start_over(double stable) {
   length_ = type_ == WindowType::one_step ? std::min(stable, largest_) : first_;
   share_ = 1.0;

@@ -21,6 +21,9 @@ class WindowSchedule {
   void grow(double stable, bool easy = true);
   /// A window of `length` [s] failed: the next is half as long.
   void cut(double length);
+  /// The next window is at most `factor` < 1 times the last, but no less than `least` of what it
+  /// would have been without cuts.
+  void shorten(double factor, double least);
   /// A sudden load: what follows is as fast as at the start.
   void start_over(double stable);
 

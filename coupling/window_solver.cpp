@@ -61,6 +61,7 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
     reached = conclude(tried, iterate(tried, iterations));
   }
   if (reached < window.end) ++work_.events;
+  find_held_back(iterations);
   for (Link& link : links_) link.accept();
   const std::int64_t passes = work_.passes - passes_before;
   const bool one_pass = iterations.max == 1 || (iterations.at_once > 0.0 && passes == 1);
@@ -69,6 +70,14 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   was_easy_ = iterations.max == 1 || 2 * passes <= iterations.max;
   ++work_.windows;
   return reached;
+}
+
+void WindowSolver::find_held_back(const Iterations& iterations) {
+  held_back_ = 0.0;
+  for (const Link& link : links_) {
+    if (iterations.max > 1 || !link.predicts() || !link.holds()) continue;
+    held_back_ = std::max(held_back_, link.mismatch().of_output());
+  }
 }
 
 bool WindowSolver::may_go_back(const Iterations& iterations) const {

@@ -55,6 +55,9 @@ class WindowSolver {
 
   /// The last window took no more than half of the passes it was allowed.
   bool was_easy() const { return was_easy_; }
+  /// What changed, over the last window, of the values that a split held, over the size of what
+  /// they stand for: the error that one pass leaves at the window's end. 0 with iterations.
+  double held_back() const { return held_back_; }
 
   /// A lagged link whose prediction was seen to grow apart from the answer, over windows of one
   /// pass; null until then.
@@ -64,6 +67,7 @@ class WindowSolver {
 
  private:
   bool may_go_back(const Iterations& iterations) const;
+  void find_held_back(const Iterations& iterations);
   /// Repeats passes until all lagged links agree; less than window.end after an event.
   double iterate(const TimeWindow& window, const Iterations& iterations);
   /// Asks all modules whether the window stands; less than window.end where one cuts it.
@@ -93,6 +97,7 @@ class WindowSolver {
   bool may_cut_;
   bool is_saved_ = false;  ///< what begin_ holds is this window's beginning
   bool was_easy_ = true;
+  double held_back_ = 0.0;
   Eigen::Index accelerated_size_ = 0;
   std::vector<double> weights_;          ///< one a link; of use for the lagged ones
   std::vector<StabilityWatch> watches_;  ///< likewise

@@ -164,6 +164,11 @@ class LinearExactOperator {
     const Tensor<R, D> stress = law_at(law_, i).stress(f);
     double density = 0.0;
     for (int k = 0; k < R * D; ++k) density += f[k] * stress[k];
+    return 0.5 * family_->volume[i] * density + rest_energy(i, f);
+  }
+
+  /// The part of it that a field has beyond its gradient f at the point.
+  double rest_energy(Index i, const Tensor<R, D>& f) const {
     const auto rest = sum_over_bonds<1>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
       std::array<double, 1> square{};
       for (int r = 0; r < R; ++r) {
@@ -173,7 +178,7 @@ class LinearExactOperator {
       }
       return square;
     });
-    return 0.5 * family_->volume[i] * (density + bond_stiffness_[i] * rest[0]);
+    return 0.5 * family_->volume[i] * bond_stiffness_[i] * rest[0];
   }
 
   double weighted_volume(Index i) const { return moments_.weighted_volume[i]; }
@@ -190,7 +195,7 @@ class LinearExactOperator {
         }
         result[row] = sum;
       });
-    } else if (!apply_on_lattice(u, result)) {
+    } else if (!apply_on_lattice(law_, u, result)) {
       apply(u, result, [](Index, const Tensor<R, D>&, Tensor<R, D>&) {});
     }
   }
@@ -210,6 +215,20 @@ class LinearExactOperator {
       for (int r = 0; r < R; ++r) result[static_cast<std::size_t>(r) * points + i] = -force[r];
     });
     add_face_reactions(result.subspan(point_unknowns()));
+  }
+
+  /// apply() where bonds lie on a lattice, with the stress of another law, which may be no linear
+  /// one; elsewhere it does nothing and is false.
+  template <class AnyLaw>
+  bool apply_on_lattice(const AnyLaw& law, std::span<const double> u, std::span<double> result) {
+    if constexpr (PacketLaw<Law, D>) {
+      if (!lattice_) return false;
+      mirror_.spread(u, field_);
+      lattice_->apply(law, mirror_, field_, state_, result);
+      add_face_reactions(result.subspan(point_unknowns()));
+      return true;
+    }
+    return false;
   }
 
   /// Takes the field that gradient_at() and energy() are of; apply() and gradient() do so too.
@@ -268,18 +287,6 @@ class LinearExactOperator {
       std::iota(all.begin(), all.end(), 0);
       lattice_->take(*family_, moments_, bond_stiffness_, all);
     }
-  }
-
-  /// False where bonds lie on no lattice.
-  bool apply_on_lattice(std::span<const double> u, std::span<double> result) {
-    if constexpr (PacketLaw<Law, D>) {
-      if (!lattice_) return false;
-      mirror_.spread(u, field_);
-      lattice_->apply(law_, mirror_, field_, state_, result);
-      add_face_reactions(result.subspan(point_unknowns()));
-      return true;
-    }
-    return false;
   }
 
   void find_bond_stiffness() {

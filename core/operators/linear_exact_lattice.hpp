@@ -52,8 +52,10 @@ class LinearExactLattice {
 
   /// Force -dE/du on the real points, R blocks, from the field on all nodes; writes `state` on
   /// ghosts, their sources and the face points.
-  void apply(const Law& law, const MirrorCondition<D, R>& mirror, const std::vector<double>& field,
-             std::vector<double>& state, std::span<double> result) {
+  template <class AnyLaw>
+  void apply(const AnyLaw& law, const MirrorCondition<D, R>& mirror,
+             const std::vector<double>& field, std::vector<double>& state,
+             std::span<double> result) {
     spread(field);
     bonds_.for_each_packet([&](Index c) { store_state(law, c); });
     fill_ghosts(mirror, state);
@@ -106,7 +108,8 @@ class LinearExactLattice {
     return result;
   }
 
-  void store_state(const Law& law, Index c) {
+  template <class AnyLaw>
+  void store_state(const AnyLaw& law, Index c) {
     Packets<R> own;
     for (int r = 0; r < R; ++r) own[r] = load(&field_[r][c]);
     const Packets<R* D> moment = bonds_.template sum_over_bonds<R * D>(

@@ -27,17 +27,22 @@ void ForwardEuler::reset(double t, std::span<const double>) {
   lost_.assign(system_.accumulators(), 0.0);
 }
 
+/// The longest step that may begin at t.
+double ForwardEuler::limit_at(double t, double growth) const {
+  const double longest = safety_ * stable_step_ / growth;
+  return std::clamp(0.5 * (t - jump_), 0.125 * longest, longest);
+}
+
 void ForwardEuler::advance(double t_end, std::span<double> y) {
   if (t_end == t_) return;
-  double begin = t_, step = 0.0, growth = 0.0;  // equal steps from `begin` while J is the same
+  double begin = t_, step = 0.0, limit = 0.0;  // equal steps from `begin` while it is the same
   std::int64_t steps = 0;
   for (std::int64_t n = 0; n == 0 || n < steps; ++n, ++statistics_.steps) {
     const double t = begin + static_cast<double>(n) * step;
-    if (const double now = system_.jacobian_growth(t, y); now != growth) {
+    if (const double now = limit_at(t, system_.jacobian_growth(t, y)); now != limit) {
       begin = t;
       n = 0;
-      growth = now;
-      const double limit = safety_ * stable_step_ / growth;
+      limit = now;
       steps = equal_steps(t_end - begin, limit);
       step = (t_end - begin) / static_cast<double>(steps);
     }

@@ -26,6 +26,10 @@ class Integrator {
   /// inputs may go on changing in time without it. Throws NumericalError.
   virtual void reset(double t, std::span<const double> y) = 0;
 
+  /// What drives y, or y itself, jumped at t [s]: steps after it may have to be short. Until the
+  /// next jump; none is known at first.
+  virtual void note_jump(double) {}
+
   /// Takes y, as reset or the last advance left it, to exactly t_end [s] in steps of its own.
   /// Throws NumericalError; y is then not to be used.
   virtual void advance(double t_end, std::span<double> y) = 0;

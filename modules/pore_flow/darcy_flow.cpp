@@ -124,6 +124,13 @@ void DarcyFlow<D>::initialize(double t) {
   }
   update_pore_stress();
   restart_integrator_ = true;
+  note_jump(t);
+}
+
+template <int D>
+void DarcyFlow<D>::note_jump(double t) {
+  last_jump_ = t;
+  integrator_->note_jump(t);
 }
 
 /// No history goes across bonds that break.
@@ -145,6 +152,7 @@ double DarcyFlow<D>::advance(const TimeWindow& window) {
   if (window.length() > 0.0) integrate(window);
   // A window of no length changes pressures at once, which no history survives.
   restart_integrator_ = !(window.length() > 0.0);
+  if (restart_integrator_) note_jump(window.end);
   time_ = window.end;
   update_content();
   system_->pressure(time_, unknowns_, pressure_);
@@ -167,7 +175,8 @@ void DarcyFlow<D>::integrate(const TimeWindow& window) {
   exchange.end(energy);
 }
 
-/// In parts between which schedules are smooth: no step, and no history, goes across a kink.
+/// In parts between which schedules are smooth: no step, and no history, goes across a kink. What
+/// changes between two kinks within a step jumps.
 template <int D>
 void DarcyFlow<D>::flow(const TimeWindow& window) {
   system_->lead_held_points(window, unknowns_);
@@ -178,11 +187,18 @@ void DarcyFlow<D>::flow(const TimeWindow& window) {
     restart_integrator_ = false;
     begin = end;
   };
-  for (const double kink : system_->break_points()) {
+  const std::vector<double>& kinks = system_->break_points();
+  for (std::size_t k = 0; k < kinks.size(); ++k) {
+    const double kink = kinks[k];
     const double rounding = 1e-12 * kink;  // a kink where windows meet is no part of either
     if (kink < begin - rounding || kink >= window.end - rounding) continue;
     if (kink > begin + rounding) up_to(kink);
+    if (restart_integrator_) integrator_->reset(begin, unknowns_);  // then it knows its step
     restart_integrator_ = true;
+    const double step = integrator_->longest_step();
+    const bool after = k > 0 && kink - kinks[k - 1] <= step;
+    const bool ahead = k + 1 < kinks.size() && kinks[k + 1] - kink <= step;
+    if (after || ahead) note_jump(kink);
   }
   up_to(window.end);
 }
@@ -287,6 +303,7 @@ void DarcyFlow<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("fluid_content", unknowns_);
   visitor.visit("pore_pressure", pressure_);
   visitor.visit("start", start_);
+  visitor.visit("last_jump", last_jump_);
   // Follows the slope of the dilatation, which a link has yet to bring after a restart.
   visitor.visit("pore_pressure_slope", pressure_slope_);
   system_->visit_state(visitor);
@@ -296,6 +313,7 @@ template <int D>
 void DarcyFlow<D>::on_restored(double t) {
   follow_bonds();
   time_ = t;
+  note_jump(last_jump_);
   restart_integrator_ = true;
   system_->exchange().on_restored();
   update_content();

@@ -76,6 +76,7 @@ class DarcyFlow final : public PhysicsModule {
   void follow_bonds();
   void integrate(const TimeWindow& window);
   void flow(const TimeWindow& window);
+  void note_jump(double t);
   void update_content();
   std::span<double> content();
   void update_pore_stress();
@@ -92,6 +93,7 @@ class DarcyFlow final : public PhysicsModule {
   std::vector<double> unknowns_;  ///< of the system
   double start_ = 0.0;            ///< [s]
   double time_ = 0.0;             ///< [s]
+  double last_jump_ = 0.0;        ///< of what drives the flow [s]
   bool restart_integrator_ = true;
 
   std::vector<double> dilatation_;  ///< input and its companions; empty until somebody links it

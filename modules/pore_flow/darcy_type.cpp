@@ -258,13 +258,6 @@ KeyTable darcy_keys() {
        .range = "(0, 0.1]",
        .fallback = "1e-5",
        .meaning = "cvode: largest error of a step over the largest pressure."},
-      {.path = "undrained_stabilisation",
-       .range = "[0, 1]",
-       .fallback = "0",
-       .meaning =
-           "Storage of what varies from point to point, for fluid that enters nearly "
-           "undrained rock in times short against dx^2/c: 0.25 keeps pressure from "
-           "undershooting. 0: none. Beside a quasi-static solid, a linear fluid, no layers."},
       {.path = "initial_pressure",
        .unit = "Pa",
        .fallback = "0 Pa",
@@ -288,6 +281,14 @@ KeyTable darcy_keys() {
        {permeability_keys(), pore_material_keys(), pore_fluid_keys(), pore_boundary_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
+  keys.push_back(
+      {.path = "undrained_stabilisation",
+       .range = "[0, 1]",
+       .fallback = "0",
+       .meaning =
+           "Storage of what varies from point to point, for fluid that enters nearly "
+           "undrained rock in times short against dx^2/c: 0.25 keeps pressure from "
+           "undershooting. 0: none. Beside a quasi-static solid, a linear fluid, no layers."});
   keys.push_back({.path = "nested.smoothing",
                   .type = KeyType::word,
                   .fallback = "boundary",

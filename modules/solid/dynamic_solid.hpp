@@ -14,8 +14,9 @@
 namespace perifrac {
 
 /// A linear elastic solid with inertia, by velocity Verlet in as many equal steps as a window
-/// needs; no matrix. At rest and undeformed at the start. Small strain. In a window of no length
-/// nothing with a mass moves: loads act from then on.
+/// needs; no matrix. At rest and undeformed at the start. Small strain, and small rotations too
+/// unless the operator is corotational. In a window of no length nothing with a mass moves: loads
+/// act from then on.
 ///
 /// Ports: in `pore_stress` [Pa], with rate and slope, `interface_impulse` [N s] on the points; out
 /// `displacement` [m], `velocity` [m/s], `dilatation`, `effective_stress` [Pa] (as

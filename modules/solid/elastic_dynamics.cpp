@@ -130,6 +130,19 @@ void ElasticDynamics<D>::apply(std::span<const double> u, const PoreStress& pore
                                std::span<double> force, std::span<double> dilatation) {
   const ProfileScope profiled("bond forces");
   elastic_->apply(u, pore, force, dilatation);
+  take_initial_force(force);
+}
+
+template <int D>
+void ElasticDynamics<D>::apply_small(std::span<const double> u, const PoreStress& pore,
+                                     std::span<double> force, std::span<double> dilatation) {
+  const ProfileScope profiled("bond forces");
+  elastic_->apply_small(u, pore, force, dilatation);
+  take_initial_force(force);
+}
+
+template <int D>
+void ElasticDynamics<D>::take_initial_force(std::span<double> force) const {
   if (initial_force_.empty()) return;
   for_each_entry(static_cast<Index>(force.size()), [&](Index k) { force[k] -= initial_force_[k]; });
 }
@@ -138,7 +151,7 @@ template <int D>
 void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<double> product) {
   expand(v, {}, trial_);
   place_plates({}, {}, trial_);
-  apply(trial_, {no_pore_stress_, reference_slope_}, inner_, {});
+  apply_small(trial_, {no_pore_stress_, reference_slope_}, inner_, {});
   gather(inner_, product);
 }
 
@@ -193,7 +206,7 @@ void ElasticDynamics<D>::find_plate_rows() {
   std::vector<double> unit(owner_.size(), 0.0), row(owner_.size());
   for (Eigen::Index p = 0; p < count; ++p) {
     unit[plates_[p].unknown] = 1.0;
-    apply(unit, {no_pore_stress_, pore_slope_}, row, scratch_);
+    apply_small(unit, {no_pore_stress_, pore_slope_}, row, scratch_);
     unit[plates_[p].unknown] = 0.0;
     for (Eigen::Index q = 0; q < count; ++q) {
       own(q, p) = row[plates_[q].unknown];
@@ -293,9 +306,7 @@ std::span<double> ElasticDynamics<D>::dilatation() {
 template <int D>
 double ElasticDynamics<D>::elastic_energy() {
   apply(unknowns_, {}, inner_, {});
-  double sum = 0.0;
-  for (std::size_t k = 0; k < unknowns_.size(); ++k) sum += 0.5 * unknowns_[k] * inner_[k];
-  return sum;
+  return elastic_->energy(unknowns_, inner_);
 }
 
 template <int D>

@@ -120,6 +120,9 @@ class ElasticDynamics final : public SecondOrderSystem {
  private:
   void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
              std::span<double> dilatation);
+  void apply_small(std::span<const double> u, const PoreStress& pore, std::span<double> force,
+                   std::span<double> dilatation);
+  void take_initial_force(std::span<double> force) const;
 
   /// A rigid plate on a mirrored face.
   struct Plate {

@@ -45,6 +45,20 @@ class ElasticOperator {
   virtual void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
                      std::span<double> dilatation) = 0;
 
+  /// The same for displacements that are small: linear in u.
+  virtual void apply_small(std::span<const double> u, const PoreStress& pore,
+                           std::span<double> force, std::span<double> dilatation) {
+    apply(u, pore, force, dilatation);
+  }
+
+  /// E(u) without pore stress and initial stress [J, per metre in 2D]; `force` is that of apply()
+  /// without them.
+  virtual double energy(std::span<const double> u, std::span<const double> force) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < u.size(); ++k) sum += 0.5 * u[k] * force[k];
+    return sum;
+  }
+
   /// Inner force at u = 0 [N]: that of the initial stress. What lies behind the faces of the intact
   /// body bears it, so that a solid counts it, once, among its external forces.
   std::vector<double> initial_force() {
@@ -57,7 +71,7 @@ class ElasticOperator {
   /// positive: D * D blocks of points [Pa].
   virtual void stress(std::span<const double> u, std::span<double> stress) = 0;
 
-  /// The stiffness: apply without pore stress and initial stress as a matrix.
+  /// The stiffness: apply_small without pore stress and initial stress as a matrix.
   virtual Eigen::SparseMatrix<double> assemble() const = 0;
 
   /// Takes displacements to point dilatations; volume-weighted, its transpose makes force of pore

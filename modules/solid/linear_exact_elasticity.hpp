@@ -13,7 +13,7 @@ namespace perifrac {
 
 /// `material.type: linear_exact`: the linear-exact operator with a law of elasticity.
 template <int D, class Law>
-class LinearExactElasticity final : public BreakableElasticity<D> {
+class LinearExactElasticity : public BreakableElasticity<D> {
  public:
   /// `initial_stress`: normal stresses of the body at rest, tension positive [Pa].
   explicit LinearExactElasticity(LinearExactOperator<D, Law> op,
@@ -118,6 +118,9 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
     }
   }
 
+ protected:
+  LinearExactOperator<D, Law> operator_;
+
  private:
   /// A point whose family does not span space any more: its bonds have the energy of the linear
   /// peridynamic solid instead, which needs no gradient.
@@ -161,7 +164,6 @@ class LinearExactElasticity final : public BreakableElasticity<D> {
     }
   }
 
-  LinearExactOperator<D, Law> operator_;
   std::optional<Vector<D>> initial_stress_;
   std::vector<ThinPoint> thin_points_;  ///< in the order of their points
 };

@@ -7,6 +7,7 @@
 
 #include "core/geometry/region.hpp"
 #include "core/geometry/scatter.hpp"
+#include "modules/solid/corotational_elasticity.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
 #include "modules/solid/linear_exact_elasticity.hpp"
 #include "modules/solid/lps_elasticity.hpp"
@@ -15,6 +16,12 @@ namespace perifrac {
 
 KeyTable material_keys() {
   KeyTable keys = {
+      {.path = "kinematics",
+       .type = KeyType::word,
+       .fallback = "small",
+       .words = {"small", "corotational"},
+       .meaning = "small: strains and rotations are small; corotational: strains are small beside "
+                  "rotations of any size (dynamic, linear_exact)."},
       {.path = "material.type",
        .type = KeyType::word,
        .fallback = "linear_exact",
@@ -86,11 +93,13 @@ template <int D>
 std::unique_ptr<BreakableElasticity<D>> make_linear_exact(std::shared_ptr<const Family<D>> family,
                                                           const MirrorCondition<D, D>& mirror,
                                                           LawByRegion<IsotropicElasticity<D>> law,
-                                                          std::optional<Vector<D>> initial_stress) {
+                                                          std::optional<Vector<D>> initial_stress,
+                                                          bool turns) {
   const auto make = [&](auto law) -> std::unique_ptr<BreakableElasticity<D>> {
     using Law = decltype(law);
-    return std::make_unique<LinearExactElasticity<D, Law>>(
-        LinearExactOperator<D, Law>(family, mirror, std::move(law)), initial_stress);
+    LinearExactOperator<D, Law> op(family, mirror, std::move(law));
+    if (turns) return std::make_unique<CorotationalElasticity<D, Law>>(std::move(op));
+    return std::make_unique<LinearExactElasticity<D, Law>>(std::move(op), initial_stress);
   };
   return law.laws.size() == 1 ? make(law.laws.front()) : make(std::move(law));
 }
@@ -139,6 +148,10 @@ std::optional<Vector<D>> read_uniform_stress(const Section& section) {
 
 }  // namespace
 
+bool is_corotational(const Section& section) {
+  return section.word("kinematics") == "corotational";
+}
+
 template <int D>
 std::optional<InitialStress<D>> read_initial_stress(const Section& section, const Body<D>& body) {
   const auto stressed = stressed_region(section);
@@ -177,7 +190,8 @@ std::unique_ptr<ElasticOperator<D>> read_material(const Section& section, const 
     return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law), initial_stress,
                                               printed ? -1.0 : 1.0);
   }
-  return make_linear_exact<D>(family, mirror, std::move(law), initial_stress);
+  return make_linear_exact<D>(family, mirror, std::move(law), initial_stress,
+                              is_corotational(section));
 }
 
 template <int D>
@@ -187,7 +201,8 @@ std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
   if (section.word("material.type") != "linear_exact") {
     section.fail("material.type", "damage of another material", "linear_exact beside 'damage'");
   }
-  return make_linear_exact<D>(std::move(family), mirror, read_laws<D>(section, body), {});
+  return make_linear_exact<D>(std::move(family), mirror, read_laws<D>(section, body), {},
+                              is_corotational(section));
 }
 
 template std::optional<InitialStress<2>> read_initial_stress<2>(const Section&, const Body<2>&);

@@ -13,7 +13,8 @@
 
 namespace perifrac {
 
-/// The keys of `material`, of what differs in `regions`, and of `confining_stress`.
+/// The keys of `kinematics`, of `material`, of what differs in `regions`, and of
+/// `confining_stress`.
 KeyTable material_keys();
 
 /// The material that a solid's section describes, on the families that the boundary asks for;
@@ -28,6 +29,9 @@ template <int D>
 std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
     const Section& section, const Body<D>& body, std::shared_ptr<const Family<D>> family,
     const MirrorCondition<D, D>& mirror);
+
+/// Rotations may be large.
+bool is_corotational(const Section& section);
 
 /// Nothing where the scene has none; throws InputError, also where regions have another and the
 /// body would not be at rest.

@@ -39,6 +39,50 @@ Cracks read_cracks(const Section& section, const Body<2>& body) {
   return cracks;
 }
 
+constexpr const char* kinematics_key = "kinematics";
+
+/// What is held to be small in a solid of this kind.
+void refuse_large_rotations(const Section& section, const std::string& where,
+                            const std::string& instead) {
+  if (!is_corotational(section)) return;
+  section.fail(kinematics_key, "'corotational' " + where, instead + ", or small");
+}
+
+/// What does not turn with the body.
+template <int D>
+void check_large_rotations(const Section& section, const Body<D>& body,
+                           const SolidBoundary<D>& boundary) {
+  if (!is_corotational(section)) return;
+  const auto refuse = [&](const std::string& key, const std::string& problem,
+                          const std::string& expected) {
+    section.fail(key, problem + " beside kinematics: corotational",
+                 expected + ", or kinematics: small");
+  };
+  const Section scene = section.scene();
+  if (section.word("material.type") != "linear_exact") {
+    refuse("material.type", fmt::format("'{}'", section.word("material.type")), "linear_exact");
+  }
+  if (section.has("confining_stress")) {
+    refuse("confining_stress", "a stress of the body at rest", "loads on the faces");
+  }
+  const auto family = body.family(boundary.mirrored());
+  if (family->curved) refuse("boundary", "a mirrored sphere", "a free sphere");
+  for (const auto& plate : boundary.plates(boundary.mirror_condition(*family))) {
+    const auto face = std::ranges::find(body.faces(), plate.face, &Face::name);
+    if (!body.layer(static_cast<int>(face - body.faces().begin())).empty()) continue;
+    refuse(fmt::format("boundary.{}.type", plate.face), "a plate without mass",
+           fmt::format("body.boundary.{}: layer", plate.face));
+  }
+  if (scene.has("fluid")) {
+    section.fail(kinematics_key, "'corotational' beside free fluid, whose walls do not turn",
+                 "small");
+  }
+  if (scene.has("gravity") && scene.has("pore_flow")) {
+    section.fail(kinematics_key, "'corotational' beside pores that gravity acts in",
+                 "a scene without gravity or without pore_flow, or small");
+  }
+}
+
 std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
                                                std::shared_ptr<const Body<2>> body) {
   const Cracks cracks = read_cracks(section, *body);
@@ -58,6 +102,8 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
 
 std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
                                                      std::shared_ptr<const Body<2>> body) {
+  refuse_large_rotations(section, "beside cracks whose faces do not turn",
+                         "damage.type: critical_stretch");
   const Cracks cracks = read_cracks(section, *body);
   const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
@@ -87,6 +133,7 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
 template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
+  refuse_large_rotations(section, "of a solid in equilibrium", "type: dynamic");
   if (has_cracks(section)) return make_fracturing(section, body);
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
@@ -131,6 +178,7 @@ template <int D>
 std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
+  check_large_rotations(section, *body, boundary);
   const auto make = [&](std::shared_ptr<ElasticOperator<D>> elastic,
                         std::unique_ptr<CriticalStretch<D>> breaking) {
     return std::make_unique<DynamicSolid<D>>(

@@ -89,5 +89,23 @@ TEST(WindowSchedule, StartsOverAfterASuddenLoad) {
   EXPECT_DOUBLE_EQ(schedule.end(5.0, 100.0), 6.0);
 }
 
+TEST(WindowSchedule, IsShortenedAsFarAsAllowedAndComesBack) {
+  WindowSchedule schedule(WindowType::schedule, 8.0, 1.0, 8.0);
+  const auto next = [&] { return schedule.end(0.0, 1e3); };
+  schedule.shorten(0.75, 0.25);
+  EXPECT_DOUBLE_EQ(next(), 6.0);
+  schedule.shorten(0.5, 0.25);
+  EXPECT_DOUBLE_EQ(next(), 3.0);
+  schedule.shorten(0.5, 0.25);
+  EXPECT_DOUBLE_EQ(next(), 2.0);
+  schedule.cut(2.0);
+  schedule.shorten(0.5, 0.25);  // no longer than what failed left it
+  EXPECT_DOUBLE_EQ(next(), 1.0);
+  schedule.grow(unlimited, false);
+  EXPECT_DOUBLE_EQ(next(), 1.0);
+  for (int n = 0; n < 20; ++n) schedule.grow(unlimited);
+  EXPECT_DOUBLE_EQ(next(), 8.0);
+}
+
 }  // namespace
 }  // namespace perifrac

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/state/snapshot.hpp"
 #include "tests/unit/pore_flow/pore_body.hpp"
 
 namespace perifrac {
@@ -204,6 +205,50 @@ TEST(DarcyFlow, StepsOverNoKinkOfASchedule) {
     EXPECT_NEAR(scalar(flow, "pore_fluid_gained"), pulse, 0.02 * pulse);
     EXPECT_NEAR(scalar(flow, "pore_fluid_mass"), scalar(flow, "pore_fluid_gained"), 1e-12 * pulse);
   }
+}
+
+/// A face whose pressure jumps from 0 to 1 at `jump`, and what is known of its explicit flow.
+struct Jumping {
+  static constexpr double jump = 0.731;
+  std::shared_ptr<const Body<2>> body = test::box_body<2>({20, 4}, 0.5);
+  std::unique_ptr<DarcyFlow<2>> flow;
+  Jumping() {
+    PoreBoundary<2> boundary(*body);
+    boundary.pressure(0, 1.0, Schedule::table({jump - 1e-9, jump}, {0.0, 1.0}));
+    flow = std::make_unique<DarcyFlow<2>>(body, test::darcy_system<2>(*body, boundary),
+                                          InitialPressure<2>{0.0},
+                                          test::integrator_maker<2>(Method::forward_euler, 0.0));
+    flow->initialize(0.0);
+  }
+  double highest() { return std::ranges::max(test::port(*flow, "pore_pressure").value); }
+  std::vector<double> pressure() {
+    const auto values = test::port(*flow, "pore_pressure").value;
+    return {values.begin(), values.end()};
+  }
+};
+
+/// From the jump on steps are short, in whichever window they lie and after a restart too.
+TEST(DarcyFlow, FollowsAJumpInShortStepsAcrossWindowsAndRestarts) {
+  Jumping run;
+  const double longest = run.flow->stable_time_step();
+  double t = Jumping::jump - 0.1 * longest;
+  run.flow->advance({0.0, t});
+  const double before = scalar(*run.flow, "integrator_steps");
+  for (int n = 0; n < 8; ++n) {
+    Snapshot state;
+    state.save([&](StateVisitor& visitor) { run.flow->visit_state(visitor); });
+    Jumping other;
+    state.restore([&](StateVisitor& visitor) { other.flow->visit_state(visitor); });
+    other.flow->on_restored(t);
+    const TimeWindow window{t, t + 0.7 * longest};
+    run.flow->advance(window);
+    other.flow->advance(window);
+    EXPECT_EQ(run.pressure(), other.pressure()) << n;
+    EXPECT_LT(run.highest(), 1.01);
+    t = window.end;
+  }
+  EXPECT_GE(scalar(*run.flow, "integrator_steps") - before, 8 + 5);
+  EXPECT_LE(scalar(*run.flow, "integrator_steps") - before, 8 + 12);
 }
 
 TEST(DarcyFlow, ShowsDarcysVelocity) {

@@ -120,6 +120,51 @@ TEST(ForwardEuler, DividesTheWindowIntoTheFewestEqualStepsBelowSafetyTimesTheLim
   EXPECT_EQ(euler.statistics().steps, 8);
 }
 
+/// How far the pressures of an even line leave their first range, 1, when it begins to drain a
+/// quarter of a cell from its first point.
+double swing(bool noted) {
+  LineDiffusion line(30);
+  for (auto* values : {&line.volume, &line.storage, &line.link}) values->assign(30, 1.0);
+  line.link[0] = 4.0;
+  ForwardEuler euler(line);
+  std::vector<double> y(line.size(), 0.0);
+  std::ranges::copy(line.storage, y.begin());
+  euler.reset(0.0, y);
+  if (noted) euler.note_jump(0.0);
+  const double longest = euler.longest_step();
+  double furthest = 0.0;
+  for (int n = 1; n <= 60; ++n) {
+    euler.advance(n * longest, y);
+    for (std::size_t i = 0; i < line.storage.size(); ++i) {
+      const double pressure = y[i] / line.storage[i];
+      furthest = std::max({furthest, pressure - 1.0, -pressure});
+    }
+  }
+  return furthest;
+}
+
+TEST(ForwardEuler, DoesNotSwingAfterAJump) {
+  EXPECT_LT(swing(true), 1e-3);
+  EXPECT_GT(swing(false), 0.02);
+}
+
+TEST(ForwardEuler, TakesAFewMoreStepsAfterAJumpAndThenNoMore) {
+  LineDiffusion line(20);
+  ForwardEuler euler(line);
+  std::vector<double> y = line.start();
+  euler.reset(0.0, y);
+  const double longest = euler.longest_step();
+  euler.advance(20.0 * longest, y);
+  EXPECT_EQ(euler.statistics().steps, 20);
+  euler.note_jump(20.0 * longest);
+  euler.advance(40.0 * longest, y);
+  const auto after = euler.statistics().steps;
+  EXPECT_GE(after, 44);
+  EXPECT_LE(after, 46);
+  euler.advance(60.0 * longest, y);
+  EXPECT_EQ(euler.statistics().steps, after + 20);
+}
+
 TEST(ForwardEuler, KeepsTheInvariant) {
   LineDiffusion line(50);
   line.uptake = 0.7;
