@@ -37,7 +37,7 @@ def link(path, count, slope=False):
     return {f"coupling/{path}/{array}": count for array in arrays}
 
 
-PORES = {"pore_flow/fluid_content": POINTS + 1, "pore_flow/pore_pressure": POINTS, "pore_flow/start": 1,
+PORES = {"pore_flow/fluid_content": POINTS + 1, "pore_flow/pore_pressure": POINTS, "pore_flow/start": 1, "pore_flow/last_jump": 1,
          "pore_flow/accumulated": 2, "coupling/mass_at_start": 1}
 PORES_FIRST = {**PORES, "solid/pore_stress": POINTS, **link("solid.dilatation.pore_flow", POINTS, slope=True),
                **link("pore_flow.pore_stress.solid", POINTS)}

@@ -28,6 +28,7 @@ LARGE = {
 }
 LONGEST = 60.0  # [s] of wall time; a run that takes more hangs
 # What a user must never see.
+NEWS = re.compile(r"^\d\d:\d\d:\d\d info: .*\n", re.MULTILINE)  # of a run that goes well
 CRASH = re.compile(r"terminate called|Segmentation|Traceback|std::|Assertion|core dumped|Sanitizer|HDF5-DIAG")
 
 
@@ -98,7 +99,7 @@ def address_space(pid, what="VmSize"):
 def wait(process):
     """Waits for the end; a hang is a fault."""
     try:
-        said = process.communicate(timeout=LONGEST)[1]
+        said = NEWS.sub("", process.communicate(timeout=LONGEST)[1])
     except subprocess.TimeoutExpired as error:
         raise Fault(f"still running after {LONGEST:g} s") from error
     finally:
