@@ -124,10 +124,13 @@ void Lubrication::flow(double dt) {
   const std::span aperture(aperture_.data(), aperture_.size());
   for_each_flux(pressure, aperture,
                 [&](const CrackGraph::Branch& a, const CrackGraph::Branch& b, double flux) {
-                  outflow_[a.facet] += dt * flux;
-                  outflow_[b.facet] -= dt * flux;
-                  rounding_[a.facet] += std::abs(dt * flux);
-                  rounding_[b.facet] += std::abs(dt * flux);
+                  // One number on both sides: the product in each sum anew, a fused multiply-add
+                  // would round it for one and not for the other, and mass would get lost.
+                  const double passed = dt * flux;
+                  outflow_[a.facet] += passed;
+                  outflow_[b.facet] -= passed;
+                  rounding_[a.facet] += std::abs(passed);
+                  rounding_[b.facet] += std::abs(passed);
                 });
   for (std::size_t k = 0; k < graph_.joint_count(); ++k) {
     find_conductances(graph_.joint(k), aperture);

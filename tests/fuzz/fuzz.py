@@ -34,7 +34,7 @@ def first_inputs(perifrac, what, folder):
 
 
 def fuzz(perifrac, binaries, what, seconds, holder):
-    """Gives (inputs, complaint)."""
+    """Gives (inputs, seconds of the slowest, complaint)."""
     learnt = binaries.parent / "fuzz" / what
     learnt.mkdir(parents=True, exist_ok=True)
     words = Path(holder) / "dictionary"
@@ -44,8 +44,13 @@ def fuzz(perifrac, binaries, what, seconds, holder):
          f"-max_total_time={seconds}", f"-max_len={LONGEST_INPUT[what]}", f"-timeout={SLOW}", "-print_final_stats=1",
          f"-artifact_prefix={learnt.parent}/{what}-"], capture_output=True, text=True, errors="replace",
         env=os.environ | {"OMP_NUM_THREADS": "1", "ASAN_SYMBOLIZER_PATH": "/usr/lib/llvm-16/bin/llvm-symbolizer"})
-    count = re.search(r"number_of_executed_units:\s*(\d+)", done.stderr)
-    return int(count[1]) if count else 0, "" if done.returncode == 0 else done.stderr[-4000:]
+
+    def figure(name):
+        found = re.search(rf"{name}:\s*(\d+)", done.stderr)
+        return int(found[1]) if found else 0
+
+    return (figure("number_of_executed_units"), figure("slowest_unit_time_sec"),
+            "" if done.returncode == 0 else done.stderr[-4000:])
 
 
 def main():
@@ -60,9 +65,10 @@ def main():
         if arguments.only not in what:
             continue
         with tempfile.TemporaryDirectory() as holder:
-            count, complaint = fuzz(arguments.perifrac, arguments.binaries, what, arguments.seconds, holder)
+            count, slowest, complaint = fuzz(arguments.perifrac, arguments.binaries, what, arguments.seconds, holder)
         failed = failed or bool(complaint) or count == 0
-        print(f"{what}: {count} inputs, {'A FAULT: ' + complaint if complaint else 'no fault'}", flush=True)
+        verdict = "A FAULT: " + complaint if complaint else "no fault"
+        print(f"{what}: {count} inputs, the slowest took {slowest} s, {verdict}", flush=True)
     sys.exit(1 if failed else 0)
 
 

@@ -105,12 +105,20 @@ TEST(Checkpoint, RefusesAFlippedBitAnywhere) {
   const TemporaryFolder folder;
   const std::string whole = content_of(write_checkpoint(folder.path(), sample(1)));
   const auto damaged = folder / "damaged.h5";
+  put(damaged, whole);
+  // In place: a file that is cut to nothing and written anew makes ext4 wait for the disk each
+  // time.
+  std::fstream file(damaged, std::ios::binary | std::ios::in | std::ios::out);
+  const auto set = [&file](std::size_t byte, char value) {
+    file.seekp(static_cast<std::streamoff>(byte));
+    file.put(value).flush();
+  };
   for (std::size_t byte = 0; byte < whole.size(); ++byte) {
-    std::string flipped = whole;
-    flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << byte % 8));
-    put(damaged, flipped);
+    set(byte, static_cast<char>(whole[byte] ^ (1 << byte % 8)));
     ASSERT_THROW(read_checkpoint(damaged), InputError) << "in byte " << byte;
+    set(byte, whole[byte]);
   }
+  EXPECT_NO_THROW(read_checkpoint(damaged));
 }
 
 TEST(Checkpoint, SaysInOneLineWhatIsWrong) {

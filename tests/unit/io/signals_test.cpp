@@ -14,17 +14,18 @@
 namespace perifrac {
 namespace {
 
-// Each in a process of its own: a signal once received stays received.
+// Each in a process of its own: a signal once received stays received. A forked process leaves by
+// _Exit: what was allocated before the fork, OpenMP's threads among it, is the parent's to free.
 void run_and_exit(std::initializer_list<int> signals) {
   hold_back_signals();
   if (received_signal() != 0) {
-    std::exit(1);
+    std::_Exit(1);
   }
   for (const int signal : signals) {
     std::raise(signal);
     received_signal();
   }
-  std::exit(exit_code_of(received_signal()));
+  std::_Exit(exit_code_of(received_signal()));
 }
 
 TEST(Signals, InterruptAndTerminationAreRemembered) {
@@ -42,7 +43,7 @@ void raise_where_a_library_handles() {
   const auto before = std::signal(SIGTERM, [](int) { std::_Exit(3); });
   std::raise(SIGTERM);
   std::signal(SIGTERM, before);
-  std::exit(exit_code_of(received_signal()));
+  std::_Exit(exit_code_of(received_signal()));
 }
 
 TEST(Signals, WaitBehindTheHandlerOfALibrary) {
@@ -65,7 +66,7 @@ void write_under_fire(const std::filesystem::path& folder) {
   }
   done = true;
   storm.join();
-  std::exit(exit_code_of(received_signal()));
+  std::_Exit(exit_code_of(received_signal()));
 }
 
 TEST(Signals, AStormOfThemSpoilsNoFile) {

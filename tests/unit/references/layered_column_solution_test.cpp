@@ -79,7 +79,8 @@ TEST_P(TwoLayers, StartUndrainedLayerByLayer) {
 }
 
 TEST_P(TwoLayers, AgreeWithCells) {
-  const auto& [lower, upper] = GetParam();
+  const ColumnLayer& lower = GetParam().first;  // clang lets no lambda capture a binding
+  const ColumnLayer& upper = GetParam().second;
   const LayeredColumnSolution column(lower, upper, load);
   constexpr int cells = 250;  // of 0.2 m: the layers meet between two
   const double h = (lower.thickness + upper.thickness) / cells;

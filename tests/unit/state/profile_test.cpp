@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sanitized.hpp"
+
 namespace perifrac {
 namespace {
 
@@ -74,11 +76,7 @@ TEST(Profile, TellsPartsOfOneNameApartByWhereTheyLie) {
 
 /// With a sanitizer's heap there is nothing to weigh.
 TEST(Profile, WeighsWhatIsHeld) {
-#if defined(__has_feature)  // clang's way of saying it
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-  GTEST_SKIP();
-#endif
-#endif
+  if (test::sanitized) GTEST_SKIP();
   Profile profile;
   std::vector<double> held, more;
   {
