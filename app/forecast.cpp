@@ -15,8 +15,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// A trial goes on until cracks that are to grow have gained so many facets, which tell what one
-/// costs, but not longer than this times its time.
-constexpr double telling_facets = 10, longest_wait = 3;
+/// costs, or where it has come so far that little is left; but not longer than this times its time.
+constexpr double telling_facets = 10, far = 0.1, longest_wait = 3;
 
 double since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -127,7 +127,8 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
     if (trial.empty()) return true;  // nothing can be foretold from no window
     const Index gained = facet_count(simulation) - facets_at_start;
     const double to_come = facets_at_end.value_or(0.0) - facets_at_start;
-    const bool waits = gained < std::min<double>(telling_facets, to_come);
+    const bool waits =
+        gained < std::min<double>(telling_facets, to_come) || manager.time() > far * outputs.back();
     return processor_time() - processors_before < (waits ? longest_wait : 1.0) * trial_seconds;
   };
   auto output = outputs.begin();
