@@ -35,9 +35,10 @@ void BondState<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("broken_bonds", bonds);
   if (corners == corners_before && bonds == bonds_before) return;
 
-  facets_.resize(corners.size() / (D * D));
+  constexpr std::size_t sides = std::tuple_size_v<CrackFacet<D>>;
+  facets_.resize(corners.size() / (sides * D));
   for (std::size_t k = 0; k < corners.size(); ++k)
-    facets_[k / (D * D)][k / D % D][k % D] = corners[k];
+    facets_[k / (sides * D)][k / D % sides][k % D] = corners[k];
   broken_.clear();
   for (std::size_t k = 0; k < bonds.size(); k += 3) {
     broken_.push_back({static_cast<Index>(bonds[k]), static_cast<Index>(bonds[k + 1]),
@@ -51,11 +52,7 @@ template <int D>
 void BondState<D>::place_facets() {
   for (int a = 0; a < D; ++a) {
     centre_[a].clear();
-    for (const CrackFacet<D>& facet : facets_) {
-      double sum = 0.0;
-      for (const Vector<D>& corner : facet) sum += corner[a];
-      centre_[a].push_back(sum / D);
-    }
+    for (const CrackFacet<D>& facet : facets_) centre_[a].push_back(middle<D>(facet)[a]);
     facet_points_.position[a] = centre_[a];
   }
   facet_points_.count = facets_.size();

@@ -7,16 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/crack_facet.hpp"
 #include "core/geometry/family.hpp"
 #include "core/geometry/points.hpp"
 #include "core/module/point_set.hpp"
 #include "core/state/state_visitor.hpp"
 
 namespace perifrac {
-
-/// A flat piece of a crack, about a spacing wide: a segment in 2D, a triangle in 3D.
-template <int D>
-using CrackFacet = std::array<Vector<D>, D>;
 
 /// A bond between the real points i < j that broke for good.
 struct BrokenBond {

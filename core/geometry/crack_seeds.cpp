@@ -10,30 +10,45 @@
 namespace perifrac {
 
 KeyTable crack_seed_keys() {
-  return {{.path = "cracks[].name",
-           .type = KeyType::text,
-           .required = true,
-           .meaning = "Name of a crack that the body has from the start, a notch or a natural "
-                      "fracture."},
-          {.path = "cracks[].path",
-           .type = KeyType::numbers,
-           .unit = "m",
-           .meaning = "The corners of its path, x and y in turn. It cuts every bond that it "
-                      "crosses; half-way between two rows of points it is smoothest."},
-          {.path = "cracks[].file",
-           .type = KeyType::text,
-           .meaning = "In place of path: a file with its corners in m, a first line `x,y` and then "
-                      "a line a corner; taken from the folder of the scene."},
-          {.path = "cracks[].opening",
-           .unit = "m",
-           .range = "[0, inf)",
-           .fallback = "0 m",
-           .meaning = "Its width beside a rigid solid, which stays; a solid that deforms says "
-                      "itself how wide its cracks are."}};
+  return {
+      {.path = "cracks[].name",
+       .type = KeyType::text,
+       .required = true,
+       .meaning = "Name of a crack that the body has from the start, a notch or a natural "
+                  "fracture."},
+      {.path = "cracks[].path",
+       .type = KeyType::numbers,
+       .unit = "m",
+       .meaning = "In 2D: the corners of its path, x and y in turn. It cuts every bond that it "
+                  "crosses; half-way between two rows of points it is smoothest."},
+      {.path = "cracks[].file",
+       .type = KeyType::text,
+       .meaning = "In place of path: a file with its corners in m, a first line `x,y` and then "
+                  "a line a corner; taken from the folder of the scene."},
+      {.path = "cracks[].centre",
+       .type = KeyType::vector,
+       .unit = "m",
+       .meaning = "In 3D: the middle of a plane crack, where four of its squares meet; best "
+                  "half-way between rows of points in all directions."},
+      {.path = "cracks[].normal", .type = KeyType::vector, .meaning = "In 3D: across its plane."},
+      {.path = "cracks[].radius", .unit = "m", .range = "(0, inf)", .meaning = "In 3D: of a disc."},
+      {.path = "cracks[].sides",
+       .type = KeyType::numbers,
+       .unit = "m",
+       .meaning = "In 3D, in place of radius: the two sides of a rectangle."},
+      {.path = "cracks[].opening",
+       .unit = "m",
+       .range = "[0, inf)",
+       .fallback = "0 m",
+       .meaning = "Its width beside a rigid solid, which stays; a solid that deforms says "
+                  "itself how wide its cracks are."}};
 }
 
 std::vector<Vector<2>> read_crack_corners(const Section& scene, std::size_t k) {
   const std::string crack = fmt::format("cracks[{}]", k);
+  for (const char* key : {".centre", ".normal", ".radius", ".sides"}) {
+    if (scene.has(crack + key)) scene.fail(crack + key, "in 2D", "a path");
+  }
   const bool from_file = scene.has(crack + ".file");
   if (scene.has(crack + ".path") == from_file) {
     scene.fail(crack, from_file ? "a path and a file" : "no path", "either path or file");
@@ -83,15 +98,6 @@ std::vector<CrackFacet<2>> read_crack(const Section& scene, std::size_t k, doubl
       facets.push_back({last, next});
       last = next;
     }
-  }
-  return facets;
-}
-
-std::vector<CrackFacet<2>> read_crack_seeds(const Section& scene, double spacing) {
-  std::vector<CrackFacet<2>> facets;
-  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
-    const std::vector<CrackFacet<2>> crack = read_crack(scene, k, spacing);
-    facets.insert(facets.end(), crack.begin(), crack.end());
   }
   return facets;
 }

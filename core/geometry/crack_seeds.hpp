@@ -18,7 +18,4 @@ std::vector<Vector<2>> read_crack_corners(const Section& scene, std::size_t k);
 /// bit. Throws InputError.
 std::vector<CrackFacet<2>> read_crack(const Section& scene, std::size_t k, double spacing);
 
-/// Those of all cracks, in the scene's order.
-std::vector<CrackFacet<2>> read_crack_seeds(const Section& scene, double spacing);
-
 }  // namespace perifrac

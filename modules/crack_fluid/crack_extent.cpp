@@ -13,13 +13,13 @@ CrackExtent crack_extent(const CrackGraph& graph, const CrackLiquid& liquid,
   CrackExtent extent;
   double pressure_sum = 0.0;
   for (Index f = 0; f < graph.facet_count(); ++f) {
-    const double wet = graph.length(f) * liquid.fill(unknown[f]);
-    extent.volume += graph.length(f) * aperture[f];
-    extent.wetted_length += wet;
+    const double wet = graph.area(f) * liquid.fill(unknown[f]);
+    extent.volume += graph.area(f) * aperture[f];
+    extent.wetted_area += wet;
     pressure_sum += wet * liquid.pressure(unknown[f]);
-    if (holds_fluid[graph.crack(f)]) extent.fluid_lag += graph.length(f) - wet;
+    if (holds_fluid[graph.crack(f)]) extent.dry_area += graph.area(f) - wet;
   }
-  if (extent.wetted_length > 0.0) extent.mean_pressure = pressure_sum / extent.wetted_length;
+  if (extent.wetted_area > 0.0) extent.mean_pressure = pressure_sum / extent.wetted_area;
   return extent;
 }
 

@@ -7,12 +7,12 @@
 
 namespace perifrac {
 
-/// What of a crack its fluid has taken, over all facets.
+/// What of a crack its fluid has taken, over all facets; in 2D per metre.
 struct CrackExtent {
-  double volume = 0.0;         ///< [m^2]
-  double wetted_length = 0.0;  ///< [m]
-  double fluid_lag = 0.0;      ///< length without fluid of cracks that hold some [m]
-  double mean_pressure = 0.0;  ///< over the wetted length; 0 where there is none [Pa]
+  double volume = 0.0;         ///< [m^3]
+  double wetted_area = 0.0;    ///< [m^2]
+  double dry_area = 0.0;       ///< of cracks that hold some fluid, the part without [m^2]
+  double mean_pressure = 0.0;  ///< over the wetted area; 0 where there is none [Pa]
 };
 
 /// `unknown` is v of crack_liquid.hpp [Pa], `aperture` in [m].

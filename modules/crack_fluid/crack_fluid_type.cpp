@@ -22,11 +22,12 @@ CrackLiquid read_liquid(const Section& section) {
   return liquid;
 }
 
-std::vector<CrackFilling> read_fillings(const Section& section, const CrackLiquid& liquid) {
-  std::vector<CrackFilling> fillings;
+template <int D>
+std::vector<CrackFilling<D>> read_fillings(const Section& section, const CrackLiquid& liquid) {
+  std::vector<CrackFilling<D>> fillings;
   for (std::size_t k = 0; k < section.count("filled"); ++k) {
     const std::string path = fmt::format("filled[{}]", k);
-    CrackFilling filling{.box = {}, .pressure = section.number(path + ".pressure")};
+    CrackFilling<D> filling{.box = {}, .pressure = section.number(path + ".pressure")};
     if (filling.pressure < liquid.vapour_pressure) {
       section.fail(path + ".pressure", "a full crack under less than the vapour pressure",
                    "vapour_pressure or more");
@@ -38,10 +39,11 @@ std::vector<CrackFilling> read_fillings(const Section& section, const CrackLiqui
   return fillings;
 }
 
-SealedWalls read_sealed_walls(const Section& section) {
-  std::vector<Region<2>> boxes;
+template <int D>
+SealedWalls<D> read_sealed_walls(const Section& section) {
+  std::vector<Region<D>> boxes;
   for (std::size_t k = 0; k < section.count("sealed"); ++k) {
-    Region<2> box;
+    Region<D> box;
     std::ranges::copy(section.numbers(fmt::format("sealed[{}].from", k)), box.from.begin());
     std::ranges::copy(section.numbers(fmt::format("sealed[{}].to", k)), box.to.begin());
     boxes.push_back(box);
@@ -49,34 +51,36 @@ SealedWalls read_sealed_walls(const Section& section) {
   if (!boxes.empty() && section.word("leak_off") == "none") {
     section.fail("sealed", "nothing leaks off", "leak_off: carter or pores");
   }
-  return SealedWalls(std::move(boxes));
+  return SealedWalls<D>(std::move(boxes));
 }
 
 /// Null where the rock takes nothing.
-std::unique_ptr<LeakOff> read_leak_off(const Section& section, std::shared_ptr<const Body<2>> body,
+template <int D>
+std::unique_ptr<LeakOff> read_leak_off(const Section& section, std::shared_ptr<const Body<D>> body,
                                        const CrackLiquid& liquid) {
   const std::string word = section.word("leak_off");
-  SealedWalls sealed = read_sealed_walls(section);
+  SealedWalls<D> sealed = read_sealed_walls<D>(section);
   if (word == "none") return nullptr;
   if (word == "pores") {
     const Section scene = section.scene();
     if (!scene.has("pore_flow")) {
       section.fail("leak_off", "the scene has no section 'pore_flow'", "none or carter");
     }
-    return std::make_unique<PoreLeakOff>(std::move(body), liquid.density, liquid.vapour_pressure,
-                                         std::move(sealed));
+    return std::make_unique<PoreLeakOff<D>>(std::move(body), liquid.density, liquid.vapour_pressure,
+                                            std::move(sealed));
   }
-  return std::make_unique<CarterLeakOff>(section.number("leak_off_coefficient"),
-                                         section.number("density"), std::move(sealed));
+  return std::make_unique<CarterLeakOff<D>>(section.number("leak_off_coefficient"),
+                                            section.number("density"), std::move(sealed));
 }
 
+template <int D>
 std::unique_ptr<PhysicsModule> make_network(const Section& section,
-                                            std::shared_ptr<const Body<2>> body) {
+                                            std::shared_ptr<const Body<D>> body) {
   const CrackLiquid liquid = read_liquid(section);
   auto leak_off = read_leak_off(section, body, liquid);
-  return std::make_unique<CrackNetwork>(std::move(body), liquid,
-                                        CrackInlets(read_crack_inlets(section), liquid),
-                                        read_fillings(section, liquid), std::move(leak_off));
+  return std::make_unique<CrackNetwork<D>>(std::move(body), liquid,
+                                           CrackInlets(read_crack_inlets(section), liquid),
+                                           read_fillings<D>(section, liquid), std::move(leak_off));
 }
 
 KeyTable network_keys() {
@@ -152,13 +156,10 @@ KeyTable network_keys() {
 ModuleType crack_network_type() {
   return {.section = "crack_fluid",
           .name = "network",
-          .meaning = "Fluid in cracks, on the facets that cut broken bonds. Implicit. 2D.",
+          .meaning = "Fluid in cracks, on the facets that cut broken bonds. Implicit.",
           .keys = network_keys(),
           .make = [](const Section& section, const AnyBody& any) {
-            if (const auto* body = std::get_if<std::shared_ptr<const Body<2>>>(&any)) {
-              return make_network(section, *body);
-            }
-            section.fail("type", "'network' in 3D", "dimension: 2");
+            return std::visit([&](const auto& body) { return make_network(section, body); }, any);
           }};
 }
 

@@ -6,16 +6,31 @@
 
 namespace perifrac {
 
-CrackGraph::CrackGraph(std::span<const CrackFacet<2>> facets) {
-  std::map<Vector<2>, std::vector<Branch>> at;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    const auto& [a, b] = facets[f];
-    length_.push_back(std::hypot(b[0] - a[0], b[1] - a[1]));
-    for (int end = 0; end < 2; ++end) {
-      at[facets[f][end]].push_back({static_cast<Index>(f), end});
-    }
+namespace {
+
+template <int D>
+double width(const FacetSide<D>& side) {
+  if constexpr (D == 2) return 1.0;
+  double square = 0.0;
+  for (int a = 0; a < D; ++a) {
+    const double along = side.back()[a] - side.front()[a];
+    square += along * along;
   }
-  crack_.resize(length_.size());
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+template <int D>
+void CrackGraph::build(std::span<const CrackFacet<D>> facets) {
+  std::map<FacetSide<D>, std::vector<Branch>> at;
+  for (const CrackFacet<D>& facet : facets) {
+    const auto number = static_cast<Index>(area_.size());
+    area_.push_back(perifrac::area<D>(facet));
+    const auto its = sides<D>(facet);
+    for (int k = 0; k < std::ssize(its); ++k) at[its[k]].push_back({number, k, width<D>(its[k])});
+  }
+  crack_.resize(area_.size());
   std::iota(crack_.begin(), crack_.end(), 0);
   const auto first_of = [&](Index facet) {
     while (crack_[facet] != facet) facet = crack_[facet];
@@ -33,10 +48,13 @@ CrackGraph::CrackGraph(std::span<const CrackFacet<2>> facets) {
   find_order();
 }
 
+template void CrackGraph::build<2>(std::span<const CrackFacet<2>>);
+template void CrackGraph::build<3>(std::span<const CrackFacet<3>>);
+
 /// From an end of every crack on, by the number of joints between: of a facet as far as can be from
 /// the first, found by going once from any.
 void CrackGraph::find_order() {
-  std::vector<std::vector<Index>> next(length_.size());
+  std::vector<std::vector<Index>> next(area_.size());
   for (std::size_t k = 0; k < joint_count(); ++k) {
     for (const Branch& a : joint(k)) {
       for (const Branch& b : joint(k)) {
@@ -44,7 +62,7 @@ void CrackGraph::find_order() {
       }
     }
   }
-  std::vector<bool> is_met(length_.size(), false);
+  std::vector<bool> is_met(area_.size(), false);
   const auto walk = [&](Index first) {
     std::vector<Index> met{first};
     is_met[first] = true;

@@ -26,21 +26,26 @@ CrackInlets::CrackInlets(std::vector<CrackInlet> inlets, const CrackLiquid& liqu
 void CrackInlets::locate(const PointSet& facets, const CrackGraph& graph) {
   for (std::size_t k = 0; k < inlets_.size(); ++k) {
     const auto distance = [&](Index f) {
-      return std::hypot(facets.position[0][f] - inlets_[k].at[0],
-                        facets.position[1][f] - inlets_[k].at[1]);
+      double square = 0.0;
+      for (int a = 0; a < facets.dimension; ++a) {
+        const double off = facets.position[a][f] - inlets_[k].at[a];
+        square += off * off;
+      }
+      return std::sqrt(square);
     };
     double nearest = infinity;
     for (Index f = 0; f < graph.facet_count(); ++f) nearest = std::min(nearest, distance(f));
     facets_[k].clear();
     share_[k].clear();
-    double length = 0.0;
+    double area = 0.0;
     for (Index f = 0; f < graph.facet_count(); ++f) {
-      if (distance(f) > nearest + 1e-6 * graph.length(f)) continue;
+      const double size = facets.dimension == 2 ? graph.area(f) : std::sqrt(graph.area(f));
+      if (distance(f) > nearest + 1e-6 * size) continue;
       facets_[k].push_back(f);
-      share_[k].push_back(graph.length(f));
-      length += graph.length(f);
+      share_[k].push_back(graph.area(f));
+      area += graph.area(f);
     }
-    for (double& share : share_[k]) share /= length;
+    for (double& share : share_[k]) share /= area;
   }
 }
 
@@ -94,10 +99,11 @@ KeyTable crack_inlet_keys() {
                   "opens into, which gives what the crack takes."},
       {.path = "inlets[].rate",
        .unit = "m^2/s",
-       .required = true,
-       .when = "holds=rate",
-       .meaning = "Volume per time at zero pressure, times the schedule; negative takes out what "
-                  "there is."},
+       .meaning = "rate: volume per time at zero pressure, times the schedule; negative takes out "
+                  "what there is."},
+      {.path = "inlets[].volume_rate",
+       .unit = "m^3/s",
+       .meaning = "In 3D, in place of rate: the same."},
       {.path = "inlets[].pressure",
        .unit = "Pa",
        .required = true,
@@ -108,14 +114,36 @@ KeyTable crack_inlet_keys() {
        .fallback = "one_wing",
        .words = {"one_wing", "both"},
        .meaning = "both: the rates feed two wings of a crack of which the scene holds one, which "
-                  "gets half."},
+                  "gets half. 2D."},
   };
   const KeyTable schedule = schedule_keys("inlets[].");
   keys.insert(keys.end(), schedule.begin(), schedule.end());
   return keys;
 }
 
+namespace {
+
+/// What an inlet brings, in the unit of the scene's dimension.
+double read_rate(const Section& section, const std::string& inlet) {
+  const bool flat = section.scene().integer("dimension") == 2;
+  const std::string own = inlet + (flat ? ".rate" : ".volume_rate");
+  const std::string other = inlet + (flat ? ".volume_rate" : ".rate");
+  if (section.has(other)) {
+    section.fail(other, flat ? "in 2D" : "in 3D", flat ? "rate in m^2/s" : "volume_rate in m^3/s");
+  }
+  if (!section.has(own)) {
+    section.fail(inlet, flat ? "missing key 'rate'" : "missing key 'volume_rate'",
+                 flat ? "a number in m^2/s" : "a number in m^3/s");
+  }
+  return section.number(own);
+}
+
+}  // namespace
+
 std::vector<CrackInlet> read_crack_inlets(const Section& section) {
+  if (section.scene().integer("dimension") == 3 && section.word("counts") == "both") {
+    section.fail("counts", "'both' in 3D", "one_wing: the rate of the part that the scene holds");
+  }
   const double part = section.word("counts") == "both" ? 0.5 : 1.0;
   std::vector<CrackInlet> inlets;
   for (std::size_t k = 0; k < section.count("inlets"); ++k) {
@@ -129,9 +157,11 @@ std::vector<CrackInlet> read_crack_inlets(const Section& section) {
     if (inlet.holds_pressure) {
       inlet.amount = section.number(path + ".pressure");
     } else if (!inlet.from_fluid) {
-      inlet.amount = part * section.number(path + ".rate");
+      inlet.amount = part * read_rate(section, path);
     } else if (!section.scene().has("fluid")) {
       section.fail(path + ".holds", "the scene has no section 'fluid'", "rate or pressure");
+    } else if (section.scene().integer("dimension") == 3) {
+      section.fail(path + ".holds", "'fluid' in 3D", "rate or pressure");
     }
     std::ranges::copy(section.numbers(path + ".at"), inlet.at.begin());
     inlets.push_back(std::move(inlet));

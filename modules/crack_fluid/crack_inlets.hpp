@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,9 +16,10 @@ namespace perifrac {
 /// Where fluid is pumped into a crack, at the facets nearest to a place.
 struct CrackInlet {
   std::string name;
-  Vector<2> at;
+  std::array<double, 3> at;  ///< the third: 3D [m]
   bool holds_pressure;
-  double amount;  ///< pressure [Pa] or volume per time at zero pressure [m^2/s], times the schedule
+  double amount;  ///< pressure [Pa] or volume per time at zero pressure [m^3/s], in 2D per metre,
+                  ///< times the schedule
   Schedule schedule;
   bool from_fluid = false;  ///< at the pressure of the free fluid there (crack_mouths.hpp)
 };

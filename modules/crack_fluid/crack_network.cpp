@@ -24,31 +24,35 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 
 }  // namespace
 
-CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiquid& liquid,
-                           CrackInlets inlets, std::vector<CrackFilling> fillings,
-                           std::unique_ptr<LeakOff> leak_off)
+template <int D>
+CrackNetwork<D>::CrackNetwork(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid,
+                              CrackInlets inlets, std::vector<CrackFilling<D>> fillings,
+                              std::unique_ptr<LeakOff> leak_off)
     : body_(std::move(body)),
       liquid_(liquid),
       inlets_(std::move(inlets)),
       mouths_(inlets_),
       fillings_(std::move(fillings)),
       leak_off_(std::move(leak_off)),
-      pores_(dynamic_cast<PoreLeakOff*>(leak_off_.get())) {
+      pores_(dynamic_cast<PoreLeakOff<D>*>(leak_off_.get())) {
   using enum PortDirection;
   using enum PortKind;
   using enum PortRole;
+  const std::string kilograms = unit_of_total("kg", D), joules = unit_of_total("J", D);
+  const std::string volume = D == 2 ? "m^2" : "m^3";
   add_port(Quantity::opening, {"free_crack_opening", "m", in, intensive, property});
   add_port(Quantity::pressure, {"crack_pressure", "Pa", out});
-  add_port(Quantity::mass, {"crack_fluid_mass", "kg/m", out, extensive});
+  add_port(Quantity::mass, {"crack_fluid_mass", kilograms, out, extensive});
   add_port(Quantity::wetted_fraction, {"crack_wetted_fraction", "1", out});
-  add_port(Quantity::flow_rate, {"crack_flow_rate", "m^2/s", out});
+  if (D == 2) add_port(Quantity::flow_rate, {"crack_flow_rate", "m^2/s", out});
   add_port(Quantity::viscosity, {"crack_viscosity", "Pa s", out, intensive, property});
   if (leak_off_ && leak_off_->is_sink()) {
     add_port(Quantity::leak_off, {"crack_leak_off", "m/s^0.5", out, intensive, property});
   }
-  add_port(Quantity::wetted_length, {"wetted_length", "m", out});
-  add_port(Quantity::fluid_lag, {"fluid_lag", "m", out});
-  add_port(Quantity::volume, {"crack_volume", "m^2", out});
+  add_port(Quantity::wetted_area,
+           {D == 2 ? "wetted_length" : "wetted_area", D == 2 ? "m" : "m^2", out});
+  add_port(Quantity::dry_area, {D == 2 ? "fluid_lag" : "dry_area", D == 2 ? "m" : "m^2", out});
+  add_port(Quantity::volume, {"crack_volume", volume, out});
   add_port(Quantity::mean_pressure, {"mean_crack_pressure", "Pa", out});
   for (std::size_t k = 0; k < inlets_.all().size(); ++k) {
     const std::string name = "inlet_" + inlets_.all()[k].name;
@@ -56,45 +60,49 @@ CrackNetwork::CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiqui
     add_port(Quantity::inlet_opening, {name + "_opening", "m", out}, k);
   }
   if (leak_off_) {
-    add_port(Quantity::leak_off_volume, {"leak_off_volume", "m^2", out});
-    add_port(Quantity::leak_off_rate, {"leak_off_rate", "m^2/s", out});
+    add_port(Quantity::leak_off_volume, {"leak_off_volume", volume, out});
+    add_port(Quantity::leak_off_rate, {"leak_off_rate", volume + "/s", out});
   }
-  add_port(Quantity::stored_mass, {"crack_fluid_stored_mass", "kg/m", out, extensive, mass_stored});
+  add_port(Quantity::stored_mass,
+           {"crack_fluid_stored_mass", kilograms, out, extensive, mass_stored});
   add_port(Quantity::injected_mass,
-           {"injected_crack_fluid_mass", "kg/m", out, extensive, mass_gained});
+           {"injected_crack_fluid_mass", kilograms, out, extensive, mass_gained});
   if (leak_off_) {
-    add_port(Quantity::leaked_mass, {"leaked_crack_fluid_mass", "kg/m", out, extensive,
+    add_port(Quantity::leaked_mass, {"leaked_crack_fluid_mass", kilograms, out, extensive,
                                      leak_off_->is_sink() ? mass_gained : PortRole::field});
   }
   if (pores_ != nullptr) {
     add_port(Quantity::pore_pressure, {"pore_pressure", "Pa", in});
     add_port(Quantity::pore_mobility, {"pore_mobility", "m^2/(Pa s)", in});
-    add_port(Quantity::exchanged_mass, {"exchanged_mass", "kg/m", out, extensive});
+    add_port(Quantity::exchanged_mass, {"exchanged_mass", kilograms, out, extensive});
   }
   if (mouths_.any()) {
     add_port(Quantity::mouth_pressure, {"mouth_pressure", "Pa", in, intensive, property});
     add_port(Quantity::mouth_stiffness, {"mouth_stiffness", "Pa m/kg", in, intensive, property});
-    add_port(Quantity::mouth_intake, {"mouth_intake", "kg/m", out, extensive, property});
-    add_port(Quantity::taken_mass, {"mass_taken_by_cracks", "kg/m", out, extensive, mass_stored});
+    add_port(Quantity::mouth_intake, {"mouth_intake", kilograms, out, extensive, property});
+    add_port(Quantity::taken_mass,
+             {"mass_taken_by_cracks", kilograms, out, extensive, mass_stored});
   }
-  add_port(Quantity::energy, {"crack_fluid_energy", "J/m", out, extensive, energy_stored});
-  add_port(Quantity::work, {"crack_fluid_work", "J/m", out, extensive, energy_gained});
+  add_port(Quantity::energy, {"crack_fluid_energy", joules, out, extensive, energy_stored});
+  add_port(Quantity::work, {"crack_fluid_work", joules, out, extensive, energy_gained});
   add_port(Quantity::dissipation,
-           {"crack_flow_dissipation", "J/m", out, extensive, energy_dissipated});
+           {"crack_flow_dissipation", joules, out, extensive, energy_dissipated});
   add_port(Quantity::steps, {"crack_flow_steps", "1", out, extensive, PortRole::work});
   add_port(Quantity::iterations, {"crack_newton_iterations", "1", out, extensive, PortRole::work});
   scalars_.resize(ports_.size());
 }
 
-void CrackNetwork::add_port(Quantity quantity, Port port, std::size_t inlet) {
+template <int D>
+void CrackNetwork<D>::add_port(Quantity quantity, Port port, std::size_t inlet) {
   quantities_.push_back(quantity);
   inlet_of_.push_back(inlet);
   ports_.push_back(std::move(port));
 }
 
 /// Facets are only added; what is new is dry.
-void CrackNetwork::match_facets() {
-  const BondState<2>& bonds = body_->bond_state();
+template <int D>
+void CrackNetwork<D>::match_facets() {
+  const BondState<D>& bonds = body_->bond_state();
   if (version_ != bonds.facet_points().version) {
     version_ = bonds.facet_points().version;
     lubrication_ = Lubrication(liquid_, CrackGraph(bonds.facets()));
@@ -105,12 +113,13 @@ void CrackNetwork::match_facets() {
   unknown_.resize(count, liquid_.empty());
   settled_.resize(count, liquid_.empty());
   aperture_.resize(count, liquid_.residual_aperture);
-  if (leak_off_) leak_off_->match(bonds, lubrication_.graph());
+  if (leak_off_) leak_off_->match(bonds.facet_points(), lubrication_.graph());
   for (std::vector<double>* input : {&opening_, &opening_rate_}) input->resize(count);
   if (opening_slope_.size() != count * count) opening_slope_.assign(count * count, 0.0);
 }
 
-PortView CrackNetwork::port(PortId id) {
+template <int D>
+PortView CrackNetwork<D>::port(PortId id) {
   match_facets();
   const PointSet* const facets = &body_->bond_state().facet_points();
   const Quantity quantity = quantities_[id];
@@ -142,7 +151,8 @@ PortView CrackNetwork::port(PortId id) {
   }
 }
 
-std::vector<double>& CrackNetwork::field(Quantity quantity) {
+template <int D>
+std::vector<double>& CrackNetwork<D>::field(Quantity quantity) {
   const std::size_t count = mass_.size();
   switch (quantity) {
     case Quantity::pressure:
@@ -167,18 +177,20 @@ std::vector<double>& CrackNetwork::field(Quantity quantity) {
   }
 }
 
+template <int D>
 template <class Value>
-void CrackNetwork::set_where_wet(std::vector<double>& field, Value&& value_of) const {
+void CrackNetwork<D>::set_where_wet(std::vector<double>& field, Value&& value_of) const {
   field.resize(mass_.size());
   for (std::size_t f = 0; f < mass_.size(); ++f) {
     field[f] = liquid_.fill(unknown_[f]) < 0.5 ? 0.0 : value_of(static_cast<Index>(f));
   }
 }
 
-void CrackNetwork::find_flow_rate() {
+template <int D>
+void CrackNetwork<D>::find_flow_rate() {
   flow_rate_.assign(mass_.size(), 0.0);
   const auto leaves = [&](const CrackGraph::Branch& at, double flux) {
-    flow_rate_[at.facet] += (at.end == 1 ? 0.5 : -0.5) * flux / liquid_.density;
+    flow_rate_[at.facet] += (at.side == 1 ? 0.5 : -0.5) * flux / liquid_.density;
   };
   lubrication_.for_each_flux(
       field(Quantity::pressure), aperture_,
@@ -188,7 +200,8 @@ void CrackNetwork::find_flow_rate() {
       });
 }
 
-double CrackNetwork::scalar(Quantity quantity, PortId id) const {
+template <int D>
+double CrackNetwork<D>::scalar(Quantity quantity, PortId id) const {
   const CrackGraph& graph = lubrication_.graph();
   const auto sum = [&](auto&& term) {
     CompensatedSum sum;
@@ -204,10 +217,10 @@ double CrackNetwork::scalar(Quantity quantity, PortId id) const {
   switch (quantity) {
     case Quantity::volume:
       return extent().volume;
-    case Quantity::wetted_length:
-      return extent().wetted_length;
-    case Quantity::fluid_lag:
-      return extent().fluid_lag;
+    case Quantity::wetted_area:
+      return extent().wetted_area;
+    case Quantity::dry_area:
+      return extent().dry_area;
     case Quantity::mean_pressure:
       return extent().mean_pressure;
     case Quantity::inlet_pressure:
@@ -241,7 +254,8 @@ double CrackNetwork::scalar(Quantity quantity, PortId id) const {
   }
 }
 
-void CrackNetwork::initialize(double) {
+template <int D>
+void CrackNetwork<D>::initialize(double) {
   match_facets();
   std::ranges::fill(mass_, 0.0);
   std::ranges::fill(unknown_, liquid_.empty());
@@ -254,22 +268,29 @@ void CrackNetwork::initialize(double) {
   leak_off_rate_ = 0.0;
 }
 
-double CrackNetwork::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
+template <int D>
+double CrackNetwork<D>::stable_time_step() const {
+  return std::numeric_limits<double>::infinity();
+}
 
 /// Where nothing flows, as the window begins.
-LubricationStep CrackNetwork::at_rest(const TimeWindow& window) const {
+template <int D>
+LubricationStep CrackNetwork<D>::at_rest(const TimeWindow& window) const {
   return {.time = {window.begin, window.begin},
           .opening = {opening_, opening_rate_, opening_slope_, window.end},
           .mass = mass_};
 }
 
 /// Cracks of the start, now that their opening is known. Their fluid counts as injected.
-void CrackNetwork::fill_at_start(const TimeWindow& window) {
+template <int D>
+void CrackNetwork<D>::fill_at_start(const TimeWindow& window) {
   has_begun_ = 1;
   const PointSet& facets = body_->bond_state().facet_points();
   for (std::size_t f = 0; f < mass_.size(); ++f) {
     for (const auto& [box, pressure] : fillings_) {
-      if (box.contains({facets.position[0][f], facets.position[1][f]})) unknown_[f] = pressure;
+      Vector<D> place;
+      for (int a = 0; a < D; ++a) place[a] = facets.position[a][f];
+      if (box.contains(place)) unknown_[f] = pressure;
     }
   }
   lubrication_.evaluate(at_rest(window), vector_of(unknown_));
@@ -282,7 +303,8 @@ void CrackNetwork::fill_at_start(const TimeWindow& window) {
   settled_ = unknown_;
 }
 
-double CrackNetwork::advance(const TimeWindow& window) {
+template <int D>
+double CrackNetwork<D>::advance(const TimeWindow& window) {
   match_facets();
   if (mass_.empty()) return window.end;
   if (has_begun_ == 0) fill_at_start(window);
@@ -314,7 +336,8 @@ double CrackNetwork::advance(const TimeWindow& window) {
 
 /// Another place for Newton to begin: facets that are dry are under the largest pressure next to
 /// them, as a new one behind a thin fluid is at once.
-std::vector<double> CrackNetwork::filled_from_neighbours() const {
+template <int D>
+std::vector<double> CrackNetwork<D>::filled_from_neighbours() const {
   std::vector<double> guess = unknown_;
   const CrackGraph& graph = lubrication_.graph();
   for (std::size_t k = 0; k < graph.joint_count(); ++k) {
@@ -329,7 +352,8 @@ std::vector<double> CrackNetwork::filled_from_neighbours() const {
 }
 
 /// Tries one step; false where a shorter one is called for. Throws NumericalError where none is.
-bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
+template <int D>
+bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
   const LubricationStep step{.time = time,
                              .opening = {opening_, opening_rate_, opening_slope_, window.end},
                              .mass = mass_,
@@ -353,7 +377,8 @@ bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
   if (time.length() > shortest_part * window.length()) return false;
   const PointSet& facets = body_->bond_state().facet_points();
   const Index f = report.worst;
-  const std::array place = {facets.position[0][f], facets.position[1][f]};
+  Vector<D> place;
+  for (int a = 0; a < D; ++a) place[a] = facets.position[a][f];
   throw NumericalError("crack_pressure", fmt::format("facet, {}", describe_point(f, place)),
                        time.begin, "no balance of mass, in however short a step,");
 }
@@ -361,7 +386,8 @@ bool CrackNetwork::step(const TimeWindow& time, const TimeWindow& window) {
 /// What has moved is what counts: mass is kept to rounding whatever Newton left over. What comes in
 /// has the mean enthalpy of beginning and end; where a facet was not full, what it received by
 /// mass. What inlets bring and facets did not receive has gone into the flow.
-void CrackNetwork::book(const Eigen::VectorXd& v) {
+template <int D>
+void CrackNetwork<D>::book(const Eigen::VectorXd& v) {
   const bool is_sink = leak_off_ && leak_off_->is_sink();
   const auto energy_of = [&](double mass, double unknown) {
     return mass * liquid_.internal_energy(liquid_.pressure(unknown));
@@ -393,7 +419,8 @@ void CrackNetwork::book(const Eigen::VectorXd& v) {
   dissipation_.add(-handed_over);
 }
 
-void CrackNetwork::visit_state(StateVisitor& visitor) {
+template <int D>
+void CrackNetwork<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("crack_fluid_mass", mass_);
   visitor.visit("crack_pressure", unknown_);
   visitor.visit("crack_pressure_settled", settled_);
@@ -410,6 +437,12 @@ void CrackNetwork::visit_state(StateVisitor& visitor) {
   leak_off_->visit_state(visitor);
 }
 
-void CrackNetwork::on_restored(double) { match_facets(); }
+template <int D>
+void CrackNetwork<D>::on_restored(double) {
+  match_facets();
+}
+
+template class CrackNetwork<2>;
+template class CrackNetwork<3>;
 
 }  // namespace perifrac

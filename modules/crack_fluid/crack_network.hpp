@@ -18,12 +18,13 @@
 namespace perifrac {
 
 /// A part of the crack that holds fluid at the start.
+template <int D>
 struct CrackFilling {
-  Region<2> box;
+  Region<D> box;
   double pressure;  ///< [Pa]
 };
 
-/// Fluid in the cracks of a 2D body, one unknown a facet, implicit: one backward Euler step a
+/// Fluid in the cracks of a body, one unknown a facet, implicit: one backward Euler step a
 /// window, together with what the facets' opening answers to it. Facets that are added are dry.
 ///
 /// Ports, on the facets ("crack"): in `free_crack_opening` [m], takes rate and a slope of count *
@@ -40,12 +41,14 @@ struct CrackFilling {
 /// in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`, `pore_mobility`
 /// [m^2/(Pa s)]; out `exchanged_mass` [kg/m]. With inlets from free fluid, on their mouths: in
 /// `mouth_pressure` [Pa], `mouth_stiffness` [Pa m/kg]; out `mouth_intake` [kg/m]; for the ledger
-/// `mass_taken_by_cracks` (negative) [kg/m].
+/// `mass_taken_by_cracks` (negative) [kg/m]. In 3D without the /m of totals, and m^3 for m^2;
+/// `wetted_area` and `dry_area` [m^2] in place of the two lengths, and no `crack_flow_rate`.
+template <int D>
 class CrackNetwork final : public PhysicsModule {
  public:
   /// `leak_off` may be null.
-  CrackNetwork(std::shared_ptr<const Body<2>> body, const CrackLiquid& liquid, CrackInlets inlets,
-               std::vector<CrackFilling> fillings, std::unique_ptr<LeakOff> leak_off);
+  CrackNetwork(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid, CrackInlets inlets,
+               std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off);
 
   std::span<const Port> ports() const override { return ports_; }
   PortView port(PortId id) override;
@@ -65,8 +68,8 @@ class CrackNetwork final : public PhysicsModule {
     viscosity,
     leak_off,
     volume,
-    wetted_length,
-    fluid_lag,
+    wetted_area,
+    dry_area,
     mean_pressure,
     inlet_pressure,
     inlet_opening,
@@ -106,13 +109,13 @@ class CrackNetwork final : public PhysicsModule {
   }
   double leak_off_volume() const { return -leaked_.value() / liquid_.density; }  ///< [m^2]
 
-  std::shared_ptr<const Body<2>> body_;
+  std::shared_ptr<const Body<D>> body_;
   CrackLiquid liquid_;
   CrackInlets inlets_;
   CrackMouths mouths_;
-  std::vector<CrackFilling> fillings_;
+  std::vector<CrackFilling<D>> fillings_;
   std::unique_ptr<LeakOff> leak_off_;
-  PoreLeakOff* pores_;  ///< which is the leak-off, or null
+  PoreLeakOff<D>* pores_;  ///< which is the leak-off, or null
   std::vector<Port> ports_;
   std::vector<Quantity> quantities_;   ///< by port
   std::vector<std::size_t> inlet_of_;  ///< by port; 0 where it is of none

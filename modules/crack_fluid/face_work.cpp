@@ -7,8 +7,8 @@ void FaceWork::clear() { facets_.clear(); }
 void FaceWork::add_new(const Lubrication& before) {
   for (Index f = static_cast<Index>(facets_.size()); f < before.graph().facet_count(); ++f) {
     const double pressure = before.face_pressure()[f];
-    const bool follows = pressure > 0.0 && !before.is_full(f) && before.is_beside_full(f);
-    facets_.push_back({follows ? 0.0 : before.aperture()[f], pressure, follows});
+    const bool follows = !before.is_full(f) && before.is_beside_full(f);
+    facets_.push_back({follows ? 0.0 : before.opening()[f], pressure, follows});
   }
 }
 
@@ -18,22 +18,21 @@ bool FaceWork::knows_all_of(const Lubrication& now) const {
 
 double FaceWork::book(const Lubrication& now, Index f) {
   Facet& facet = facets_[f];
-  const double aperture = now.aperture()[f], pressure = now.face_pressure()[f];
+  const double opening = now.opening()[f], pressure = now.face_pressure()[f];
   if (facet.fluid_follows) {
     if (!now.is_full(f)) return 0.0;
     facet.pressure = pressure;
   }
   const double mean = 0.5 * (facet.pressure + pressure);
-  const double work = now.graph().length(f) * mean * (aperture - facet.aperture);
-  facet = {aperture, pressure, false};
+  const double work = now.graph().area(f) * mean * (opening - facet.opening);
+  facet = {opening, pressure, false};
   return work;
 }
 
 void FaceWork::visit_state(StateVisitor& visitor) {
   std::vector<double> numbers;
   for (const Facet& facet : facets_) {
-    numbers.insert(numbers.end(),
-                   {facet.aperture, facet.pressure, facet.fluid_follows ? 1.0 : 0.0});
+    numbers.insert(numbers.end(), {facet.opening, facet.pressure, facet.fluid_follows ? 1.0 : 0.0});
   }
   visitor.visit("face_work", numbers);
   facets_.resize(numbers.size() / 3);

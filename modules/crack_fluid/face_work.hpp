@@ -8,11 +8,12 @@
 namespace perifrac {
 
 /// What fluid does to the faces of a crack, step by step: the mean of the pressure on a facet
-/// before and after, that of contact included, times what its aperture has grown. Between a linear
-/// body and its cracks that is exact, in the sum over all facets, however far they open.
+/// before and after, that of contact included, times what it has opened (not its aperture, for
+/// what a residual aperture takes in moves no rock). Between a linear body and its cracks that is
+/// exact, in the sum over all facets, however far they open.
 ///
-/// A new facet whose dry faces would stay closed beside a full one is opened by fluid that follows
-/// the tip, under the pressure that it comes to hold.
+/// A new facet beside a full one is opened by fluid that follows the tip, under the pressure that
+/// it comes to hold.
 class FaceWork {
  public:
   void clear();
@@ -20,14 +21,14 @@ class FaceWork {
   void add_new(const Lubrication& before);
   bool knows_all_of(const Lubrication& now) const;
 
-  /// Work on facet f since the last time [J/m].
+  /// Work on facet f since the last time [J], in 2D per metre.
   double book(const Lubrication& now, Index f);
 
   void visit_state(StateVisitor& visitor);
 
  private:
   struct Facet {
-    double aperture;     ///< [m]
+    double opening;      ///< [m]
     double pressure;     ///< on the faces [Pa]
     bool fluid_follows;  ///< and has not come yet
   };

@@ -6,14 +6,15 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
-#include "core/geometry/bond_state.hpp"
+#include "core/module/point_set.hpp"
 #include "core/module/time_window.hpp"
 #include "core/state/state_visitor.hpp"
 #include "modules/crack_fluid/crack_graph.hpp"
 
 namespace perifrac {
 
-/// What leaves the facets over a step [kg/m], and how that follows their pressures and fills.
+/// What leaves the facets over a step [kg], in 2D per metre, and how that follows their pressures
+/// and fills.
 struct LeakedFluid {
   Eigen::VectorXd mass;
   Eigen::VectorXd by_fill;
@@ -29,14 +30,14 @@ class LeakOff {
   /// Carter's C_L of one side, as tips feel it [m/s^0.5]; 0 where there is none.
   virtual double coefficient(Index /*facet*/) const { return 0.0; }
   /// Follows the facets; `graph` must last.
-  virtual void match(const BondState<2>& bonds, const CrackGraph& graph) = 0;
+  virtual void match(const PointSet& facets, const CrackGraph& graph) = 0;
   virtual void begin_window(const TimeWindow&) {}
   virtual void begin(const TimeWindow& step) = 0;
   /// Over the step that has begun, by what the facets hold at its end. Appends to by_pressure.
   virtual void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
                         LeakedFluid& leaked) = 0;
-  /// The step that has begun stands as it was last evaluated; facets now hold these masses [kg/m].
-  /// Returns the energy that the leaked fluid still has [J/m].
+  /// The step that has begun stands as it was last evaluated; facets now hold these masses [kg].
+  /// Returns the energy that the leaked fluid still has [J].
   virtual double accept(std::span<const double> mass) = 0;
   virtual void visit_state(StateVisitor& visitor) = 0;
 };

@@ -76,7 +76,7 @@ void Lubrication::open(const LubricationStep& step) {
 void Lubrication::store(const LubricationStep& step) {
   for (Index f = 0; f < graph_.facet_count(); ++f) {
     aperture_[f] = std::max(opening_[f], liquid_.residual_aperture);
-    capacity_[f] = liquid_.density * graph_.length(f) * aperture_[f];
+    capacity_[f] = liquid_.density * graph_.area(f) * aperture_[f];
     const double compression = 1.0 + pressure_[f] / liquid_.bulk_modulus;
     const double mass = capacity_[f] * compression * fill_[f];
     residual_[f] = mass - step.mass[f];
@@ -112,8 +112,10 @@ void Lubrication::find_conductances(std::span<const CrackGraph::Branch> joint,
       partner_[a] = other;
     }
     const double w = 0.5 * (aperture[joint[a].facet] + widest);
-    const double half_length = 0.5 * graph_.length(joint[a].facet);
-    conductance_[a] = w * w * w / (12.0 * liquid_.viscosity * half_length);
+    // From the middle to the side is half the area over the side's width.
+    const double width = joint[a].width;
+    const double way = 0.5 * graph_.area(joint[a].facet) / width;
+    conductance_[a] = width * w * w * w / (12.0 * liquid_.viscosity * way);
     growth_[a] = 1.5 * conductance_[a] / w;
     sum_ += conductance_[a];
   }
@@ -171,7 +173,7 @@ void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) 
   for (const auto& [f, least, most, target, stiffness] : step.inflows) {
     const double without = residual_[f];
     inflow_[f] = std::clamp(without, least, most);
-    const double weight = liquid_.density * graph_.length(f) * graph_.length(f) /
+    const double weight = liquid_.density * graph_.area(f) * graph_.area(f) /
                           std::max(std::abs(target), smallest_pressure);
     const double held = weight * (v[f] - target + stiffness * without);
     residual_[f] = std::clamp(held, without - most, without - least);

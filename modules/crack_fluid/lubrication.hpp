@@ -33,9 +33,9 @@ struct CrackOpening {
   double end;                     ///< [s]
 };
 
-/// Fluid that comes in at a facet over a step: `least` to `most` [kg/m], within which it holds the
-/// pressure `target` [Pa], less `stiffness` [Pa m/kg] times what comes in; above that it takes the
-/// least, below it the most.
+/// Fluid that comes in at a facet over a step: `least` to `most` [kg], in 2D per metre, within
+/// which it holds the pressure `target` [Pa], less `stiffness` [Pa m/kg] times what comes in; above
+/// that it takes the least, below it the most.
 struct FacetInflow {
   Index facet;
   double least;
@@ -55,8 +55,8 @@ struct LubricationStep {
 
 /// The mass balance of every facet at the unknowns v of crack_liquid.hpp:
 ///   R_f = m_f(v) - m_f^n + dt sum_g J_fg + leak_f - inflow_f,
-///   m = rho(p) length max(w, residual) fill,   J_fg = rho(upstream) G_fg (p_f - p_g).
-/// Flow follows the cubic law w^3 / (12 mu) from centre to joint to centre, w the aperture at the
+///   m = rho(p) area max(w, residual) fill,   J_fg = rho(upstream) G_fg (p_f - p_g).
+/// Flow follows the cubic law w^3 / (12 mu) from middle to joint to middle, w the aperture at the
 /// joint: the mean of a facet and the widest other one that it meets there. Where k facets meet,
 /// the vertex between them is eliminated, G_fg = c_f c_g / sum c. A facet that is not full is
 /// under the least pressure there is, so that fluid leaves full facets alone, as it must.
@@ -77,7 +77,7 @@ class Lubrication {
   const Eigen::VectorXd& face_pressure() const { return face_pressure_; }  ///< with contact's [Pa]
   /// d(opening) / d(pressure), with the faces closed that are closed [m/Pa].
   const Eigen::MatrixXd& opening_slope() const { return opening_slope_; }
-  const Eigen::VectorXd& capacity() const { return capacity_; }   ///< rho_0 length aperture
+  const Eigen::VectorXd& capacity() const { return capacity_; }   ///< rho_0 area aperture
   const Eigen::VectorXd& leaked() const { return leaked_.mass; }  ///< over the step [kg/m]
   const Eigen::VectorXd& inflow() const { return inflow_; }       ///< by inlets [kg/m]
   /// What flows and leaks out over the step, inlets apart [kg/m].

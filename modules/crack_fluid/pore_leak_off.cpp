@@ -11,14 +11,18 @@ namespace perifrac {
 namespace {
 
 /// m_i of the intact family.
-double weighted_volume(const Family<2>& family, Index i) {
-  return sum_over_bonds<1, 2>(family, i, [](Index, const Vector<2>& xi, double weight) {
-    return std::array{weight * (xi[0] * xi[0] + xi[1] * xi[1])};
+template <int D>
+double weighted_volume(const Family<D>& family, Index i) {
+  return sum_over_bonds<1, D>(family, i, [](Index, const Vector<D>& xi, double weight) {
+    double square = 0.0;
+    for (int a = 0; a < D; ++a) square += xi[a] * xi[a];
+    return std::array{weight * square};
   })[0];
 }
 
 /// omega V_j of the bond from i to j.
-double weight_of(const Family<2>& family, Index i, Index j) {
+template <int D>
+double weight_of(const Family<D>& family, Index i, Index j) {
   const auto begin = family.other.begin() + family.offset[i];
   const auto end = family.other.begin() + family.offset[i + 1];
   return family.weight[std::lower_bound(begin, end, j) - family.other.begin()];
@@ -26,8 +30,9 @@ double weight_of(const Family<2>& family, Index i, Index j) {
 
 }  // namespace
 
-PoreLeakOff::PoreLeakOff(std::shared_ptr<const Body<2>> body, double density,
-                         double vapour_pressure, SealedWalls sealed)
+template <int D>
+PoreLeakOff<D>::PoreLeakOff(std::shared_ptr<const Body<D>> body, double density,
+                            double vapour_pressure, SealedWalls<D> sealed)
     : body_(std::move(body)),
       family_(body_->family(0)),
       density_(density),
@@ -35,31 +40,35 @@ PoreLeakOff::PoreLeakOff(std::shared_ptr<const Body<2>> body, double density,
       sealed_(std::move(sealed)),
       received_(body_->points().size()) {}
 
-PortView PoreLeakOff::pore_pressure() {
+template <int D>
+PortView PoreLeakOff<D>::pore_pressure() {
   for (auto* input : {&pressure_, &pressure_rate_, &pressure_slope_}) {
     input->resize(body_->points().size());
   }
   return {&body_->point_set(), pressure_, pressure_rate_, pressure_slope_};
 }
 
-PortView PoreLeakOff::pore_mobility() {
+template <int D>
+PortView PoreLeakOff<D>::pore_mobility() {
   mobility_.resize(body_->points().size());
   return {&body_->point_set(), mobility_};
 }
 
-void PoreLeakOff::match(const BondState<2>& bonds, const CrackGraph&) {
+template <int D>
+void PoreLeakOff<D>::match(const PointSet& facets, const CrackGraph&) {
+  const BondState<D>& bonds = body_->bond_state();
   if (version_ == bonds.version()) return;
   version_ = bonds.version();
-  sealed_.match(bonds);
+  sealed_.match(facets);
   find_contacts(bonds);
 }
 
-void PoreLeakOff::find_contacts(const BondState<2>& bonds) {
-  constexpr double d = 2.0;
+template <int D>
+void PoreLeakOff<D>::find_contacts(const BondState<D>& bonds) {
   std::map<std::pair<Index, Index>, double> factors;  // by facet and point
   for (const auto& [i, j, facet] : bonds.broken()) {
     if (facet == no_facet || sealed_.contain(facet)) continue;
-    const double factor = 4.0 * d * weight_of(*family_, i, j) * body_->points().volume[i] /
+    const double factor = 4.0 * D * weight_of(*family_, i, j) * body_->points().volume[i] /
                           (weighted_volume(*family_, i) + weighted_volume(*family_, j));
     for (const Index point : {i, j}) factors[{facet, point}] += factor;
   }
@@ -77,14 +86,16 @@ void PoreLeakOff::find_contacts(const BondState<2>& bonds) {
   for (auto* field : {&conductance_, &flux_}) field->resize(contacts_.size());
 }
 
-void PoreLeakOff::begin_window(const TimeWindow& window) {
+template <int D>
+void PoreLeakOff<D>::begin_window(const TimeWindow& window) {
   window_ = window;
   std::ranges::fill(received_, 0.0);
   pore_pressure();  // where nobody links them, the pores are empty and closed
   pore_mobility();
 }
 
-void PoreLeakOff::begin(const TimeWindow& step) {
+template <int D>
+void PoreLeakOff<D>::begin(const TimeWindow& step) {
   step_ = step;
   for (std::size_t n = 0; n < touched_.size(); ++n) {
     const Index i = touched_[n];
@@ -94,8 +105,9 @@ void PoreLeakOff::begin(const TimeWindow& step) {
   }
 }
 
-void PoreLeakOff::evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
-                           LeakedFluid& leaked) {
+template <int D>
+void PoreLeakOff<D>::evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
+                              LeakedFluid& leaked) {
   const double length = step_.length();
   std::ranges::fill(sum_, 0.0);
   std::ranges::fill(mean_, 0.0);
@@ -124,7 +136,8 @@ void PoreLeakOff::evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorX
 }
 
 /// Facets that touch the same point feel each other through its pressure.
-void PoreLeakOff::differentiate(LeakedFluid& leaked) const {
+template <int D>
+void PoreLeakOff<D>::differentiate(LeakedFluid& leaked) const {
   std::size_t first = 0;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const Index n = contacts_[k].touched;
@@ -138,7 +151,8 @@ void PoreLeakOff::differentiate(LeakedFluid& leaked) const {
   }
 }
 
-double PoreLeakOff::accept(std::span<const double>) {
+template <int D>
+double PoreLeakOff<D>::accept(std::span<const double>) {
   double energy = 0.0;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const Index n = contacts_[k].touched;
@@ -147,5 +161,8 @@ double PoreLeakOff::accept(std::span<const double>) {
   }
   return energy;
 }
+
+template class PoreLeakOff<2>;
+template class PoreLeakOff<3>;
 
 }  // namespace perifrac

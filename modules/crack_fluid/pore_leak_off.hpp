@@ -19,13 +19,14 @@ namespace perifrac {
 /// (0.7) spacings within the rock. A facet that is not full gives none.
 /// The pores' pressure answers what they get at once, p_i = b_i + s_i sum J_i, as the port
 /// `pore_pressure` says: a lagged one would be an explicit step of diffusion.
+template <int D>
 class PoreLeakOff final : public LeakOff {
  public:
-  PoreLeakOff(std::shared_ptr<const Body<2>> body, double density, double vapour_pressure,
-              SealedWalls sealed = SealedWalls());
+  PoreLeakOff(std::shared_ptr<const Body<D>> body, double density, double vapour_pressure,
+              SealedWalls<D> sealed = SealedWalls<D>());
 
   bool is_sink() const override { return false; }
-  void match(const BondState<2>& bonds, const CrackGraph& graph) override;
+  void match(const PointSet& facets, const CrackGraph& graph) override;
   void begin_window(const TimeWindow& window) override;
   void begin(const TimeWindow& step) override;
   void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
@@ -45,14 +46,14 @@ class PoreLeakOff final : public LeakOff {
     double factor;  ///< omega 4d / (m_i + m_j) V_i V_j, summed
   };
 
-  void find_contacts(const BondState<2>& bonds);
+  void find_contacts(const BondState<D>& bonds);
   void differentiate(LeakedFluid& leaked) const;
 
-  std::shared_ptr<const Body<2>> body_;
-  std::shared_ptr<const Family<2>> family_;
+  std::shared_ptr<const Body<D>> body_;
+  std::shared_ptr<const Family<D>> family_;
   double density_;
   double vapour_pressure_;
-  SealedWalls sealed_;
+  SealedWalls<D> sealed_;
   std::uint64_t version_ = 0;      ///< of the bonds that the contacts are made of
   std::vector<Contact> contacts_;  ///< sorted by point
   std::vector<Index> touched_;     ///< points with contacts

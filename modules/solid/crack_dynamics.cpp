@@ -15,8 +15,8 @@ CrackDynamics::CrackDynamics(std::shared_ptr<Family<2>> family, double spacing,
                              std::shared_ptr<BreakableElasticity<2>> elastic, BondState<2>& bonds,
                              std::optional<InitialStress<2>> initial_stress,
                              std::vector<CrackFacet<2>> seeds, double release)
-    : CutBody(std::move(family), spacing, std::move(elastic), bonds, initial_stress,
-              std::move(seeds)),
+    : CutBody<2>(std::move(family), spacing, std::move(elastic), bonds, initial_stress,
+                 std::move(seeds)),
       release_(release) {}
 
 void CrackDynamics::start(ElasticDynamics<2>& system, double t) {
@@ -48,13 +48,13 @@ void CrackDynamics::note_stiffness(Index i) {
 /// What the motion needs to know of the facet; its jump once.
 void CrackDynamics::add_facet(const CrackFacet<2>& facet) {
   const std::size_t f = terms_.size();
-  if (f == jumps_.size()) jumps_.push_back(face_jump(facet, intact_, spacing_));
+  if (f == jumps_.size()) jumps_.push_back(face_jump<2>(facet, intact_, spacing_));
   std::vector<Term>& terms = terms_.emplace_back();
   for (const auto& [point, coefficient] : jumps_[f].terms) {
     for (int a = 0; a < 2; ++a) {
       const Index unknown = a * family_->point_count + point;
       terms.push_back({unknown, system_->moved_by(unknown), coefficient * jumps_[f].normal[a],
-                       coefficient * jumps_[f].tangent[a]});
+                       coefficient * jumps_[f].tangents[0][a]});
     }
   }
 }
@@ -75,8 +75,7 @@ void CrackDynamics::find_answers() {
   for (const auto& [moved, parts] : on) {
     for (const Part& of : parts) {
       for (const Part& by : parts) {
-        answers[of.facet][by.facet] +=
-            of.normal * by.normal * jumps_[by.facet].length / mass[moved];
+        answers[of.facet][by.facet] += of.normal * by.normal * jumps_[by.facet].area / mass[moved];
       }
     }
   }
@@ -120,7 +119,7 @@ void CrackDynamics::hold(double t, std::span<const double> u, std::span<double> 
 void CrackDynamics::add_faces(std::span<const double> u, std::span<double> inner) {
   for (std::size_t f = 0; f < terms_.size(); ++f) {
     const auto [normal, tangential] = relief(static_cast<Index>(f));
-    const double length = jumps_[f].length;
+    const double length = jumps_[f].area;
     const double opening = opening_[f], sliding = sliding_[f];
     read_jump(static_cast<Index>(f), u);
     relief_work_ +=
@@ -178,7 +177,7 @@ void CrackDynamics::press(std::span<const double> pressure) {
   }
   for (std::size_t f = 0; f < terms_.size(); ++f) {
     for (const Term& term : terms_[f]) {
-      face_force_[term.unknown] += jumps_[f].length * pressure_[f] * term.normal;
+      face_force_[term.unknown] += jumps_[f].area * pressure_[f] * term.normal;
     }
   }
 }
@@ -199,13 +198,13 @@ void CrackDynamics::strike(const Eigen::VectorXd& impulse, const Eigen::VectorXd
   const auto book = [&] {
     for (std::size_t f = 0; f < terms_.size(); ++f) {
       if (contact[f] == 0.0) continue;
-      contact_loss_ -= 0.5 * jumps_[f].length * contact[f] * opening_rate(f, velocity);
+      contact_loss_ -= 0.5 * jumps_[f].area * contact[f] * opening_rate(f, velocity);
     }
   };
   book();
   const std::span<const double> mass = system_->mass();
   for (std::size_t f = 0; f < terms_.size(); ++f) {
-    const double total = jumps_[f].length * impulse[f];
+    const double total = jumps_[f].area * impulse[f];
     for (const Term& term : terms_[f]) {
       if (term.moved >= 0) velocity[term.moved] += total * term.normal / mass[term.moved];
     }
@@ -233,7 +232,7 @@ double CrackDynamics::intensity_at_fixed_volume(Index facet) const {
       if (is_part[f] || !(ends.contains(other[0]) || ends.contains(other[1]))) continue;
       ends.insert(other.begin(), other.end());
       is_part[f] = grows = true;
-      length += jumps_[f].length;
+      length += jumps_[f].area;
     }
   }
   return std::pow(length, -1.5);
@@ -264,7 +263,7 @@ bool CrackDynamics::cut(const CrackFacet<2>& facet) {
   }
   read_jump(f, u);
   const auto [normal, tangential] = relief(f);
-  const double length = jumps_[f].length;
+  const double length = jumps_[f].area;
   const double relieved = length * (normal * opening_[f] + tangential * sliding_[f]);
   relief_work_ += relieved;
   spent_energy_ += relieved;

@@ -24,7 +24,7 @@ constexpr double straight = 1e-6;
 
 }  // namespace
 
-CrackTips::CrackTips(const Body<2>& body, CutBody& cracked, FractureEnergy<2> fracture_energy)
+CrackTips::CrackTips(const Body<2>& body, CutBody<2>& cracked, FractureEnergy<2> fracture_energy)
     : body_(body),
       cracked_(cracked),
       fracture_energy_(std::move(fracture_energy)),
@@ -46,7 +46,7 @@ void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
       }
       if (joined) continue;
       const double sign = end == 1 ? 1.0 : -1.0;
-      const Vector<2>& along = cracked_.jumps()[f].tangent;
+      const Vector<2>& along = cracked_.jumps()[f].tangents[0];
       Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before},
               t,
               true,
@@ -71,14 +71,12 @@ double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
       {0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
 }
 
-double CrackTips::readiness(Tip& tip, const CrackState& state) const {
-  const IsotropicElasticity<2>& law = cracked_.elastic().law(tip.nearest);
-  const double shear = law.shear_modulus, lame = law.lame_lambda;
+double CrackTips::readiness(Tip& tip, const CrackState<2>& state) const {
   // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
   // what counts is the mean of its beginning and end.
   const double needed =
       state.has_fluid() ? 2.0 / (1.0 + tip.intensity_ratio * tip.intensity_ratio) : 1.0;
-  const TipLaw tip_law{4.0 * shear * (lame + shear) / (lame + 2.0 * shear),
+  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(),
                        needed * energy_to_cut(next_facet(tip.at, 0.0))};
   const bool is_followed =
       state.has_fluid() && tip.at.before != no_facet && state.viscosity[tip.at.facet] > 0.0;
@@ -88,7 +86,7 @@ double CrackTips::readiness(Tip& tip, const CrackState& state) const {
 
 /// From K_I, without what fluid does beyond its pressure. J asks for the displacements, which are
 /// dear: away from growth K_I goes with the opening of the last facet since J was asked last.
-double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState& state) const {
+double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const {
   const double opening = state.opening[tip.at.facet];
   if (tip.asked_opening > 0.0 && !state.inertia) {
     const double guess = tip.asked * opening / tip.asked_opening;
@@ -105,7 +103,7 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
 
 /// From the opening at the last facet but one, for fluid that stays up with the tip.
 double CrackTips::followed_readiness(const Tip& tip, const TipLaw& tip_law,
-                                     const CrackState& state) const {
+                                     const CrackState<2>& state) const {
   const CrackTip& at = tip.at;
   const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
   const TipFluid fluid{state.viscosity[at.facet],
@@ -118,10 +116,10 @@ double CrackTips::followed_readiness(const Tip& tip, const TipLaw& tip_law,
 /// Fluid holds a tip back by the pressure that it loses on its way there, and it cannot lose more
 /// than it has: a tip that would go on if its last facet were empty does, and the fluid lags.
 double CrackTips::lagging_readiness(Tip& tip, const TipLaw& tip_law,
-                                    const CrackState& state) const {
+                                    const CrackState<2>& state) const {
   const CrackTip& at = tip.at;
   // K_I of a pressure that ends a facet behind the tip of a long crack.
-  const double lost = 2.0 * std::sqrt(2.0 / M_PI * cracked_.jumps()[at.facet].length) *
+  const double lost = 2.0 * std::sqrt(2.0 / M_PI * cracked_.jumps()[at.facet].area) *
                       state.pressure[at.facet] / tip_law.toughness();
   // J asks for the displacements, which are dear. Pressure that falls towards the tip opens the
   // crack behind it by more than K_I alone, so that the opening says where J is in vain.
@@ -171,7 +169,7 @@ double CrackTips::within_crack(const Tip& tip, double s) const {
   return s * (1.0 - 0.5 * s * by_length);
 }
 
-double CrackTips::find_readiness(const CrackState& state) {
+double CrackTips::find_readiness(const CrackState<2>& state) {
   double most = 0.0;
   for (Tip& tip : tips_) {
     const bool may_go = tip.grows && state.t >= tip.since + state.pause;
@@ -181,7 +179,7 @@ double CrackTips::find_readiness(const CrackState& state) {
   return most;
 }
 
-double CrackTips::grow(const CrackState& state) {
+double CrackTips::grow(const CrackState<2>& state) {
   // Where to is asked before the first facet makes the displacements old.
   const std::vector<Vector<2>> jumps = state.jumps();
   std::vector<double> turns;
@@ -210,15 +208,16 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
     tip.grows = false;
     return 0.0;
   }
-  const FaceJump& jump = cracked_.jumps().back();
-  tip.at = {facet[1], jump.tangent, static_cast<Index>(cracked_.facets().size()) - 1, tip.at.facet};
+  const FaceJump<2>& jump = cracked_.jumps().back();
+  tip.at = {facet[1], jump.tangents[0], static_cast<Index>(cracked_.facets().size()) - 1,
+            tip.at.facet};
   tip.since = t;
   tip.asked = tip.asked_opening = 0.0;
   tip.nearest = body_.nearest_point(tip.at.place);
   tip.intensity_ratio =
       known ? std::min(1.0, cracked_.intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
   tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
-  return jump.length * energy_to_cut(facet);
+  return jump.area * energy_to_cut(facet);
 }
 
 /// The facet would come close to an end of another crack's, where it is to end.

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/geometry/body.hpp"
 #include "core/state/state_visitor.hpp"
+#include "modules/solid/crack_state.hpp"
 #include "modules/solid/cut_body.hpp"
 #include "modules/solid/energy_release.hpp"
 #include "modules/solid/fracture_energy.hpp"
@@ -13,42 +13,21 @@
 
 namespace perifrac {
 
-/// What tips need to know of the body at the end of a window.
-struct CrackState {
-  double t;                         ///< [s]
-  const Eigen::VectorXd& opening;   ///< of every facet [m]
-  const Eigen::VectorXd& pressure;  ///< on the faces, that of contact included [Pa]
-  /// Of the fluid at every facet, 0 where it is dry [Pa s]; empty where no fluid is simulated.
-  std::span<const double> viscosity;
-  /// Carter's coefficient of one side, likewise [m/s^0.5]; empty where nothing leaks by it.
-  std::span<const double> leak_off;
-  /// Of all points [Pa]; empty where no pore flow is simulated.
-  std::span<const double> pore_stress;
-  /// All displacements, of which those named count: they are found when they are asked for.
-  std::function<std::span<const double>(std::span<const Index> named)> unknowns;
-  /// Mean jumps across all facets along their normal and tangent [m], when they are asked for.
-  std::function<std::vector<Vector<2>>()> jumps;
-  PointInertia inertia{};
-  double pause = 0.0;  ///< a tip stays where it came to for at least so long [s]
-
-  bool has_fluid() const { return !viscosity.empty(); }
-};
-
 /// The tips of a body's cracks: when they go on, where to, and where they end. A tip goes on by one
 /// facet of a spacing where J >= Gc or, where a viscous fluid reaches it, where the opening behind
 /// it has grown to the tip's asymptote (tip_law.hpp); straight ahead or turned by the kink angle.
 /// Where the facet would come close to the end of another it ends there, and so does the tip.
 class CrackTips {
  public:
-  CrackTips(const Body<2>& body, CutBody& cracked, FractureEnergy<2> fracture_energy);
+  CrackTips(const Body<2>& body, CutBody<2>& cracked, FractureEnergy<2> fracture_energy);
 
   /// Takes the ends of the seeds that no other seed touches and that lie in the rock.
   void start(std::span<const CrackFacet<2>> seeds, double t);
 
   /// How close the tips are to growth, the largest: 1 at it.
-  double find_readiness(const CrackState& state);
+  double find_readiness(const CrackState<2>& state);
   /// Those that were found ready go on; returns the energy that the new facets take [J/m].
-  double grow(const CrackState& state);
+  double grow(const CrackState<2>& state);
 
   void visit_state(StateVisitor& visitor);
 
@@ -66,10 +45,11 @@ class CrackTips {
   };
 
   double energy_to_cut(const CrackFacet<2>& facet) const;
-  double readiness(Tip& tip, const CrackState& state) const;
-  double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
-  double followed_readiness(const Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
-  double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState& state) const;
+  double readiness(Tip& tip, const CrackState<2>& state) const;
+  double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
+  double followed_readiness(const Tip& tip, const TipLaw& tip_law,
+                            const CrackState<2>& state) const;
+  double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
   double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
   double behind(const CrackTip& at) const;
   double within_crack(const Tip& tip, double s) const;
@@ -78,13 +58,10 @@ class CrackTips {
   double advance(Tip& tip, double turn, double t);
 
   const Body<2>& body_;
-  CutBody& cracked_;
+  CutBody<2>& cracked_;
   FractureEnergy<2> fracture_energy_;
   EnergyRelease energy_release_;
   std::vector<Tip> tips_;
 };
-
-/// A tip is ready from here on: it goes on within this of its criterion.
-inline constexpr double ready = 0.995;
 
 }  // namespace perifrac

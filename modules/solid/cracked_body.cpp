@@ -20,13 +20,14 @@ double dot(const std::vector<std::pair<int, double>>& mode, const Eigen::VectorX
 
 }  // namespace
 
-CrackedBody::CrackedBody(std::shared_ptr<Family<2>> family, double spacing,
-                         std::shared_ptr<BreakableElasticity<2>> elastic,
-                         Eigen::SparseMatrix<double> free_unknowns, BondState<2>& bonds,
-                         std::optional<InitialStress<2>> initial_stress,
-                         std::vector<CrackFacet<2>> seeds)
-    : CutBody(std::move(family), spacing, std::move(elastic), bonds, initial_stress,
-              std::move(seeds)),
+template <int D>
+CrackedBody<D>::CrackedBody(std::shared_ptr<Family<D>> family, double spacing,
+                            std::shared_ptr<BreakableElasticity<D>> elastic,
+                            Eigen::SparseMatrix<double> free_unknowns, BondState<D>& bonds,
+                            std::optional<InitialStress<D>> initial_stress,
+                            std::vector<CrackFacet<D>> seeds)
+    : CutBody<D>(std::move(family), spacing, std::move(elastic), bonds, initial_stress,
+                 std::move(seeds)),
       free_unknowns_(std::move(free_unknowns)),
       free_of_(free_unknowns_.rows(), {-1, 0.0}),
       load_(Eigen::VectorXd::Zero(free_unknowns_.cols())) {
@@ -37,33 +38,36 @@ CrackedBody::CrackedBody(std::shared_ptr<Family<2>> family, double spacing,
   }
 }
 
-const Eigen::SparseMatrix<double>& CrackedBody::free_stiffness() {
+template <int D>
+const Eigen::SparseMatrix<double>& CrackedBody<D>::free_stiffness() {
   if (stiffness_.size() == 0) {
     stiffness_ = free_unknowns_.transpose() * elastic_->assemble() * free_unknowns_;
   }
   return stiffness_;
 }
 
-void CrackedBody::start() {
+template <int D>
+void CrackedBody<D>::start() {
   factor_.factor(free_stiffness());
   stiffness_ = {};
   inverse_ = std::make_unique<CondensedInverse>(factor_, free_unknowns_.cols());
   jumps_.clear();
   modes_.clear();
-  for (const CrackFacet<2>& seed : seeds_) add_mode(face_jump(seed, intact_, spacing_));
+  for (const CrackFacet<D>& seed : seeds_) add_mode(face_jump<D>(seed, intact_, spacing_));
   intact_move_.resize(0);
   set_load(load_);
   find_compliance();
 }
 
-bool CrackedBody::cut(const CrackFacet<2>& facet) {
-  const auto bonds = bonds_cut_by<2>(facet, *family_);
+template <int D>
+bool CrackedBody<D>::cut(const CrackFacet<D>& facet) {
+  const auto bonds = bonds_cut_by<D>(facet, *family_);
   if (bonds.empty()) return false;
   std::set<Index> points;
   for (const auto& [i, j] : bonds) points.insert({i, j});
   std::vector<PointStiffness> before, after;
   for (const Index i : points) before.push_back(on_free(elastic_->point_stiffness(i)));
-  break_bonds(bonds);
+  this->break_bonds(bonds);
   for (const Index i : points) after.push_back(on_free(elastic_->point_stiffness(i)));
 
   std::set<int> unknowns;
@@ -91,23 +95,25 @@ bool CrackedBody::cut(const CrackFacet<2>& facet) {
 
   bonds_.add_facet(facet, bonds);
   followed_ = bonds_.version();
-  add_mode(face_jump(facet, intact_, spacing_));
+  add_mode(face_jump<D>(facet, intact_, spacing_));
   find_compliance();
   find_opening();
   return true;
 }
 
-void CrackedBody::follow_bonds() {
+template <int D>
+void CrackedBody<D>::follow_bonds() {
   if (bonds_.version() == followed_) return;
-  const std::vector<CrackFacet<2>> facets(bonds_.facets().begin(), bonds_.facets().end());
-  bonds_ = BondState<2>(bonds_.version());
-  mend();
-  cut_seeds();
+  const std::vector<CrackFacet<D>> facets(bonds_.facets().begin(), bonds_.facets().end());
+  bonds_ = BondState<D>(bonds_.version());
+  this->mend();
+  this->cut_seeds();
   start();
-  for (const CrackFacet<2>& facet : std::span(facets).subspan(seeds_.size())) cut(facet);
+  for (const CrackFacet<D>& facet : std::span(facets).subspan(seeds_.size())) cut(facet);
 }
 
-PointStiffness CrackedBody::on_free(const PointStiffness& all) const {
+template <int D>
+PointStiffness CrackedBody<D>::on_free(const PointStiffness& all) const {
   std::set<Index> free;
   for (const Index unknown : all.unknowns) {
     if (free_of_[unknown].first >= 0) free.insert(free_of_[unknown].first);
@@ -131,10 +137,11 @@ PointStiffness CrackedBody::on_free(const PointStiffness& all) const {
   return result;
 }
 
-void CrackedBody::add_mode(const FaceJump& jump) {
+template <int D>
+void CrackedBody<D>::add_mode(const FaceJump<D>& jump) {
   std::vector<int> unknowns;
   for (const auto& [point, coefficient] : jump.terms) {
-    for (int a = 0; a < 2; ++a) {
+    for (int a = 0; a < D; ++a) {
       const int free = free_of_[a * family_->point_count + point].first;
       if (free >= 0) unknowns.push_back(free);
     }
@@ -142,38 +149,41 @@ void CrackedBody::add_mode(const FaceJump& jump) {
   inverse_->add(unknowns);
   Mode mode;
   for (const auto& [point, coefficient] : jump.terms) {
-    for (int a = 0; a < 2; ++a) {
+    for (int a = 0; a < D; ++a) {
       const auto& [free, by] = free_of_[a * family_->point_count + point];
       if (free < 0) continue;
-      mode.normal.emplace_back(inverse_->place(free), by * coefficient * jump.normal[a]);
-      mode.tangent.emplace_back(inverse_->place(free), by * coefficient * jump.tangent[a]);
+      mode[0].emplace_back(inverse_->place(free), by * coefficient * jump.normal[a]);
+      for (int k = 1; k < D; ++k) {
+        mode[k].emplace_back(inverse_->place(free), by * coefficient * jump.tangents[k - 1][a]);
+      }
     }
   }
   jumps_.push_back(jump);
   modes_.push_back(std::move(mode));
 }
 
-void CrackedBody::find_compliance() {
+template <int D>
+void CrackedBody<D>::find_compliance() {
   const Eigen::Index count = static_cast<Eigen::Index>(modes_.size());
   Eigen::MatrixXd response(inverse_->block().rows(), count);
   for (Eigen::Index g = 0; g < count; ++g) {
     response.col(g).setZero();
-    for (const auto& [place, coefficient] : modes_[g].normal) {
-      response.col(g) += jumps_[g].length * coefficient * inverse_->block().col(place);
+    for (const auto& [place, coefficient] : modes_[g][0]) {
+      response.col(g) += jumps_[g].area * coefficient * inverse_->block().col(place);
     }
   }
   compliance_.resize(count, count);
   for (Eigen::Index f = 0; f < count; ++f) {
     for (Eigen::Index g = 0; g < count; ++g) {
       double sum = 0.0;
-      for (const auto& [place, coefficient] : modes_[f].normal)
-        sum += coefficient * response(place, g);
+      for (const auto& [place, coefficient] : modes_[f][0]) sum += coefficient * response(place, g);
       compliance_(f, g) = sum;
     }
   }
 }
 
-void CrackedBody::set_load(const Eigen::VectorXd& load) {
+template <int D>
+void CrackedBody<D>::set_load(const Eigen::VectorXd& load) {
   if (intact_move_.size() == load.size() && load == load_) return;
   load_ = load;
   intact_move_.resize(load.size());
@@ -182,20 +192,21 @@ void CrackedBody::set_load(const Eigen::VectorXd& load) {
 }
 
 /// What a pressure on the faces, and the stress they are relieved of, do on the condensed unknowns.
-Eigen::VectorXd CrackedBody::block_force(const Eigen::VectorXd& pressure) const {
+template <int D>
+Eigen::VectorXd CrackedBody<D>::block_force(const Eigen::VectorXd& pressure) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
   for (std::size_t f = 0; f < modes_.size(); ++f) {
-    const auto [normal, tangential] = relief(static_cast<Index>(f));
-    const double length = jumps_[f].length;
-    for (const auto& [place, c] : modes_[f].normal) {
-      force[place] += length * (pressure[f] + normal) * c;
+    Vector<D> load = this->relief(static_cast<Index>(f));
+    load[0] += pressure[f];
+    for (int k = 0; k < D; ++k) {
+      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * load[k] * c;
     }
-    for (const auto& [place, c] : modes_[f].tangent) force[place] += length * tangential * c;
   }
   return force;
 }
 
-void CrackedBody::find_opening() {
+template <int D>
+void CrackedBody<D>::find_opening() {
   Eigen::VectorXd moved(inverse_->block().rows());
   for (Eigen::Index k = 0; k < moved.size(); ++k) {
     moved[k] = intact_move_[inverse_->unknowns()[k]];
@@ -204,14 +215,16 @@ void CrackedBody::find_opening() {
   const auto count = static_cast<Eigen::Index>(modes_.size());
   const Eigen::VectorXd x = loaded_ + inverse_->block() * block_force(Eigen::VectorXd::Zero(count));
   opening_.resize(count);
-  for (Eigen::Index f = 0; f < count; ++f) opening_[f] = dot(modes_[f].normal, x);
+  for (Eigen::Index f = 0; f < count; ++f) opening_[f] = dot(modes_[f][0], x);
 }
 
-Eigen::VectorXd CrackedBody::free_opening(const Eigen::VectorXd& pressure) const {
+template <int D>
+Eigen::VectorXd CrackedBody<D>::free_opening(const Eigen::VectorXd& pressure) const {
   return opening_ + compliance_ * pressure;
 }
 
-CrackedBody::Faces CrackedBody::faces(const Eigen::VectorXd& pressure) const {
+template <int D>
+typename CrackedBody<D>::Faces CrackedBody<D>::faces(const Eigen::VectorXd& pressure) const {
   Complementarity contact =
       solve_complementarity(compliance_, free_opening(pressure), 1e-14 * spacing_);
   return {contact.y.cwiseMax(0.0), pressure + contact.x, std::move(contact.held)};
@@ -219,23 +232,25 @@ CrackedBody::Faces CrackedBody::faces(const Eigen::VectorXd& pressure) const {
 
 /// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
 /// changes as it does K_I.
-double CrackedBody::intensity_at_fixed_volume(Index facet) const {
+template <int D>
+double CrackedBody<D>::intensity_at_fixed_volume(Index facet) const {
   const Eigen::VectorXd opening = compliance_.rowwise().sum();
   double volume = 0.0;
-  for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].length * opening[f];
+  for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].area * opening[f];
   return opening[facet] / volume;
 }
 
-Eigen::VectorXd CrackedBody::face_force(const Eigen::VectorXd& pressure, bool relief) const {
+template <int D>
+Eigen::VectorXd CrackedBody<D>::face_force(const Eigen::VectorXd& pressure, bool relief) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(free_unknowns_.rows());
   for (std::size_t f = 0; f < jumps_.size(); ++f) {
-    const Vector<2> relieved = relief ? this->relief(static_cast<Index>(f)) : Vector<2>{};
+    Vector<D> load = relief ? this->relief(static_cast<Index>(f)) : Vector<D>{};
+    load[0] += pressure[f];
     for (const auto& [point, coefficient] : jumps_[f].terms) {
-      for (int a = 0; a < 2; ++a) {
-        force[a * family_->point_count + point] +=
-            jumps_[f].length * coefficient *
-            ((pressure[f] + relieved[0]) * jumps_[f].normal[a] +
-             relieved[1] * jumps_[f].tangent[a]);
+      for (int a = 0; a < D; ++a) {
+        double along = load[0] * jumps_[f].normal[a];
+        for (int k = 1; k < D; ++k) along += load[k] * jumps_[f].tangents[k - 1][a];
+        force[a * family_->point_count + point] += jumps_[f].area * coefficient * along;
       }
     }
   }
@@ -244,20 +259,23 @@ Eigen::VectorXd CrackedBody::face_force(const Eigen::VectorXd& pressure, bool re
 
 /// What would move the body with its first cracks alone as the faces' force moves the present one;
 /// on the condensed unknowns, for it is nothing elsewhere.
-Eigen::VectorXd CrackedBody::block_force_on_first_body(const Eigen::VectorXd& force,
-                                                       const Eigen::VectorXd& block) const {
+template <int D>
+Eigen::VectorXd CrackedBody<D>::block_force_on_first_body(const Eigen::VectorXd& force,
+                                                          const Eigen::VectorXd& block) const {
   return force - inverse_->force_of_changes(block);
 }
 
-Eigen::VectorXd CrackedBody::force_on_first_body(const Eigen::VectorXd& force,
-                                                 const Eigen::VectorXd& block) const {
+template <int D>
+Eigen::VectorXd CrackedBody<D>::force_on_first_body(const Eigen::VectorXd& force,
+                                                    const Eigen::VectorXd& block) const {
   const Eigen::VectorXd own = block_force_on_first_body(force, block);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(free_unknowns_.cols());
   for (Eigen::Index k = 0; k < own.size(); ++k) all[inverse_->unknowns()[k]] = own[k];
   return all;
 }
 
-Eigen::VectorXd CrackedBody::unknowns(const Eigen::VectorXd& pressure) const {
+template <int D>
+Eigen::VectorXd CrackedBody<D>::unknowns(const Eigen::VectorXd& pressure) const {
   const Eigen::VectorXd force = block_force(pressure);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   const Eigen::VectorXd all = force_on_first_body(force, block);
@@ -266,8 +284,9 @@ Eigen::VectorXd CrackedBody::unknowns(const Eigen::VectorXd& pressure) const {
   return free_unknowns_ * (intact_move_ + moved);
 }
 
-void CrackedBody::find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
-                                std::span<double> all) const {
+template <int D>
+void CrackedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
+                                   std::span<double> all) const {
   const Eigen::VectorXd force = block_force(pressure);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   std::vector<int> wanted;
@@ -283,15 +302,19 @@ void CrackedBody::find_unknowns(const Eigen::VectorXd& pressure, std::span<const
   }
 }
 
-std::vector<Vector<2>> CrackedBody::jumps_under(const Eigen::VectorXd& pressure) const {
+template <int D>
+std::vector<Vector<D>> CrackedBody<D>::jumps_under(const Eigen::VectorXd& pressure) const {
   const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure);
-  std::vector<Vector<2>> jumps;
-  for (const Mode& mode : modes_)
-    jumps.push_back({dot(mode.normal, block), dot(mode.tangent, block)});
+  std::vector<Vector<D>> jumps;
+  for (const Mode& mode : modes_) {
+    Vector<D>& jump = jumps.emplace_back();
+    for (int k = 0; k < D; ++k) jump[k] = dot(mode[k], block);
+  }
   return jumps;
 }
 
-CrackedBody::Energies CrackedBody::energies(const Eigen::VectorXd& pressure) const {
+template <int D>
+typename CrackedBody<D>::Energies CrackedBody<D>::energies(const Eigen::VectorXd& pressure) const {
   const Eigen::VectorXd force = block_force(pressure);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   Energies energies{};
@@ -299,11 +322,15 @@ CrackedBody::Energies CrackedBody::energies(const Eigen::VectorXd& pressure) con
   energies.load = intact_move_.dot(load_ + force_on_first_body(force, block));
   energies.elastic = 0.5 * (energies.load + force.dot(block));
   for (std::size_t f = 0; f < modes_.size(); ++f) {
-    const auto [normal, tangential] = relief(static_cast<Index>(f));
-    energies.relief += jumps_[f].length * (normal * dot(modes_[f].normal, block) +
-                                           tangential * dot(modes_[f].tangent, block));
+    const Vector<D> load = this->relief(static_cast<Index>(f));
+    double sum = 0.0;
+    for (int k = 0; k < D; ++k) sum += load[k] * dot(modes_[f][k], block);
+    energies.relief += jumps_[f].area * sum;
   }
   return energies;
 }
+
+template class CrackedBody<2>;
+template class CrackedBody<3>;
 
 }  // namespace perifrac

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,23 +15,24 @@
 
 namespace perifrac {
 
-/// A linear elastic body in equilibrium, in plane strain, while cracks cut its bonds facet by
+/// A linear elastic body in equilibrium, in 2D in plane strain, while cracks cut its bonds facet by
 /// facet. The stiffness of the body with its first cracks is factored once; every later facet is a
 /// low-rank change of it. The faces of a crack carry the pressure of what is in it and, where they
 /// close, the pressure of contact, which keeps them from passing through one another (without
 /// friction).
-class CrackedBody final : public CutBody {
+template <int D>
+class CrackedBody final : public CutBody<D> {
  public:
   /// As CutBody; `free_unknowns` takes what is solved for to all unknowns, and has at most one
   /// entry a row.
-  CrackedBody(std::shared_ptr<Family<2>> family, double spacing,
-              std::shared_ptr<BreakableElasticity<2>> elastic,
-              Eigen::SparseMatrix<double> free_unknowns, BondState<2>& bonds,
-              std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds);
+  CrackedBody(std::shared_ptr<Family<D>> family, double spacing,
+              std::shared_ptr<BreakableElasticity<D>> elastic,
+              Eigen::SparseMatrix<double> free_unknowns, BondState<D>& bonds,
+              std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds);
 
   /// Factors the body with its first cracks.
   void start();
-  bool cut(const CrackFacet<2>& facet) override;
+  bool cut(const CrackFacet<D>& facet) override;
   /// The bond state was replaced: builds the same body anew.
   void follow_bonds();
 
@@ -50,8 +52,9 @@ class CrackedBody final : public CutBody {
   const Eigen::MatrixXd& compliance() const { return compliance_; }
   double intensity_at_fixed_volume(Index facet) const override;
 
-  /// Mean jumps across all facets along their normal and tangent under a pressure on the faces [m].
-  std::vector<Vector<2>> jumps_under(const Eigen::VectorXd& pressure) const;
+  /// Mean jumps across all facets along their normal and tangents under a pressure on the faces
+  /// [m].
+  std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure) const;
 
   /// All unknowns without what is prescribed, under the load and a pressure on the faces [m].
   Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure) const;
@@ -59,7 +62,7 @@ class CrackedBody final : public CutBody {
   void find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
                      std::span<double> all) const;
   /// What the body holds and what its loads would have done, had they been there from the start
-  /// [J/m]; at no back-substitution.
+  /// [J], in 2D per metre; at no back-substitution.
   struct Energies {
     double elastic;
     double load;    ///< load times displacement
@@ -73,15 +76,21 @@ class CrackedBody final : public CutBody {
   const Eigen::SparseMatrix<double>& free_stiffness();
 
  private:
-  /// On the condensed unknowns.
-  struct Mode {
-    std::vector<std::pair<int, double>> normal;
-    std::vector<std::pair<int, double>> tangent;
-  };
+  using CutBody<D>::family_;
+  using CutBody<D>::intact_;
+  using CutBody<D>::spacing_;
+  using CutBody<D>::elastic_;
+  using CutBody<D>::bonds_;
+  using CutBody<D>::followed_;
+  using CutBody<D>::seeds_;
+  using CutBody<D>::jumps_;
+
+  /// A facet's jump along its normal and tangents, of the condensed unknowns.
+  using Mode = std::array<std::vector<std::pair<int, double>>, D>;
 
   /// A symmetric matrix of all unknowns on those solved for.
   PointStiffness on_free(const PointStiffness& all) const;
-  void add_mode(const FaceJump& jump);
+  void add_mode(const FaceJump<D>& jump);
   void find_compliance();
   void find_opening();
   Eigen::VectorXd block_force(const Eigen::VectorXd& pressure) const;

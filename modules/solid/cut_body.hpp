@@ -14,41 +14,44 @@
 
 namespace perifrac {
 
-/// A linear elastic body in plane strain while cracks cut its bonds facet by facet: what its cracks
-/// are, whatever moves it.
+/// A linear elastic body while cracks cut its bonds facet by facet: what its cracks are, whatever
+/// moves it. In 2D in plane strain.
+template <int D>
 class CutBody {
  public:
   /// `family` is the one of `elastic`, with nothing broken. New faces are relieved
   /// of the `initial_stress`. Writes `bonds`.
-  CutBody(std::shared_ptr<Family<2>> family, double spacing,
-          std::shared_ptr<BreakableElasticity<2>> elastic, BondState<2>& bonds,
-          std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds);
+  CutBody(std::shared_ptr<Family<D>> family, double spacing,
+          std::shared_ptr<BreakableElasticity<D>> elastic, BondState<D>& bonds,
+          std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds);
   virtual ~CutBody() = default;
   CutBody(const CutBody&) = delete;
   CutBody& operator=(const CutBody&) = delete;
 
   /// Cuts one more facet; false, and nothing done, where it meets no bond.
-  virtual bool cut(const CrackFacet<2>& facet) = 0;
+  virtual bool cut(const CrackFacet<D>& facet) = 0;
   /// Would cut() meet a bond?
-  bool is_intact_along(const CrackFacet<2>& facet) const;
+  bool is_intact_along(const CrackFacet<D>& facet) const;
 
   /// K_I at a tip that this facet is close behind, up to a factor that stays, under fluid of fixed
   /// volume.
   virtual double intensity_at_fixed_volume(Index facet) const = 0;
 
-  std::span<const FaceJump> jumps() const { return jumps_; }
+  std::span<const FaceJump<D>> jumps() const { return jumps_; }
   /// Normal and tangential stress that facet f is relieved of [Pa].
-  Vector<2> relief(Index f) const;
+  Vector<D> relief(Index f) const;
   bool relief_varies() const { return initial_stress_ && !initial_stress_->inside.empty(); }
-  /// Mean jump across facet f in a field of all unknowns, along normal and tangent [m].
-  Vector<2> jump(Index f, std::span<const double> unknowns) const;
+  /// Mean jump across facet f in a field of all unknowns, along normal and tangents [m].
+  Vector<D> jump(Index f, std::span<const double> unknowns) const;
 
-  std::span<const CrackFacet<2>> facets() const { return bonds_.facets(); }
+  std::span<const CrackFacet<D>> facets() const { return bonds_.facets(); }
+  /// Changes with every cut and every restored state.
+  std::uint64_t version() const { return bonds_.version(); }
   /// The body's bounding box goes on beyond `distance` [m] from x on all sides.
-  bool reaches(const Vector<2>& x, double distance) const;
+  bool reaches(const Vector<D>& x, double distance) const;
 
-  const Family<2>& family() const { return *family_; }
-  BreakableElasticity<2>& elastic() { return *elastic_; }
+  const Family<D>& family() const { return *family_; }
+  BreakableElasticity<D>& elastic() { return *elastic_; }
 
  protected:
   void cut_seeds();
@@ -56,16 +59,16 @@ class CutBody {
   /// Takes family and material back to the body without cracks.
   void mend();
 
-  std::shared_ptr<Family<2>> family_;
-  Family<2> intact_;
+  std::shared_ptr<Family<D>> family_;
+  Family<D> intact_;
   double spacing_;
-  std::shared_ptr<BreakableElasticity<2>> elastic_;
-  BondState<2>& bonds_;
+  std::shared_ptr<BreakableElasticity<D>> elastic_;
+  BondState<D>& bonds_;
   std::uint64_t followed_ = 0;  ///< version of the bonds that this body has
-  std::vector<CrackFacet<2>> seeds_;
-  std::optional<InitialStress<2>> initial_stress_;
-  std::vector<FaceJump> jumps_;                   ///< by facet
-  std::array<std::pair<double, double>, 2> box_;  ///< of the points, by axis
+  std::vector<CrackFacet<D>> seeds_;
+  std::optional<InitialStress<D>> initial_stress_;
+  std::vector<FaceJump<D>> jumps_;                ///< by facet
+  std::array<std::pair<double, double>, D> box_;  ///< of the points, by axis
 };
 
 }  // namespace perifrac

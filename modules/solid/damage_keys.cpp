@@ -13,8 +13,8 @@ KeyTable damage_keys() {
        .type = KeyType::word,
        .required = true,
        .words = {"energy_release", "critical_stretch"},
-       .meaning = "energy_release (2D): a crack goes on where the energy that "
-                  "growth sets free, J at its tracked tip, reaches the fracture energy; "
+       .meaning = "energy_release: a crack goes on where the energy that growth sets free "
+                  "at its tip reaches the fracture energy, in 3D in its plane; "
                   "critical_stretch (dynamic solid): a bond breaks where it is stretched too far. "
                   "docs/fracture.md compares them."},
       {.path = "fracture_energy",
@@ -57,20 +57,21 @@ bool names_critical_stretch(const Section& scene) {
   return scene.has("damage") && scene.word("damage.type") == "critical_stretch";
 }
 
-FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body) {
+template <int D>
+FractureEnergy<D> read_fracture_energy(const Section& scene, const Body<D>& body) {
   if (!scene.has("damage")) return {{std::numeric_limits<double>::infinity()}};
   if (names_critical_stretch(scene)) {
     scene.fail("damage.type", "'critical_stretch' in a quasi_static solid", "energy_release");
   }
-  FractureEnergy<2> energy{{required_fracture_energy(scene)}};
-  energy.scatter = read_scatter<2>(scene, "damage.scatter");
+  FractureEnergy<D> energy{{required_fracture_energy(scene)}};
+  energy.scatter = read_scatter<D>(scene, "damage.scatter");
   if (!scene.has("damage.regions")) return energy;
   for (const std::string& name : scene.names("damage.regions")) {
     const std::string path = "damage.regions." + name;
-    const auto found = std::ranges::find(body.regions(), name, &Region<2>::name);
+    const auto found = std::ranges::find(body.regions(), name, &Region<D>::name);
     if (found == body.regions().end()) {
       std::vector<std::string> known;
-      for (const Region<2>& region : body.regions()) known.push_back(region.name);
+      for (const Region<D>& region : body.regions()) known.push_back(region.name);
       scene.fail_unknown(path, name, known);
     }
     if (!scene.has(path + ".fracture_energy")) {
@@ -106,6 +107,8 @@ double read_stretch_limit(const Section& scene, const Body<D>& body, const Famil
   }
 }
 
+template FractureEnergy<2> read_fracture_energy<2>(const Section&, const Body<2>&);
+template FractureEnergy<3> read_fracture_energy<3>(const Section&, const Body<3>&);
 template double read_stretch_limit<2>(const Section&, const Body<2>&, const Family<2>&,
                                       const IsotropicElasticity<2>&);
 template double read_stretch_limit<3>(const Section&, const Body<3>&, const Family<3>&,

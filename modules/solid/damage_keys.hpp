@@ -16,7 +16,8 @@ bool names_critical_stretch(const Section& scene);
 
 /// What the scene's cracks grow at; infinite without a section `damage`. Throws InputError for
 /// another criterion than energy_release.
-FractureEnergy<2> read_fracture_energy(const Section& scene, const Body<2>& body);
+template <int D>
+FractureEnergy<D> read_fracture_energy(const Section& scene, const Body<D>& body);
 
 /// The stretch at which bonds of this rock break by critical_stretch. Throws InputError.
 template <int D>

@@ -89,7 +89,7 @@ PortView DynamicFracture::port(PortId id) {
       return {facets, view(cracks_.opening()), {}, cracks_.slope(), cracks_.forecast()};
     case crack_length:
       crack_length_ = 0.0;
-      for (const FaceJump& jump : cracks_.jumps()) crack_length_ += jump.length;
+      for (const FaceJump<2>& jump : cracks_.jumps()) crack_length_ += jump.area;
       return {&whole_body, {&crack_length_, 1}};
     case fracture_energy:
       fracture_energy_ = cracks_.spent_energy();
@@ -143,7 +143,7 @@ double DynamicFracture::conclude(const TimeWindow& window) {
   return window.end;
 }
 
-CrackState DynamicFracture::crack_state() {
+CrackState<2> DynamicFracture::crack_state() {
   const std::span<const double> on_faces = cracks_.face_force();
   return {.t = time_,
           .opening = cracks_.opening(),

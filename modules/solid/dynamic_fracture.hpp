@@ -36,7 +36,7 @@ class DynamicFracture final : public DynamicSolid<2> {
 
  private:
   double scalar(PortId id) override;
-  CrackState crack_state();
+  CrackState<2> crack_state();
   void foretell(double t, double step);
 
   double damping_;

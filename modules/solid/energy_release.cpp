@@ -65,7 +65,7 @@ constexpr double largest_kink = 70.0 * M_PI / 180.0;
 
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
                           const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
-                          const PointInertia& inertia) const {
+                          const PointInertia<2>& inertia) const {
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
@@ -112,11 +112,11 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
     const double aside = back[0] * tip.direction[1] - back[1] * tip.direction[0];
     if (behind < first_jump * spacing_ || behind > last_jump * spacing_) continue;
     if (std::abs(aside) > spacing_) continue;
-    const FaceJump& face = body_.jumps()[f];
+    const FaceJump<2>& face = body_.jumps()[f];
     // In the frame of the tip: x ahead, y to the left. The jump is from the lower face to the
     // upper.
-    const Vector<2> d = {jumps[f][0] * face.normal[0] + jumps[f][1] * face.tangent[0],
-                         jumps[f][0] * face.normal[1] + jumps[f][1] * face.tangent[1]};
+    const Vector<2> d = {jumps[f][0] * face.normal[0] + jumps[f][1] * face.tangents[0][0],
+                         jumps[f][0] * face.normal[1] + jumps[f][1] * face.tangents[0][1]};
     const double up = -tip.direction[1] * face.normal[0] + tip.direction[0] * face.normal[1];
     const double sign = up > 0.0 ? 1.0 : -1.0;
     mean.opening += sign * (-tip.direction[1] * d[0] + tip.direction[0] * d[1]);
@@ -151,7 +151,7 @@ Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
                                       const Eigen::VectorXd& pressure,
                                       std::span<const double> pore_stress,
-                                      const PointInertia& inertia) const {
+                                      const PointInertia<2>& inertia) const {
   const Family<2>& family = body_.family();
   const Index points = family.point_count;
   const Cutoff cutoff{tip.place, spacing_, radius(tip)};
@@ -197,7 +197,7 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
     const CrackFacet<2>& facet = body_.facets()[f];
     const std::array q = {cutoff.at(facet[0]), cutoff.at(facet[1])};
     if (q[0] == 0.0 && q[1] == 0.0) continue;
-    const Vector<2>& tangent = body_.jumps()[f].tangent;
+    const Vector<2>& tangent = body_.jumps()[f].tangents[0];
     const double ahead = tangent[0] * tip.direction[0] + tangent[1] * tip.direction[1];
     const Vector<2> relief = body_.relief(static_cast<Index>(f));
     const Vector<2> load = {pressure[f] + relief[0], relief[1]};

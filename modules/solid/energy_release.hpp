@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "modules/solid/crack_state.hpp"
 #include "modules/solid/cut_body.hpp"
 
 namespace perifrac {
@@ -29,9 +29,6 @@ struct TipLoad : TipJump {
   double energy_release;  ///< J, what growth straight ahead would set free [J/m^2]
 };
 
-/// Mass times acceleration of a point [N, per metre]; empty: the body is at rest.
-using PointInertia = std::function<Vector<2>(Index)>;
-
 /// J as an integral over the points around the tip (Li, Shih & Needleman 1985; with inertia
 /// Nakamura, Shih & Freund 1985), from the remaining bonds' gradients and the whole energy of every
 /// point:
@@ -48,12 +45,12 @@ using PointInertia = std::function<Vector<2>(Index)>;
 /// it, a part of (speed of the tip / speed of sound)^2.
 class EnergyRelease {
  public:
-  EnergyRelease(CutBody& body, double spacing) : body_(body), spacing_(spacing) {}
+  EnergyRelease(CutBody<2>& body, double spacing) : body_(body), spacing_(spacing) {}
 
   /// `unknowns`: all displacements; `pressure`: on the faces, by facet [Pa]; `pore_stress`: of all
   /// points [Pa], or empty.
   TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
-             std::span<const double> pore_stress = {}, const PointInertia& inertia = {}) const;
+             std::span<const double> pore_stress = {}, const PointInertia<2>& inertia = {}) const;
   /// The unknowns that at() depends on, but for `inertia`.
   std::vector<Index> looks_at(const CrackTip& tip) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
@@ -65,9 +62,9 @@ class EnergyRelease {
                     std::span<const Vector<2>> jumps) const;
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
                          const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
-                         const PointInertia& inertia) const;
+                         const PointInertia<2>& inertia) const;
 
-  CutBody& body_;
+  CutBody<2>& body_;
   double spacing_;
 };
 

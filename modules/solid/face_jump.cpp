@@ -1,5 +1,6 @@
 #include "modules/solid/face_jump.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -18,29 +19,33 @@ struct Crossing {
 
 }  // namespace
 
-FaceJump face_jump(const CrackFacet<2>& facet, const Family<2>& family, double spacing) {
-  FaceJump jump;
-  const Vector<2> along = {facet[1][0] - facet[0][0], facet[1][1] - facet[0][1]};
-  jump.length = std::hypot(along[0], along[1]);
-  jump.tangent = {along[0] / jump.length, along[1] / jump.length};
-  jump.normal = {-jump.tangent[1], jump.tangent[0]};
+template <int D>
+FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, double spacing) {
+  FaceJump<D> jump;
+  const auto axes = frame<D>(facet);
+  jump.normal = axes[0];
+  std::copy(axes.begin() + 1, axes.end(), jump.tangents.begin());
+  jump.area = area<D>(facet);
 
   std::vector<Crossing> crossings;
   double shortest = INFINITY;
-  for (const auto& [i, j] : bonds_cut_by<2>(facet, family)) {
-    const Vector<2> xi = {family.position[0][j] - family.position[0][i],
-                          family.position[1][j] - family.position[1][i]};
-    const double across = jump.normal[0] * xi[0] + jump.normal[1] * xi[1];
-    const double to_i = jump.normal[0] * (family.position[0][i] - facet[0][0]) +
-                        jump.normal[1] * (family.position[1][i] - facet[0][1]);
-    const double s = -to_i / across;
-    const double t = (jump.tangent[0] * (family.position[0][i] + s * xi[0] - facet[0][0]) +
-                      jump.tangent[1] * (family.position[1][i] + s * xi[1] - facet[0][1])) /
-                     jump.length;
-    const bool at_end = t < 1e-6 || t > 1.0 - 1e-6;
-    const double length = std::hypot(xi[0], xi[1]);
+  for (const auto& [i, j] : bonds_cut_by<D>(facet, family)) {
+    Vector<D> xi, at;
+    double across = 0.0, to_i = 0.0, square = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double x = family.position[a][i];
+      xi[a] = family.position[a][j] - x;
+      across += jump.normal[a] * xi[a];
+      to_i += jump.normal[a] * (x - facet[0][a]);
+      square += xi[a] * xi[a];
+    }
+    for (int a = 0; a < D; ++a) at[a] = family.position[a][i] - to_i / across * xi[a];
+    const double length = std::sqrt(square);
     const double steep = across / length;
-    const double weight = (at_end ? 0.5 : 1.0) * steep * steep;
+    double weight = steep * steep;
+    for (const double t : place_within<D>(facet, at)) {
+      if (t < 1e-6 || t > 1.0 - 1e-6) weight *= 0.5;
+    }
     crossings.push_back({across > 0.0 ? i : j, across > 0.0 ? j : i, length, weight});
     shortest = std::min(shortest, length);
   }
@@ -61,5 +66,8 @@ FaceJump face_jump(const CrackFacet<2>& facet, const Family<2>& family, double s
   for (const auto& [point, c] : coefficient) jump.terms.push_back({point, c});
   return jump;
 }
+
+template FaceJump<2> face_jump<2>(const CrackFacet<2>&, const Family<2>&, double);
+template FaceJump<3> face_jump<3>(const CrackFacet<3>&, const Family<3>&, double);
 
 }  // namespace perifrac

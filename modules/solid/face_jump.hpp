@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/geometry/bond_state.hpp"
@@ -13,19 +14,21 @@ namespace perifrac {
 ///
 /// Only the shortest bonds that cross it count, up to 1.5 spacings, at weight omega (n . xi)^2:
 /// what the rock between their ends strains is then least. A bond through an end of the facet
-/// counts half there.
+/// counts half there, through a corner of one in 3D a quarter.
+template <int D>
 struct FaceJump {
   struct Term {
     Index point;
     double coefficient;
   };
   std::vector<Term> terms;
-  Vector<2> normal;
-  Vector<2> tangent;
-  double length;  ///< of the facet [m]
+  Vector<D> normal;
+  std::array<Vector<D>, D - 1> tangents;
+  double area;  ///< of the facet [m^2], in 2D its length
 };
 
 /// `family`: all bonds of the intact body.
-FaceJump face_jump(const CrackFacet<2>& facet, const Family<2>& family, double spacing);
+template <int D>
+FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, double spacing);
 
 }  // namespace perifrac

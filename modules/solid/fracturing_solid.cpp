@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/errors.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
@@ -33,34 +34,37 @@ Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
 
 }  // namespace
 
-FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
-                                 std::shared_ptr<Family<2>> family,
-                                 std::shared_ptr<BreakableElasticity<2>> elastic,
-                                 const SolidBoundary<2>& boundary,
-                                 std::optional<InitialStress<2>> initial_stress,
-                                 std::vector<CrackFacet<2>> seeds,
-                                 FractureEnergy<2> fracture_energy)
+template <int D>
+FracturingSolid<D>::FracturingSolid(std::shared_ptr<const Body<D>> body,
+                                    std::shared_ptr<Family<D>> family,
+                                    std::shared_ptr<BreakableElasticity<D>> elastic,
+                                    const SolidBoundary<D>& boundary,
+                                    std::optional<InitialStress<D>> initial_stress,
+                                    std::vector<CrackFacet<D>> seeds,
+                                    FractureEnergy<D> fracture_energy)
     : body_(std::move(body)),
       seeds_(std::move(seeds)),
       ports_{
           {"pore_stress", "Pa", PortDirection::in},
-          InterfaceForce::port(2),
+          InterfaceForce::port(D),
           {"crack_pressure", "Pa", PortDirection::in},
           {"crack_viscosity", "Pa s", PortDirection::in, PortKind::intensive, PortRole::property},
           {"crack_leak_off", "m/s^0.5", PortDirection::in, PortKind::intensive, PortRole::property},
-          {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, 2},
+          {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, D},
           {"dilatation", "1", PortDirection::out},
-          {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, 4},
+          {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field,
+           D * D},
           {"damage", "1", PortDirection::out},
           {"crack_opening", "m", PortDirection::out},
           {"free_crack_opening", "m", PortDirection::out, PortKind::intensive, PortRole::property},
-          {"crack_length", "m", PortDirection::out},
-          {"open_crack_length", "m", PortDirection::out},
-          {"elastic_energy", "J/m", PortDirection::out, PortKind::extensive,
+          {D == 2 ? "crack_length" : "crack_area", D == 2 ? "m" : "m^2", PortDirection::out},
+          {D == 2 ? "open_crack_length" : "open_crack_area", D == 2 ? "m" : "m^2",
+           PortDirection::out},
+          {"elastic_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_stored},
-          {"external_work", "J/m", PortDirection::out, PortKind::extensive,
+          {"external_work", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_gained},
-          {"fracture_energy", "J/m", PortDirection::out, PortKind::extensive,
+          {"fracture_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_dissipated},
       },
       initial_stress_(initial_stress),
@@ -85,12 +89,14 @@ FracturingSolid::FracturingSolid(std::shared_ptr<const Body<2>> body,
   }
 }
 
-std::string FracturingSolid::free_motion() {
-  return rigid_motion_without_energy<2>(body_->points(), cracked_.free_stiffness(), free_unknowns_,
+template <int D>
+std::string FracturingSolid<D>::free_motion() {
+  return rigid_motion_without_energy<D>(body_->points(), cracked_.free_stiffness(), free_unknowns_,
                                         plate_unknowns_.size());
 }
 
-PortView FracturingSolid::port(PortId id) {
+template <int D>
+PortView FracturingSolid<D>::port(PortId id) {
   const PointSet* const points = &body_->point_set();
   const PointSet* const facets = &bonds_.facet_points();
   switch (id) {
@@ -98,7 +104,7 @@ PortView FracturingSolid::port(PortId id) {
       pore_stress_.resize(body_->points().size());
       return {points, pore_stress_};
     case interface_impulse:
-      return {points, interface_.impulse(2 * body_->points().size())};
+      return {points, interface_.impulse(D * body_->points().size())};
     case crack_pressure:
       crack_pressure_.resize(facets->count);
       return {facets, crack_pressure_};
@@ -110,18 +116,19 @@ PortView FracturingSolid::port(PortId id) {
       return {facets, crack_leak_off_};
     case displacement:
       find_unknowns();
-      return {points, std::span(unknowns_).first(2 * body_->points().volume.size())};
+      return {points, std::span(unknowns_).first(D * body_->points().volume.size())};
     case dilatation:
       derive();
       return {points, dilatation_, {}, slope_};
     case effective_stress:
       find_unknowns();
-      effective_stress_.resize(4 * body_->points().volume.size());
+      effective_stress_.resize(D * D * body_->points().volume.size());
       cracked_.elastic().stress(unknowns_, effective_stress_);
       for (Index i = 0; i < body_->points().size() && initial_stress_; ++i) {
-        const Vector<2> there = initial_stress_->at(body_->points().at(i));
-        effective_stress_[i] += there[0];
-        effective_stress_[3 * static_cast<std::size_t>(body_->points().size()) + i] += there[1];
+        const Vector<D> there = initial_stress_->at(body_->points().at(i));
+        for (std::size_t a = 0; a < D; ++a) {
+          effective_stress_[(a * D + a) * body_->points().volume.size() + i] += there[a];
+        }
       }
       return {points, effective_stress_};
     case damage:
@@ -142,16 +149,16 @@ PortView FracturingSolid::port(PortId id) {
               {},
               opening_slope_};
     }
-    case crack_length:
-      crack_length_ = 0.0;
-      for (const FaceJump& jump : cracked_.jumps()) crack_length_ += jump.length;
-      return {&whole_body, {&crack_length_, 1}};
-    case open_crack_length:
-      open_length_ = 0.0;
+    case crack_area:
+      crack_area_ = 0.0;
+      for (const FaceJump<D>& jump : cracked_.jumps()) crack_area_ += jump.area;
+      return {&whole_body, {&crack_area_, 1}};
+    case open_crack_area:
+      open_area_ = 0.0;
       for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
-        if (faces_.opening[f] > 0.0) open_length_ += cracked_.jumps()[f].length;
+        if (faces_.opening[f] > 0.0) open_area_ += cracked_.jumps()[f].area;
       }
-      return {&whole_body, {&open_length_, 1}};
+      return {&whole_body, {&open_area_, 1}};
     case elastic_energy:
       if (!is_steady()) derive();
       return {&whole_body, {&elastic_energy_, 1}};
@@ -166,17 +173,19 @@ PortView FracturingSolid::port(PortId id) {
 }
 
 /// `free` is of what is solved for; where its stiffness is nothing.
-BodyError FracturingSolid::loose_piece(Eigen::Index free) const {
-  const Points<2>& points = body_->points();
+template <int D>
+BodyError FracturingSolid<D>::loose_piece(Eigen::Index free) const {
+  const Points<D>& points = body_->points();
   const Index unknown = Eigen::SparseMatrix<double>::InnerIterator(free_unknowns_, free).row();
   const Index i = unknown % points.size();
   return {fmt::format("its cracks leave a piece that nothing holds, or that is too thin to bear "
-                      "anything, at ({:.6g}, {:.6g}) m",
-                      points.position[0][i], points.position[1][i]),
+                      "anything, at ({:.6g}) m",
+                      fmt::join(points.at(i), ", ")),
           "cracks that leave every piece held by a face or by solid.pins, some points thick"};
 }
 
-void FracturingSolid::initialize(double t) {
+template <int D>
+void FracturingSolid<D>::initialize(double t) {
   window_end_ = last_growth_ = t;
   try {
     cracked_.start();
@@ -196,9 +205,13 @@ void FracturingSolid::initialize(double t) {
   derived_ = false;
 }
 
-double FracturingSolid::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
+template <int D>
+double FracturingSolid<D>::stable_time_step() const {
+  return std::numeric_limits<double>::infinity();
+}
 
-double FracturingSolid::advance(const TimeWindow& window) {
+template <int D>
+double FracturingSolid<D>::advance(const TimeWindow& window) {
   window_end_ = window.end;
   interface_.begin(window);
   solve_faces();
@@ -206,7 +219,8 @@ double FracturingSolid::advance(const TimeWindow& window) {
 }
 
 /// What presses and pulls at the window's end on all that is solved for, the cracks' faces apart.
-Eigen::VectorXd FracturingSolid::find_load() {
+template <int D>
+Eigen::VectorXd FracturingSolid<D>::find_load() {
   Eigen::VectorXd all = load_.at(window_end_);
   if (prescribes_) {
     const Eigen::VectorXd prescribed = prescribed_.at(window_end_);
@@ -229,7 +243,8 @@ Eigen::VectorXd FracturingSolid::find_load() {
 }
 
 /// The pressure of what is in the cracks; a new facet is dry.
-Eigen::VectorXd FracturingSolid::in_cracks() {
+template <int D>
+Eigen::VectorXd FracturingSolid<D>::in_cracks() {
   const auto count = static_cast<Eigen::Index>(bonds_.facet_points().count);
   if (crack_pressure_.empty()) return Eigen::VectorXd::Zero(count);
   crack_pressure_.resize(count, 0.0);
@@ -237,19 +252,22 @@ Eigen::VectorXd FracturingSolid::in_cracks() {
 }
 
 /// A load that a restored state brings is found when it is asked for: most windows bring another.
-void FracturingSolid::take_load() {
+template <int D>
+void FracturingSolid<D>::take_load() {
   if (!load_is_current_) cracked_.set_load(find_load());
   load_is_current_ = true;
 }
 
-void FracturingSolid::solve_faces() {
+template <int D>
+void FracturingSolid<D>::solve_faces() {
   load_is_current_ = load_is_current_ && is_steady();
   take_load();
   faces_ = cracked_.faces(in_cracks());
   unknowns_are_current_ = false;
 }
 
-void FracturingSolid::find_unknowns() {
+template <int D>
+void FracturingSolid<D>::find_unknowns() {
   if (unknowns_are_current_) return;
   take_load();
   view(unknowns_) = prescribed_.at(window_end_) + cracked_.unknowns(faces_.pressure);
@@ -258,7 +276,8 @@ void FracturingSolid::find_unknowns() {
 }
 
 /// Those named of an array of all, which the next call may write to again.
-std::span<const double> FracturingSolid::find_unknowns(std::span<const Index> named) {
+template <int D>
+std::span<const double> FracturingSolid<D>::find_unknowns(std::span<const Index> named) {
   if (unknowns_are_current_) return unknowns_;
   take_load();
   some_unknowns_.resize(unknowns_.size());
@@ -270,7 +289,8 @@ std::span<const double> FracturingSolid::find_unknowns(std::span<const Index> na
   return some_unknowns_;
 }
 
-void FracturingSolid::derive() {
+template <int D>
+void FracturingSolid<D>::derive() {
   find_unknowns();
   if (derived_) return;
   std::vector<double> force(unknowns_.size());
@@ -281,9 +301,10 @@ void FracturingSolid::derive() {
 }
 
 /// Work since the last time; that of the fluid in the cracks is the fluid's, and contact does none.
-void FracturingSolid::book_work() {
+template <int D>
+void FracturingSolid<D>::book_work() {
   if (is_steady()) {
-    const CrackedBody::Energies energies = cracked_.energies(faces_.pressure);
+    const typename CrackedBody<D>::Energies energies = cracked_.energies(faces_.pressure);
     // Loads that come on suddenly do half of it: a body in equilibrium has no kinetic energy.
     const double share = load_work_ == 0.0 ? 0.5 : 1.0;
     external_work_ += share * (energies.load - load_work_) + energies.relief - relief_work_;
@@ -298,8 +319,10 @@ void FracturingSolid::book_work() {
   view(force) -= cracked_.face_force(faces_.pressure);
   double relief = 0.0;
   for (Index f = 0; f < static_cast<Index>(cracked_.jumps().size()); ++f) {
-    const Vector<2> stress = cracked_.relief(f), jump = cracked_.jump(f, unknowns_);
-    relief += cracked_.jumps()[f].length * (stress[0] * jump[0] + stress[1] * jump[1]);
+    const Vector<D> stress = cracked_.relief(f), jump = cracked_.jump(f, unknowns_);
+    double sum = 0.0;
+    for (int a = 0; a < D; ++a) sum += stress[a] * jump[a];
+    relief += cracked_.jumps()[f].area * sum;
   }
   external_work_ +=
       0.5 * (view(force_) + view(force)).dot(view(unknowns_) - view(unknowns_before_)) + relief -
@@ -309,7 +332,8 @@ void FracturingSolid::book_work() {
   unknowns_before_ = unknowns_;
 }
 
-double FracturingSolid::conclude(const TimeWindow& window) {
+template <int D>
+double FracturingSolid<D>::conclude(const TimeWindow& window) {
   double most = tips_.find_readiness(crack_state());
   // Shorter windows than this, of the time since the last growth, would not tell.
   const bool can_cut = window.length() > 5e-2 * (window.end - last_growth_);
@@ -335,7 +359,8 @@ double FracturingSolid::conclude(const TimeWindow& window) {
   return window.end;
 }
 
-CrackState FracturingSolid::crack_state() {
+template <int D>
+CrackState<D> FracturingSolid<D>::crack_state() {
   return {.t = window_end_,
           .opening = faces_.opening,
           .pressure = faces_.pressure,
@@ -346,7 +371,8 @@ CrackState FracturingSolid::crack_state() {
           .jumps = [this] { return cracked_.jumps_under(faces_.pressure); }};
 }
 
-void FracturingSolid::visit_state(StateVisitor& visitor) {
+template <int D>
+void FracturingSolid<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("pore_stress", pore_stress_);  // says whether the rest is steady
   visitor.visit("relief_work", relief_work_);
   if (is_steady()) {
@@ -374,7 +400,8 @@ void FracturingSolid::visit_state(StateVisitor& visitor) {
   interface_.visit_state(visitor);
 }
 
-void FracturingSolid::on_restored(double t) {
+template <int D>
+void FracturingSolid<D>::on_restored(double t) {
   window_end_ = t;
   cracked_.follow_bonds();
   derived_ = false;
@@ -382,5 +409,8 @@ void FracturingSolid::on_restored(double t) {
   load_is_current_ = false;
   if (!is_steady()) unknowns_ = unknowns_before_;
 }
+
+template class FracturingSolid<2>;
+template class FracturingSolid<3>;
 
 }  // namespace perifrac

@@ -2,12 +2,14 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/errors.hpp"
 #include "core/geometry/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/time/scheduled_vector.hpp"
+#include "modules/solid/crack_front.hpp"
 #include "modules/solid/crack_tips.hpp"
 #include "modules/solid/cracked_body.hpp"
 #include "modules/solid/interface_force.hpp"
@@ -15,26 +17,26 @@
 
 namespace perifrac {
 
-/// The quasi-static solid with cracks that grow (plane strain): in equilibrium at the end of every
-/// window. A tip goes on by one facet of a spacing where J >= Gc or, where a viscous fluid reaches
-/// it, where the opening behind it has grown to the tip's asymptote (tip_law.hpp); straight ahead
-/// or turned by the kink angle. The window is cut to the time when the first tip goes on; with
-/// fluid in the crack one tip goes on a window, so that the pressure answers before the next.
+/// The quasi-static solid with cracks that grow (in 2D in plane strain): in equilibrium at the end
+/// of every window. In 2D tips go on (crack_tips.hpp), in 3D fronts in their plane
+/// (crack_front.hpp). The window is cut to the time when the first one does; with fluid in the
+/// crack one does a window, so that the pressure answers before the next.
 ///
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
 /// [Pa], `crack_viscosity` [Pa s] and Carter's `crack_leak_off` [m/s^0.5], of the fluid at the
 /// facet, 0 where it is dry; out `crack_opening` [m], and the property `free_crack_opening` [m],
 /// what it would be if closed faces did not press on each other (negative: they pass through one
 /// another), with its slope against crack_pressure, a matrix. `damage` of the points (paper Eq 16),
-/// `crack_length` [m], of it `open_crack_length` where faces are apart, and `fracture_energy`
-/// [J/m], what new faces took.
+/// `crack_length` [m], of it `open_crack_length` where faces are apart, in 3D `crack_area` and
+/// `open_crack_area` [m^2], and `fracture_energy` [J], what new faces took, in 2D per metre.
+template <int D>
 class FracturingSolid final : public PhysicsModule {
  public:
   /// `fracture_energy` infinite: no crack grows.
-  FracturingSolid(std::shared_ptr<const Body<2>> body, std::shared_ptr<Family<2>> family,
-                  std::shared_ptr<BreakableElasticity<2>> elastic, const SolidBoundary<2>& boundary,
-                  std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
-                  FractureEnergy<2> fracture_energy);
+  FracturingSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<Family<D>> family,
+                  std::shared_ptr<BreakableElasticity<D>> elastic, const SolidBoundary<D>& boundary,
+                  std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,
+                  FractureEnergy<D> fracture_energy);
 
   /// As QuasiStaticSolid's.
   std::string free_motion();
@@ -62,8 +64,8 @@ class FracturingSolid final : public PhysicsModule {
     damage,
     crack_opening,
     free_crack_opening,
-    crack_length,
-    open_crack_length,
+    crack_area,
+    open_crack_area,
     elastic_energy,
     external_work,
     fracture_energy,
@@ -75,7 +77,7 @@ class FracturingSolid final : public PhysicsModule {
   bool is_steady() const {
     return loads_are_steady_ && pore_stress_.empty() && !interface_.is_linked();
   }
-  CrackState crack_state();
+  CrackState<D> crack_state();
   Eigen::VectorXd find_load();
   Eigen::VectorXd in_cracks();
   void take_load();
@@ -85,20 +87,20 @@ class FracturingSolid final : public PhysicsModule {
   void derive();
   void book_work();
 
-  std::shared_ptr<const Body<2>> body_;
-  std::vector<CrackFacet<2>> seeds_;
+  std::shared_ptr<const Body<D>> body_;
+  std::vector<CrackFacet<D>> seeds_;
   std::vector<Port> ports_;
   std::vector<Index> plate_unknowns_;
   Eigen::SparseMatrix<double> free_unknowns_;
-  std::optional<InitialStress<2>> initial_stress_;
+  std::optional<InitialStress<D>> initial_stress_;
   ScheduledVector prescribed_{0};
   ScheduledVector load_{0};
   bool prescribes_ = false;  ///< some displacement other than 0
   bool loads_are_steady_ = false;
 
-  BondState<2>& bonds_;
-  CrackedBody cracked_;
-  CrackTips tips_;
+  BondState<D>& bonds_;
+  CrackedBody<D> cracked_;
+  std::conditional_t<D == 2, CrackTips, CrackFront> tips_;
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   bool unknowns_are_current_ = false;
@@ -111,8 +113,8 @@ class FracturingSolid final : public PhysicsModule {
          relief_work_ = 0.0;  ///< of the last window (CrackedBody::Energies) [J/m]
   double external_work_ = 0.0;
   double spent_energy_ = 0.0;      ///< on new faces [J/m]
-  double crack_length_ = 0.0;      ///< made when it is asked for
-  double open_length_ = 0.0;       ///< likewise
+  double crack_area_ = 0.0;        ///< made when it is asked for
+  double open_area_ = 0.0;         ///< likewise
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
   double last_growth_ = 0.0;       ///< [s]
   int cuts_ = 0;                   ///< of the window at hand
@@ -122,7 +124,7 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<double> crack_viscosity_;
   std::vector<double> crack_leak_off_;
   InterfaceForce interface_;
-  CrackedBody::Faces faces_;
+  typename CrackedBody<D>::Faces faces_;
   Eigen::VectorXd free_opening_;
   std::vector<double> opening_slope_;
   std::vector<double> dilatation_;

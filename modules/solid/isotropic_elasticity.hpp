@@ -37,6 +37,12 @@ struct IsotropicElasticity {
   /// Stiffness against a change of volume at fixed mean stress [Pa]: lambda + mu in plane strain,
   /// the bulk modulus in 3D. What a pore stress makes of dilatation, locally.
   double drained_bulk_modulus() const { return lame_lambda + 2.0 * shear_modulus / D; }
+
+  /// E' = E / (1 - nu^2) [Pa].
+  double plane_strain_modulus() const {
+    return 4.0 * shear_modulus * (lame_lambda + shear_modulus) /
+           (lame_lambda + 2.0 * shear_modulus);
+  }
 };
 
 /// The keys of `material` for an isotropic elastic solid, of which two elastic constants are given.

@@ -4,15 +4,19 @@
 
 namespace perifrac {
 
-RigidSlits::RigidSlits(std::shared_ptr<const Body<2>> body,
-                       const std::vector<CrackFacet<2>>& facets, std::vector<double> opening)
+template <int D>
+RigidSlits<D>::RigidSlits(std::shared_ptr<const Body<D>> body,
+                          const std::vector<CrackFacet<D>>& facets, std::vector<double> opening)
     : body_(std::move(body)), bonds_(body_->claim_bond_state()), opening_(std::move(opening)) {
-  Family<2> family = *body_->family(0);
-  for (const CrackFacet<2>& facet : facets) {
-    const auto cut = bonds_cut_by<2>(facet, family);
+  Family<D> family = *body_->family(0);
+  for (const CrackFacet<D>& facet : facets) {
+    const auto cut = bonds_cut_by<D>(facet, family);
     for (const auto& [i, j] : cut) silence(family, i, j);
     bonds_.add_facet(facet, cut);
   }
 }
+
+template class RigidSlits<2>;
+template class RigidSlits<3>;
 
 }  // namespace perifrac

@@ -9,13 +9,14 @@
 
 namespace perifrac {
 
-/// A solid that does not deform, with cracks of a width that stays: slits for fluid to flow in
-/// (2D). Port: on the facets of the cracks (`crack`), out `crack_opening` and, for crack fluid,
+/// A solid that does not deform, with cracks of a width that stays: slits for fluid to flow in.
+/// Port: on the facets of the cracks (`crack`), out `crack_opening` and, for crack fluid,
 /// `free_crack_opening`, which are the same [m].
+template <int D>
 class RigidSlits final : public PhysicsModule {
  public:
   /// Cuts the body's bonds; `opening` has a value a facet [m].
-  RigidSlits(std::shared_ptr<const Body<2>> body, const std::vector<CrackFacet<2>>& facets,
+  RigidSlits(std::shared_ptr<const Body<D>> body, const std::vector<CrackFacet<D>>& facets,
              std::vector<double> opening);
 
   std::span<const Port> ports() const override { return ports_; }
@@ -30,8 +31,8 @@ class RigidSlits final : public PhysicsModule {
   std::vector<Port> ports_{
       {"crack_opening", "m", PortDirection::out},
       {"free_crack_opening", "m", PortDirection::out, PortKind::intensive, PortRole::property}};
-  std::shared_ptr<const Body<2>> body_;
-  BondState<2>& bonds_;
+  std::shared_ptr<const Body<D>> body_;
+  BondState<D>& bonds_;
   std::vector<double> opening_;
 };
 

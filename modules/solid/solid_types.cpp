@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/geometry/crack_seeds.hpp"
+#include "core/geometry/plane_crack_seeds.hpp"
 #include "modules/solid/damage_keys.hpp"
 #include "modules/solid/dynamic_fracture.hpp"
 #include "modules/solid/dynamic_solid.hpp"
@@ -23,16 +24,36 @@ bool has_cracks(const Section& section) {
   return section.scene().has("damage") || section.scene().count("cracks") > 0;
 }
 
+std::vector<CrackFacet<2>> read_crack(const Section& scene, std::size_t k, const Body<2>& body) {
+  return read_crack(scene, k, body.spacing());
+}
+std::vector<CrackFacet<3>> read_crack(const Section& scene, std::size_t k, const Body<3>& body) {
+  return read_plane_crack(scene, k, body);
+}
+
+/// The facets of all cracks that the scene has from the start.
+template <int D>
+std::vector<CrackFacet<D>> read_seeds(const Section& scene, const Body<D>& body) {
+  std::vector<CrackFacet<D>> facets;
+  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
+    const std::vector<CrackFacet<D>> crack = read_crack(scene, k, body);
+    facets.insert(facets.end(), crack.begin(), crack.end());
+  }
+  return facets;
+}
+
 /// What a scene's cracks that facets make are.
+template <int D>
 struct Cracks {
-  std::vector<CrackFacet<2>> seeds;
-  FractureEnergy<2> fracture_energy;
+  std::vector<CrackFacet<D>> seeds;
+  FractureEnergy<D> fracture_energy;
 };
 
-Cracks read_cracks(const Section& section, const Body<2>& body) {
+template <int D>
+Cracks<D> read_cracks(const Section& section, const Body<D>& body) {
   const Section scene = section.scene();
-  Cracks cracks{.seeds = read_crack_seeds(scene, body.spacing()),
-                .fracture_energy = read_fracture_energy(scene, body)};
+  Cracks<D> cracks{.seeds = read_seeds(scene, body),
+                   .fracture_energy = read_fracture_energy(scene, body)};
   if (cracks.seeds.empty()) {
     scene.fail("damage", "no crack to grow", "a list 'cracks' with one crack or more");
   }
@@ -83,16 +104,17 @@ void check_large_rotations(const Section& section, const Body<D>& body,
   }
 }
 
+template <int D>
 std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
-                                               std::shared_ptr<const Body<2>> body) {
-  const Cracks cracks = read_cracks(section, *body);
-  const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
-  auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
+                                               std::shared_ptr<const Body<D>> body) {
+  const Cracks<D> cracks = read_cracks(section, *body);
+  const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
+  auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
   auto elastic =
-      read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
-  auto solid = std::make_unique<FracturingSolid>(body, family, std::move(elastic), boundary,
-                                                 read_initial_stress<2>(section, *body),
-                                                 cracks.seeds, cracks.fracture_energy);
+      read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));
+  auto solid = std::make_unique<FracturingSolid<D>>(body, family, std::move(elastic), boundary,
+                                                    read_initial_stress<D>(section, *body),
+                                                    cracks.seeds, cracks.fracture_energy);
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -104,7 +126,7 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
                                                      std::shared_ptr<const Body<2>> body) {
   refuse_large_rotations(section, "beside cracks whose faces do not turn",
                          "damage.type: critical_stretch");
-  const Cracks cracks = read_cracks(section, *body);
+  const Cracks<2> cracks = read_cracks(section, *body);
   const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<2>> elastic =
@@ -115,19 +137,11 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
       read_initial_stress<2>(section, *body), cracks.seeds, cracks.fracture_energy);
 }
 
-std::unique_ptr<PhysicsModule> refuse_cracks_in_3d(const Section& section) {
-  section.scene().fail(section.scene().has("damage") ? "damage" : "cracks", "cracks in 3D",
-                       "dimension: 2");
-}
-
-std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
-                                               std::shared_ptr<const Body<3>>) {
-  return refuse_cracks_in_3d(section);
-}
-
 std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
                                                      std::shared_ptr<const Body<3>>) {
-  return refuse_cracks_in_3d(section);
+  section.scene().fail(section.scene().has("damage") ? "damage" : "cracks",
+                       "cracks that grow by energy_release in a dynamic solid in 3D",
+                       "solid.type: quasi_static, damage.type: critical_stretch or dimension: 2");
 }
 
 template <int D>
@@ -143,15 +157,6 @@ std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
   }
   return solid;
-}
-
-std::vector<CrackFacet<2>> read_seeds(const Section& scene, const Body<2>& body) {
-  return read_crack_seeds(scene, body.spacing());
-}
-
-std::vector<CrackFacet<3>> read_seeds(const Section& scene, const Body<3>&) {
-  if (scene.count("cracks") > 0) scene.fail("cracks", "cracks in 3D", "dimension: 2");
-  return {};
 }
 
 template <int D>
@@ -198,19 +203,19 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
   return make(std::move(elastic), std::move(breaking));
 }
 
-std::unique_ptr<PhysicsModule> make_rigid(const Section& section, const AnyBody& any) {
+template <int D>
+std::unique_ptr<PhysicsModule> make_rigid(const Section& section,
+                                          std::shared_ptr<const Body<D>> body) {
   const Section scene = section.scene();
   if (scene.count("cracks") == 0) return std::make_unique<RigidSolid>();
-  const auto* const body = std::get_if<std::shared_ptr<const Body<2>>>(&any);
-  if (body == nullptr) scene.fail("cracks", "cracks in 3D", "dimension: 2");
-  std::vector<CrackFacet<2>> facets;
+  std::vector<CrackFacet<D>> facets;
   std::vector<double> opening;
   for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
-    const std::vector<CrackFacet<2>> crack = read_crack(scene, k, (*body)->spacing());
+    const std::vector<CrackFacet<D>> crack = read_crack(scene, k, *body);
     facets.insert(facets.end(), crack.begin(), crack.end());
     opening.resize(facets.size(), scene.number(fmt::format("cracks[{}].opening", k)));
   }
-  return std::make_unique<RigidSlits>(*body, facets, std::move(opening));
+  return std::make_unique<RigidSlits<D>>(std::move(body), facets, std::move(opening));
 }
 
 /// Keys of one elastic solid may stand beside another, so that one word swaps them.
@@ -274,7 +279,9 @@ ModuleType rigid_solid_type() {
           .name = "rigid",
           .meaning = "Solid that does not deform: no unknowns, no cost.",
           .keys = rigid_keys(),
-          .make = make_rigid};
+          .make = [](const Section& section, const AnyBody& any) {
+            return std::visit([&](const auto& body) { return make_rigid(section, body); }, any);
+          }};
 }
 
 }  // namespace perifrac

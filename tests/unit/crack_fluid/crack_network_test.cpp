@@ -188,9 +188,9 @@ TEST(CrackNetwork, AFacetServesOneInlet) {
 }
 
 CrackRun leaking(double coefficient, std::vector<CrackInlet> inlets,
-                 SealedWalls sealed = SealedWalls()) {
+                 SealedWalls<2> sealed = SealedWalls<2>()) {
   CrackRun run(water, std::move(inlets), {{everywhere, 1e5}},
-               std::make_unique<CarterLeakOff>(coefficient, water.density, std::move(sealed)));
+               std::make_unique<CarterLeakOff<2>>(coefficient, water.density, std::move(sealed)));
   run.add_line(straight_line({0.0, 0.0}, 0.0, dx, 10));
   run.open(w);
   return run;
@@ -212,7 +212,7 @@ TEST(CrackNetwork, CarterTakesItsVolume) {
 
 TEST(CrackNetwork, SealedWallsLetNothingThrough) {
   const Region<2> box{"", {-dx, -dx}, {4.1 * dx, dx}};  // four facets of ten
-  CrackRun run = leaking(1e-5, {pressure_inlet("in", {0.0, 0.0}, 1e6)}, SealedWalls({box}));
+  CrackRun run = leaking(1e-5, {pressure_inlet("in", {0.0, 0.0}, 1e6)}, SealedWalls<2>({box}));
   run.advance(0.1, 3);
   const double volume = 4.0 * 1e-5 * std::sqrt(run.time()) * 6 * dx;
   EXPECT_NEAR(run.scalar("leak_off_volume"), volume, 1e-10 * volume);

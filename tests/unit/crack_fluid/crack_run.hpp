@@ -23,22 +23,22 @@ inline std::vector<Vector<2>> straight_line(const Vector<2>& from, double angle,
 }
 
 inline CrackInlet rate_inlet(const Vector<2>& at, double rate, Schedule schedule = {}) {
-  return {"pump", at, false, rate, std::move(schedule)};
+  return {"pump", {at[0], at[1]}, false, rate, std::move(schedule)};
 }
 inline CrackInlet pressure_inlet(const std::string& name, const Vector<2>& at, double pressure) {
-  return {name, at, true, pressure, {}};
+  return {name, {at[0], at[1]}, true, pressure, {}};
 }
 
 /// Fluid in a crack whose facets are given and whose opening is value + slope p.
 class CrackRun {
  public:
   CrackRun(const CrackLiquid& liquid, std::vector<CrackInlet> inlets,
-           std::vector<CrackFilling> fillings = {}, std::unique_ptr<LeakOff> leak_off = nullptr)
+           std::vector<CrackFilling<2>> fillings = {}, std::unique_ptr<LeakOff> leak_off = nullptr)
       : body_(box_body<2>({3, 3}, 1.0)),
         bonds_(body_->claim_bond_state()),
-        module_(std::make_unique<CrackNetwork>(body_, liquid,
-                                               CrackInlets(std::move(inlets), liquid),
-                                               std::move(fillings), std::move(leak_off))) {
+        module_(std::make_unique<CrackNetwork<2>>(body_, liquid,
+                                                  CrackInlets(std::move(inlets), liquid),
+                                                  std::move(fillings), std::move(leak_off))) {
     module_->initialize(0.0);
   }
 
@@ -48,7 +48,7 @@ class CrackRun {
     }
   }
 
-  CrackNetwork& module() { return *module_; }
+  CrackNetwork<2>& module() { return *module_; }
   PortView port(const std::string& name) {
     const auto ports = module_->ports();
     const auto found = std::ranges::find(ports, name, &Port::name);
@@ -95,7 +95,7 @@ class CrackRun {
  private:
   std::shared_ptr<const Body<2>> body_;
   BondState<2>& bonds_;
-  std::unique_ptr<CrackNetwork> module_;
+  std::unique_ptr<CrackNetwork<2>> module_;
   double time_ = 0.0;
 };
 

@@ -31,8 +31,8 @@ CrackGraph fork() {
 TEST(CrackGraph, JoinsFacetsWhereTheyShareAPoint) {
   const CrackGraph graph = fork();
   ASSERT_EQ(graph.facet_count(), 15);
-  EXPECT_NEAR(graph.length(3), 1e-3, 1e-15);
-  EXPECT_NEAR(graph.length(12), 0.7e-3, 1e-15);
+  EXPECT_NEAR(graph.area(3), 1e-3, 1e-15);
+  EXPECT_NEAR(graph.area(12), 0.7e-3, 1e-15);
   ASSERT_EQ(graph.joint_count(), 13u);  // 9 on the line, of which one with the branch, and 4
   int junctions = 0;
   for (std::size_t k = 0; k < graph.joint_count(); ++k) {
@@ -41,11 +41,11 @@ TEST(CrackGraph, JoinsFacetsWhereTheyShareAPoint) {
     ++junctions;
     ASSERT_EQ(joint.size(), 3u);
     EXPECT_EQ(joint[0].facet, 4);
-    EXPECT_EQ(joint[0].end, 1);
+    EXPECT_EQ(joint[0].side, 1);
     EXPECT_EQ(joint[1].facet, 5);
-    EXPECT_EQ(joint[1].end, 0);
+    EXPECT_EQ(joint[1].side, 0);
     EXPECT_EQ(joint[2].facet, 10);
-    EXPECT_EQ(joint[2].end, 0);
+    EXPECT_EQ(joint[2].side, 0);
   }
   EXPECT_EQ(junctions, 1);
 }
@@ -62,7 +62,7 @@ struct AnyStep {
   std::vector<double> value, rate, slope, mass;
   std::vector<FacetInflow> inflows{
       {0, -INFINITY, INFINITY, 3e5}, {8, 2e-4, 2e-4, 0.0}, {12, -3e-4, 0.0, -2e4}};
-  CarterLeakOff leak_off{1e-4, 1000.0};
+  CarterLeakOff<2> leak_off{1e-4, 1000.0};
   Eigen::VectorXd v{15};
 
   AnyStep() {
@@ -75,7 +75,7 @@ struct AnyStep {
       v[f] = f % 4 == 3 ? -2e4 - 10e6 * random(bits) : 4e5 * random(bits);
       for (int g = 0; g < 15; ++g) slope.push_back((f == g ? 1e-10 : 0.0) + 1e-11 * random(bits));
     }
-    leak_off.match(BondState<2>(), lubrication.graph());
+    leak_off.match(PointSet{}, lubrication.graph());
     leak_off.begin({0.1, 0.12});
   }
   LubricationStep step(double end = 0.12) {

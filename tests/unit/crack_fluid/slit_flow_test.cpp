@@ -18,7 +18,7 @@ constexpr double high = 2e5, low = 0.5e5;
 constexpr CrackLiquid incompressible{
     .density = 1000.0, .viscosity = 1e-3, .bulk_modulus = 1e18, .residual_aperture = 1e-9};
 
-const std::vector<CrackFilling> all_full = {{{"", {-1.0, -1.0}, {1.0, 1.0}}, low}};
+const std::vector<CrackFilling<2>> all_full = {{{"", {-1.0, -1.0}, {1.0, 1.0}}, low}};
 
 /// w^3 / (12 mu) times the fall of pressure, over the distance.
 double cubic_law(double distance) {

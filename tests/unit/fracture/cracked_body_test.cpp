@@ -37,8 +37,8 @@ TEST(CrackedBody, HasASymmetricCompliance) {
   const Eigen::MatrixXd& c = plate.cracked->compliance();
   for (Eigen::Index f = 0; f < c.rows(); ++f) {
     for (Eigen::Index g = 0; g < f; ++g) {
-      EXPECT_NEAR(c(f, g) * plate.cracked->jumps()[f].length,
-                  c(g, f) * plate.cracked->jumps()[g].length, 1e-10 * c.maxCoeff());
+      EXPECT_NEAR(c(f, g) * plate.cracked->jumps()[f].area,
+                  c(g, f) * plate.cracked->jumps()[g].area, 1e-10 * c.maxCoeff());
     }
   }
 }

@@ -14,7 +14,13 @@ std::vector<CrackFacet<2>> read(const std::string& cracks) {
   KeyTable keys = crack_seed_keys();
   keys.push_back({.path = "dimension", .type = KeyType::integer, .meaning = "Of space."});
   const SceneFile file("dimension: 2\ncracks: " + cracks + "\n");
-  return read_crack_seeds(read_scene(file.path(), {}, {{"", "", keys}}), 1.0);
+  const Section scene = read_scene(file.path(), {}, {{"", "", keys}});
+  std::vector<CrackFacet<2>> facets;
+  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
+    const std::vector<CrackFacet<2>> crack = read_crack(scene, k, 1.0);
+    facets.insert(facets.end(), crack.begin(), crack.end());
+  }
+  return facets;
 }
 
 TEST(CrackSeeds, CutsEveryLegIntoPiecesOfAboutASpacing) {
