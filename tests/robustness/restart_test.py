@@ -75,8 +75,10 @@ class Restart(RunTest):
         pores = {"body.spacing": "5 mm", "time.end": "10 ms"}
         cvode = pores | {"pore_flow.integrator.type": "cvode", "coupling.window.largest": "1 ms"}
         stabilised = pores | {"pore_flow.undrained_stabilisation": "0.25"}
+        front = {"body.size": "[8 mm, 8 mm, 32 mm]", "time.end": "12 ms"}
         for name, scene, until, keys in (("dry", "hf_storage", "10 ms", dry),
                                          ("inertia", "hf_storage", "10 ms", dry | {"solid.type": "dynamic"}),
+                                         ("in 3D", "radial", "10 ms", front),
                                          ("explicit pores", "hf_storage_pores", "5 ms", pores),
                                          ("stabilised pores", "hf_storage_pores", "5 ms", stabilised),
                                          ("cvode pores", "hf_storage_pores", "5 ms", cvode)):
