@@ -252,19 +252,18 @@ def march(modulus: float, toughness: float, viscosity: float, rate: float, end: 
 
 
 def unit_march(K: float, source: float, **options) -> March:
-    """At time 1, for E' = 1 GPa, mu = 1 mPa s and 1 cm^3/s; `source` in shares of the radius."""
+    """At time 1, for E' = 1 GPa, mu = 1 mPa s and 1 cm^3/s; `source` in shares of (Q^3 E' t^4/mu')^(1/9)."""
     modulus, viscosity, rate = 1e9, 1e-3, 1e-6
     toughness = K / dimensionless_toughness(modulus, 1.0, viscosity, rate, 1.0)
-    size = min(c[0] for c in corners(modulus, toughness, viscosity, rate, 1.0).values())
-    return march(modulus, toughness, viscosity, rate, 1.0, source=source * size, **options)
+    length = (rate**3 * modulus / (12 * viscosity)) ** (1 / 9)
+    return march(modulus, toughness, viscosity, rate, 1.0, source=source * length, **options)
 
 
 def table_row(K: float, source: float, **options) -> tuple[float, ...]:
-    """Radius, opening, pressures at the source and mean over those of the viscosity corner, which are
-    (Q^3 E' t^4/mu')^(1/9), (mu'^2 Q^3 t/E'^2)^(1/9) and (E'^2 mu'/t)^(1/3)."""
+    """Radius over that length, opening over (mu'^2 Q^3 t/E'^2)^(1/9), pressure at the source and mean over
+    (E'^2 mu'/t)^(1/3)."""
     found = unit_march(K, source, **options)
-    length = (1e-18 * 1e9 / 0.012) ** (1 / 9)
-    thin = (0.012 / 1e9) ** (1 / 3)
+    length, thin = (1e-18 * 1e9 / 0.012) ** (1 / 9), (0.012 / 1e9) ** (1 / 3)
     _, radius, opening, disc, mean, _ = found.history.rows[-1]
     return radius / length, opening / (thin * length), disc / (1e9 * thin), mean / (1e9 * thin)
 
