@@ -1,12 +1,12 @@
 #include "app/references/kgd_reference.hpp"
 
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/growth_step.hpp"
 #include "app/references/kgd_solution.hpp"
 #include "app/references/rock.hpp"
 
@@ -39,32 +39,6 @@ KgdSolution solve(const Section& scene, const KgdProblem& driven) {
   }
 }
 
-/// Growth comes in steps of a spacing, in which everything goes up and down: means over the time of
-/// one step, as the solution has it, in the latter half of the run; of these, over the exact value,
-/// the one that is farthest from 1.
-auto worst_mean_of_growth(const KgdSolution& solution, double spacing, double end,
-                          Reference::OfTime exact) {
-  return
-      [=](std::span<const double> times, std::span<const double> values) -> std::optional<double> {
-        std::optional<double> worst;
-        for (std::size_t middle = 0; middle < times.size(); ++middle) {
-          const double t = times[middle];
-          // Length goes with t^(2/3).
-          const double step = 1.5 * t * spacing / solution.length(t);
-          if (!(t - 0.5 * step >= 0.5 * end && t + 0.5 * step <= end)) continue;  // NaN at t = 0
-          double sum = 0.0, time = 0.0;
-          for (std::size_t k = 1; k < times.size(); ++k) {
-            if (times[k] < t - 0.5 * step || times[k] > t + 0.5 * step) continue;
-            sum += (times[k] - times[k - 1]) * values[k] / exact(times[k]);
-            time += times[k] - times[k - 1];
-          }
-          if (!(time > 0.0)) continue;
-          if (!worst || std::abs(sum / time - 1.0) > std::abs(*worst - 1.0)) worst = sum / time;
-        }
-        return worst;
-      };
-}
-
 }  // namespace
 
 std::unique_ptr<Reference> make_kgd_reference(const Section& scene, const Simulation& simulation) {
@@ -80,35 +54,31 @@ std::unique_ptr<Reference> make_kgd_reference(const Section& scene, const Simula
   const Field pressure = field_named(manager, fmt::format("inlet_{}_pressure", inlet));
   const Field opening = field_named(manager, "crack_opening");
 
+  // Length goes with t^(2/3).
+  const auto step = [=](double t) { return 1.5 * t * spacing / solution.length(t); };
   auto reference = std::make_unique<Reference>(
       "kgd",
       fmt::format("two wings in an infinite body, K_m = {:.3g}", driven.dimensionless_toughness()),
       0.0);
-  const auto compare = [&](const std::string& quantity, const std::string& place,
-                           const std::string& unit, Reference::Computed computed,
-                           Reference::OfTime exact) {
-    reference->add(Reference::Error{
-        quantity + "_error", [=](double t) { return std::abs(computed() / exact(t) - 1.0); }});
-    const std::size_t history =
-        reference->add(Reference::History{quantity + " at " + place, unit, computed, exact});
-    reference->add(
-        Reference::Figure{.name = quantity + " over the exact, mean of a step",
-                          .unit = "",
-                          .exact = 1.0,
-                          .scale = 1.0,
-                          .history = history,
-                          .computed = worst_mean_of_growth(solution, spacing, end, exact)});
+  const auto compare = [&](const OfGrowth& compared) {
+    compare_growth(*reference, compared, step, end);
   };
-  compare(
-      "length", "the tip", "m", [=] { return length.values()[0]; },
-      [=](double t) { return solution.length(t); });
-  compare(
-      "pressure", "the inlet", "Pa", [=] { return pressure.values()[0] - stress; },
-      [=](double t) { return solution.pressure(t); });
+  compare({.quantity = "length",
+           .place = "the tip",
+           .unit = "m",
+           .computed = [=] { return length.values()[0]; },
+           .exact = [=](double t) { return solution.length(t); }});
+  compare({.quantity = "pressure",
+           .place = "the inlet",
+           .unit = "Pa",
+           .computed = [=] { return pressure.values()[0] - stress; },
+           .exact = [=](double t) { return solution.pressure(t); }});
   // The first facet begins at the inlet.
-  compare(
-      "opening", "the inlet", "m", [=] { return opening.values()[0]; },
-      [=](double t) { return solution.opening(t); });
+  compare({.quantity = "opening",
+           .place = "the inlet",
+           .unit = "m",
+           .computed = [=] { return opening.values()[0]; },
+           .exact = [=](double t) { return solution.opening(t); }});
   return reference;
 }
 

@@ -13,6 +13,7 @@
 #include "app/references/kgd_reference.hpp"
 #include "app/references/mandel_reference.hpp"
 #include "app/references/poiseuille_reference.hpp"
+#include "app/references/radial_reference.hpp"
 #include "app/references/slit_flow_reference.hpp"
 #include "app/references/table_reference.hpp"
 #include "app/references/water_on_plate_reference.hpp"
@@ -34,6 +35,7 @@ const std::vector<ReferenceType>& reference_types() {
       {"constant_head", make_constant_head_reference},
       {"water_on_plate", make_water_on_plate_reference},
       {"kgd", make_kgd_reference},
+      {"radial", make_radial_reference},
       {"slit_flow", make_slit_flow_reference},
       {"table", make_table_reference},
   };
