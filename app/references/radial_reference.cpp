@@ -60,7 +60,7 @@ RadialProblem read_problem(const Section& scene) {
   require_word(scene, problem, "crack_fluid.leak_off", {"none"});
   require_absent(scene, problem, {"pore_flow", "solid.regions", "damage.regions", "gravity"});
   if (!writes(scene, "damage") || scene.count("crack_fluid.inlets") != 1 ||
-      !writes(scene, "crack_fluid.inlets[0].volume_rate")) {
+      !scene.has("crack_fluid.inlets[0].volume_rate")) {
     scene.fail("reference.type", "this scene is not " + problem,
                "damage, and one inlet with a volume_rate");
   }

@@ -201,6 +201,18 @@ TEST(Barriers, AskForMorePressureAsTheCrackGoesOn) {
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
 }
 
+/// A round crack in 3D of three to five spacings, in a block of twelve; verification_radial has
+/// more.
+TEST(RoundCrack, GrowsAsAPennyShapedOne) {
+  const SceneRun run = run_config("radial", {"body.size=[12 mm, 12 mm, 32 mm]", "time.end=15 ms"});
+  ASSERT_EQ(run.exit_code, 0);
+  EXPECT_LE(run.figure("radius over the exact, mean of a step"), 0.03);
+  EXPECT_LE(run.figure("opening over the exact, mean of a step"), 0.05);
+  EXPECT_LE(run.figure("pressure over the exact, mean of a step"), 0.10);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.03);
+}
+
 /// Once the well is shut its pressure falls, in the end the crack is closed.
 TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
   const SceneRun run = run_config("shut_in");
