@@ -50,6 +50,50 @@ TEST(CrackGraph, JoinsFacetsWhereTheyShareAPoint) {
   EXPECT_EQ(junctions, 1);
 }
 
+/// Rectangles of 2 mm * 1 mm, five along each axis.
+std::vector<CrackFacet<3>> rectangles() {
+  const auto corner = [](int i, int j) { return Vector<3>{2e-3 * i, 0.01, 1e-3 * j}; };
+  std::vector<CrackFacet<3>> facets;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      facets.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+    }
+  }
+  return facets;
+}
+
+TEST(CrackGraph, JoinsFacetsIn3DWhereTheyShareASide) {
+  const CrackGraph graph{rectangles()};
+  ASSERT_EQ(graph.facet_count(), 25);
+  EXPECT_EQ(graph.joint_count(), 40u);
+  EXPECT_NEAR(graph.area(7), 2e-6, 1e-20);
+  for (std::size_t k = 0; k < graph.joint_count(); ++k) EXPECT_EQ(graph.joint(k).size(), 2u);
+}
+
+/// In a plane slit a pressure that falls evenly drives w^3 / (12 mu) times its slope through every
+/// side, times the side's width.
+TEST(Lubrication, FollowsTheCubicLawIn3D) {
+  const CrackLiquid liquid{.density = 1000.0, .viscosity = 1e-3, .bulk_modulus = 1e18};
+  Lubrication lubrication(liquid, CrackGraph(rectangles()));
+  const double w = 5e-5, along_x = 3e6, along_z = -1e6;
+  std::vector<double> pressure, aperture(25, w);
+  for (const auto& facet : rectangles()) {
+    const Vector<3> at = middle<3>(facet);
+    pressure.push_back(1e5 + along_x * at[0] + along_z * at[2]);
+  }
+  int counted = 0;
+  lubrication.for_each_flux(pressure, aperture, [&](const auto& a, const auto& b, double flux) {
+    const bool is_along_x = std::abs(a.facet - b.facet) == 5;
+    const double rise = is_along_x ? along_x : along_z, width = is_along_x ? 1e-3 : 2e-3;
+    const double towards = b.facet > a.facet ? -1.0 : 1.0;
+    const double exact =
+        towards * liquid.density * w * w * w / (12.0 * liquid.viscosity) * rise * width;
+    EXPECT_NEAR(flux, exact, 1e-10 * std::abs(exact));
+    ++counted;
+  });
+  EXPECT_EQ(counted, 40);
+}
+
 /// A step with all there is: facets full, partly full and closed, a dense slope, inlets of all
 /// kinds, leak-off.
 struct AnyStep {
