@@ -187,10 +187,10 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
   };
   if (!has_cracks(section)) return make(read_material<D>(section, *body, boundary), nullptr);
   if (section.word("material.type") != "linear_exact") {
-    section.fail("material.type",
-                 fmt::format("'{}' beside cracks in a solid with inertia",
-                             section.word("material.type")),
-                 "linear_exact, or type: quasi_static");
+    section.fail(
+        "material.type",
+        fmt::format("'{}' beside cracks in a solid with inertia", section.word("material.type")),
+        "linear_exact, or type: quasi_static");
   }
   if (!names_critical_stretch(section.scene())) return make_dynamic_fracture(section, body);
   if (section.scene().has("crack_fluid")) {

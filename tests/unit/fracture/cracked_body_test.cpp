@@ -179,10 +179,10 @@ TEST(CrackedBody, FindsDisplacementsNearATipAlone) {
 }
 
 /// Fluid that lags the tip: the energy that growth sets free is the mean of J before and after.
-void expect_energy_of_growth(Rock rock) {
+TEST(EnergyRelease, IsThatOfGrowthWhereFluidEndsShortOfTheTip) {
   const int wet = 12;
   const auto state = [&](int count, double& energy) {
-    CrackedPlate plate(60, straight_crack({30.0, 30.0}, 0.0, count), 0.25, nullptr, {}, rock);
+    CrackedPlate plate(60, straight_crack({30.0, 30.0}, 0.0, count));
     ExactCrack exact = crack_in(plate, 0.0, 0.5 * count);
     plate.pressure = Eigen::VectorXd::Zero(count);
     plate.pressure.segment((count - wet) / 2, wet).setOnes();
@@ -192,12 +192,8 @@ void expect_energy_of_growth(Rock rock) {
   for (const int count : {16, 20}) {
     double before = 0.0, after = 0.0;
     const double j = 0.5 * (state(count, before) + state(count + 2, after));
-    EXPECT_NEAR(j, 0.5 * (after - before), 0.03 * j) << count << ' ' << name(rock);
+    EXPECT_NEAR(j, 0.5 * (after - before), 0.03 * j) << count;
   }
-}
-
-TEST(EnergyRelease, IsThatOfGrowthWhereFluidEndsShortOfTheTip) {
-  for (const Rock rock : rocks) expect_energy_of_growth(rock);
 }
 
 /// Mixed load: J is (K_I^2 + K_II^2) / E', and the crack turns to its right under positive K_II.

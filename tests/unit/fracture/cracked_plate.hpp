@@ -37,8 +37,7 @@ struct CrackedPlate {
 
   CrackedPlate(int count, std::vector<CrackFacet<2>> seeds, double poisson = 0.25,
                std::shared_ptr<const Body<2>> shape = nullptr,
-               std::optional<InitialStress<2>> initial_stress = {},
-               Rock rock = Rock::linear_exact)
+               std::optional<InitialStress<2>> initial_stress = {}, Rock rock = Rock::linear_exact)
       : outer_rows(rock == Rock::lps ? 5 : 3),
         n(count),
         poisson_ratio(poisson),

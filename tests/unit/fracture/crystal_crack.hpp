@@ -78,9 +78,9 @@ struct CrystalCrack {
       const Eigen::Matrix3d& a = compliance;
       Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
       companion.bottomLeftCorner<3, 3>().setIdentity();
-      companion.row(0) = Eigen::RowVector4d(2.0 * a(0, 2), -2.0 * a(0, 1) - a(2, 2), 2.0 * a(1, 2),
-                                            -a(1, 1)) /
-                         a(0, 0);
+      companion.row(0) =
+          Eigen::RowVector4d(2.0 * a(0, 2), -2.0 * a(0, 1) - a(2, 2), 2.0 * a(1, 2), -a(1, 1)) /
+          a(0, 0);
       const Eigen::Vector4cd all = companion.eigenvalues();
       for (int k = 0, next = 0; k < 4; ++k) {
         if (all[k].imag() > 0.0) mu[next++] = all[k];
