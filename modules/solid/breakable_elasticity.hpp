@@ -14,7 +14,8 @@ namespace perifrac {
 template <int D>
 class BreakableElasticity : public ElasticOperator<D> {
  public:
-  /// Takes the displacements that gradient_at(), stress_at() and point_energy() are of; apply() does so too.
+  /// Takes the displacements that gradient_at(), stress_at() and point_energy() are of; apply()
+  /// does so too.
   virtual void look_at(std::span<const double> u) = 0;
   /// Gradient of the displacement at a point.
   virtual Tensor<D, D> gradient_at(Index i) const = 0;
