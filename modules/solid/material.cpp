@@ -200,9 +200,12 @@ std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
     const MirrorCondition<D, D>& mirror) {
   LawByRegion<IsotropicElasticity<D>> law = read_laws<D>(section, body);
   const std::string type = section.word("material.type");
-  if (type == "lps") return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law));
+  if (D == 2 && type == "lps") {
+    return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law));
+  }
   if (type != "linear_exact") {
-    section.fail("material.type", fmt::format("'{}' beside cracks", type), "linear_exact or lps");
+    section.fail("material.type", fmt::format("'{}' beside cracks", type),
+                 D == 2 ? "linear_exact or lps" : "linear_exact");
   }
   return make_linear_exact<D>(std::move(family), mirror, std::move(law), {},
                               is_corotational(section));
