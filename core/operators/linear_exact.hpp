@@ -148,14 +148,7 @@ class LinearExactOperator {
 
   /// Adds the unknowns that the gradient and the energy of point i depend on.
   void append_unknowns(Index i, std::vector<Index>& unknowns) const {
-    for (int r = 0; r < R; ++r) {
-      const auto append = [&](Index node) {
-        const Combination end = node_unknowns(*family_, mirror_, node, r);
-        for (int k = 0; k < end.count; ++k) unknowns.push_back(end.terms[k].unknown);
-      };
-      append(i);
-      for (Index b = family_->offset[i]; b < family_->offset[i + 1]; ++b) append(family_->other[b]);
-    }
+    append_family_unknowns(*family_, mirror_, i, unknowns);
   }
 
   /// The energy of point i alone in the field that is looked at.
@@ -236,22 +229,7 @@ class LinearExactOperator {
 
   /// Gradient of the field at a point.
   Tensor<R, D> gradient_at(Index i) const {
-    std::array<const double*, R> u;
-    std::array<double, R> own;
-    for (int r = 0; r < R; ++r) {
-      u[r] = field(r);
-      own[r] = u[r][i];
-    }
-    const Tensor<R, D> moment =
-        sum_over_bonds<R * D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
-          Tensor<R, D> t;
-          for (int r = 0; r < R; ++r) {
-            const double difference = w * (u[r][j] - own[r]);
-            for (int b = 0; b < D; ++b) t[r * D + b] = difference * xi[b];
-          }
-          return t;
-        });
-    return times_inverse_shape(moment, i);
+    return perifrac::gradient_at<R, D>(*family_, moments_, field_.data(), i);
   }
 
   /// Gradient of the field at every point: R * D blocks of point_count, block r * D + b.
@@ -318,25 +296,13 @@ class LinearExactOperator {
     return state_.data() + static_cast<std::size_t>(k) * family_->node_count();
   }
 
-  Tensor<R, D> times_inverse_shape(const Tensor<R, D>& t, Index i) const {
-    Tensor<R, D> result{};
-    for (int r = 0; r < R; ++r) {
-      for (int b = 0; b < D; ++b) {
-        for (int c = 0; c < D; ++c) {
-          result[r * D + b] += t[r * D + c] * moments_.inverse_shape[c * D + b][i];
-        }
-      }
-    }
-    return result;
-  }
-
   /// What a point contributes to the force of its bonds: (C : F K^-1 - s F) xi + s (u_j - u_i).
   template <class AddStress>
   void store_state(Index i, AddStress&& add) {
     const Tensor<R, D> f = gradient_at(i);
     Tensor<R, D> stress = law_at(law_, i).stress(f);
     add(i, f, stress);
-    stress = times_inverse_shape(stress, i);
+    stress = times_inverse_shape<R, D>(stress, moments_, i);
     for (int k = 0; k < R * D; ++k) state(k)[i] = stress[k] - bond_stiffness_[i] * f[k];
   }
 

@@ -15,6 +15,20 @@ struct PointStiffness {
   Eigen::MatrixXd matrix;
 };
 
+/// Adds the unknowns that the nodes of a family follow from.
+template <int D, int R>
+void append_family_unknowns(const Family<D>& family, const MirrorCondition<D, R>& mirror, Index i,
+                            std::vector<Index>& unknowns) {
+  for (int r = 0; r < R; ++r) {
+    const auto append = [&](Index node) {
+      const Combination end = node_unknowns(family, mirror, node, r);
+      for (int k = 0; k < end.count; ++k) unknowns.push_back(end.terms[k].unknown);
+    };
+    append(i);
+    for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) append(family.other[b]);
+  }
+}
+
 /// A matrix on the nodes of a family, R blocks of (the bonds' other ends, then the point itself),
 /// as one on the unknowns that these nodes follow from.
 template <int D, int R>

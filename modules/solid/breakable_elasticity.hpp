@@ -10,14 +10,21 @@
 namespace perifrac {
 
 /// An elastic material whose bonds may break: what a solid that cracks needs beyond
-/// ElasticOperator.
+/// ElasticOperator. Its energy is a sum over points, each on the bonds that the point has left.
 template <int D>
 class BreakableElasticity : public ElasticOperator<D> {
  public:
-  /// Takes the displacements that gradient_at() and point_energy() are of; apply() does so too.
+  /// Takes the displacements that gradient_at(), stress_at() and point_energy() are of; apply()
+  /// does so too.
   virtual void look_at(std::span<const double> u) = 0;
   /// Gradient of the displacement at a point.
   virtual Tensor<D, D> gradient_at(Index i) const = 0;
+
+  /// The stress at a point that does work on a uniform gradient, initial stress apart [Pa];
+  /// `gradient` is gradient_at(i).
+  virtual Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const {
+    return law(i).stress(gradient);
+  }
 
   /// Adds the unknowns that gradient_at() and point_energy() of point i depend on.
   virtual void append_unknowns(Index i, std::vector<Index>& unknowns) const = 0;

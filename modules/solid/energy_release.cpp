@@ -170,7 +170,7 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
         sum += q * force[a] * (g[a * 2] * tip.direction[0] + g[a * 2 + 1] * tip.direction[1]);
       }
     }
-    Tensor<2, 2> stress = elastic.law(i).stress(g);
+    Tensor<2, 2> stress = elastic.stress_at(i, g);
     if (!pore_stress.empty()) {
       const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
       for (const int k : {0, 3}) stress[k] -= pore_stress[i];

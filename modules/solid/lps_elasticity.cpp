@@ -7,7 +7,7 @@
 #include "core/operators/bond_traversal.hpp"
 #include "core/operators/node_unknowns.hpp"
 #include "core/operators/nonlocal_gradient.hpp"
-#include "core/operators/shape_tensor.hpp"
+#include "modules/solid/bond_energy.hpp"
 
 namespace perifrac {
 
@@ -35,17 +35,17 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
       law_(std::move(law)),
       initial_stress_(initial_stress),
       pore_sign_(pore_sign),
+      moments_(family_moments(*family_)),
       field_(static_cast<std::size_t>(D) * family_->node_count()),
       dilatation_scale_(family_->point_count),
       bond_stiffness_(family_->node_count(), 0.0),
       volume_state_(family_->node_count(), 0.0) {
   const Index points = family_->point_count;
-  const Index nodes = family_->node_count();
-  const FamilyMoments<D> moments = family_moments(*family_);
+  if (initial_stress_) {
+    initial_state_.resize(static_cast<std::size_t>(D) * D * family_->node_count());
+  }
   for (Index i = 0; i < points; ++i) {
-    const double m = moments.weighted_volume[i];
-    dilatation_scale_[i] = D / m;
-    bond_stiffness_[i] = bonds_per_shear_modulus<D> * law_.at(i).shear_modulus / m;
+    take_moments(i);
     const auto bonds =
         std::span(family_->other).subspan(family_->offset[i], family_->bond_count(i));
     if (std::ranges::any_of(bonds, [&](Index j) { return j >= points; })) face_points_.push_back(i);
@@ -58,15 +58,29 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
     }
     image_sign_.push_back(sign);
   }
+  if (initial_stress_) mirror_.fill_conjugate(initial_state_);
+}
+
+/// What follows from the moments of a point's family.
+template <int D>
+void LpsElasticity<D>::take_moments(Index i) {
+  const double m = moments_.weighted_volume[i];
+  dilatation_scale_[i] = D / m;
+  bond_stiffness_[i] = bonds_per_shear_modulus<D> * law_.at(i).shear_modulus / m;
   if (!initial_stress_) return;
-  initial_state_.resize(static_cast<std::size_t>(D) * D * nodes);
   for (int k = 0; k < D * D; ++k) {
-    for (Index i = 0; i < points; ++i) {
-      initial_state_[static_cast<std::size_t>(k) * nodes + i] =
-          (*initial_stress_)[k / D] * moments.inverse_shape[k][i];
-    }
+    initial_state_[static_cast<std::size_t>(k) * family_->node_count() + i] =
+        (*initial_stress_)[k / D] * moments_.inverse_shape[k][i];
   }
-  mirror_.fill_conjugate(initial_state_);
+}
+
+template <int D>
+void LpsElasticity<D>::update(std::span<const Index> points) {
+  for (const Index i : points) {
+    set_moments(*family_, i, moments_);
+    take_moments(i);
+  }
+  if (initial_stress_) mirror_.fill_conjugate(initial_state_);
 }
 
 template <int D>
@@ -239,27 +253,63 @@ Vector<D> LpsElasticity<D>::difference(Index i, Index j) const {
 
 /// sum_j T(xi) (x) xi of the point's own force states T: dW/dF for a uniform gradient F.
 template <int D>
+Tensor<D, D> LpsElasticity<D>::stress_at(Index i, const Tensor<D, D>&) const {
+  const std::size_t nodes = family_->node_count();
+  const double pull = dilatation_scale_[i] * dilatation_stiffness(i) * dilatation_at(i);
+  const double stiffness = bond_stiffness_[i];
+  return sum_over_bonds<D * D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+    double along = 0.0, square = 0.0;
+    for (int r = 0; r < D; ++r) {
+      along += xi[r] * (field_[r * nodes + j] - field_[r * nodes + i]);
+      square += xi[r] * xi[r];
+    }
+    const double t = w * (pull + stiffness * along / square);
+    Tensor<D, D> product;
+    for (int k = 0; k < D * D; ++k) product[k] = t * xi[k / D] * xi[k % D];
+    return product;
+  });
+}
+
+template <int D>
 void LpsElasticity<D>::stress(std::span<const double> u, std::span<double> stress) {
   mirror_.spread(u, field_);
   const Index points = family_->point_count;
-  const std::size_t nodes = family_->node_count();
   for_each_point(points, [&](Index i) {
-    const double pull = dilatation_scale_[i] * dilatation_stiffness(i) * dilatation_at(i);
-    const double stiffness = bond_stiffness_[i];
-    auto sum = sum_over_bonds<D * D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
-      double along = 0.0, square = 0.0;
-      for (int r = 0; r < D; ++r) {
-        along += xi[r] * (field_[r * nodes + j] - field_[r * nodes + i]);
-        square += xi[r] * xi[r];
-      }
-      const double t = w * (pull + stiffness * along / square);
-      std::array<double, D * D> product;
-      for (int k = 0; k < D * D; ++k) product[k] = t * xi[k / D] * xi[k % D];
-      return product;
-    });
-    for (int a = 0; a < D && initial_stress_; ++a) sum[a * D + a] += (*initial_stress_)[a];
-    for (int k = 0; k < D * D; ++k) stress[static_cast<std::size_t>(k) * points + i] = sum[k];
+    Tensor<D, D> result = stress_at(i, {});
+    for (int a = 0; a < D && initial_stress_; ++a) result[a * D + a] += (*initial_stress_)[a];
+    for (int k = 0; k < D * D; ++k) stress[static_cast<std::size_t>(k) * points + i] = result[k];
   });
+}
+
+template <int D>
+Tensor<D, D> LpsElasticity<D>::gradient_at(Index i) const {
+  return perifrac::gradient_at<D, D>(*family_, moments_, field_.data(), i);
+}
+
+template <int D>
+void LpsElasticity<D>::append_unknowns(Index i, std::vector<Index>& unknowns) const {
+  append_family_unknowns(*family_, mirror_, i, unknowns);
+}
+
+template <int D>
+PointStiffness LpsElasticity<D>::point_stiffness(Index i) const {
+  return bond_energy_stiffness(*family_, mirror_, law_.at(i), i);
+}
+
+template <int D>
+double LpsElasticity<D>::point_energy(Index i, std::span<const double>) const {
+  const std::size_t nodes = family_->node_count();
+  const auto stretch = sum_over_bonds<1>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+    double along = 0.0, square = 0.0;
+    for (int r = 0; r < D; ++r) {
+      along += xi[r] * (field_[r * nodes + j] - field_[r * nodes + i]);
+      square += xi[r] * xi[r];
+    }
+    return std::array<double, 1>{w * along * along / square};
+  });
+  const double theta = dilatation_at(i);
+  return 0.5 * family_->volume[i] *
+         (dilatation_stiffness(i) * theta * theta + bond_stiffness_[i] * stretch[0]);
 }
 
 /// Takes displacements to the extension xi.(u_j - u_i) / |xi| of every bond.
@@ -323,7 +373,7 @@ Eigen::SparseMatrix<double> LpsElasticity<D>::assemble() const {
 
 template <int D>
 Eigen::SparseMatrix<double> LpsElasticity<D>::gradient_matrix() const {
-  return perifrac::gradient_matrix(*family_, family_moments(*family_), mirror_);
+  return perifrac::gradient_matrix(*family_, moments_, mirror_);
 }
 
 template class LpsElasticity<2>;

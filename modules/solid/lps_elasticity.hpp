@@ -6,8 +6,8 @@
 
 #include "core/operators/law_by_region.hpp"
 #include "core/operators/mirror_condition.hpp"
-#include "modules/solid/elastic_operator.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "core/operators/shape_tensor.hpp"
+#include "modules/solid/breakable_elasticity.hpp"
 
 namespace perifrac {
 
@@ -16,9 +16,11 @@ namespace perifrac {
 ///   W = 1/2 (lambda - mu) theta^2 + 1/2 (c / m) sum_j w_ij (xi.(u_j - u_i))^2 / |xi|^2,
 ///   theta = (d / m) sum_j w_ij xi.(u_j - u_i),   c = 8 mu in plane strain, 15 mu in 3D,
 /// and the pore stress works on theta. Exact for isotropic deformation only: on a lattice its
-/// moduli are off by an amount that does not fall with the spacing (docs/materials.md).
+/// moduli are off by an amount that does not fall with the spacing (docs/materials.md). Where bonds
+/// break, m is that of the bonds that are left, so that families of any shape keep theta and the
+/// stiffness of an isotropic extension.
 template <int D>
-class LpsElasticity final : public ElasticOperator<D> {
+class LpsElasticity final : public BreakableElasticity<D> {
  public:
   /// `initial_stress`: normal stresses of the body at rest, tension positive [Pa]; `pore_sign`: -1
   /// turns the pore stress, as Eq 13 is printed.
@@ -36,7 +38,17 @@ class LpsElasticity final : public ElasticOperator<D> {
   double drained_bulk_modulus(Index i) const override { return law_.at(i).drained_bulk_modulus(); }
   double pore_sign() const override { return pore_sign_; }
 
+  void look_at(std::span<const double> u) override { mirror_.spread(u, field_); }
+  Tensor<D, D> gradient_at(Index i) const override;
+  Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const override;
+  void append_unknowns(Index i, std::vector<Index>& unknowns) const override;
+  PointStiffness point_stiffness(Index i) const override;
+  double point_energy(Index i, std::span<const double> u) const override;
+  void update(std::span<const Index> points) override;
+  const IsotropicElasticity<D>& law(Index i) const override { return law_.at(i); }
+
  private:
+  void take_moments(Index i);
   /// lambda - mu: the stiffness against dilatation that the bonds do not have.
   double dilatation_stiffness(Index i) const {
     return law_.at(i).lame_lambda - law_.at(i).shear_modulus;
@@ -57,6 +69,7 @@ class LpsElasticity final : public ElasticOperator<D> {
   LawByRegion<IsotropicElasticity<D>> law_;
   std::optional<Vector<D>> initial_stress_;
   double pore_sign_;
+  FamilyMoments<D> moments_;
   std::vector<double> field_;             ///< u on real points and ghosts
   std::vector<double> dilatation_scale_;  ///< d / m_i
   std::vector<double> bond_stiffness_;    ///< c / m_i on real points; 0 on ghosts

@@ -198,10 +198,16 @@ template <int D>
 std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
     const Section& section, const Body<D>& body, std::shared_ptr<const Family<D>> family,
     const MirrorCondition<D, D>& mirror) {
-  if (section.word("material.type") != "linear_exact") {
-    section.fail("material.type", "damage of another material", "linear_exact beside 'damage'");
+  LawByRegion<IsotropicElasticity<D>> law = read_laws<D>(section, body);
+  const std::string type = section.word("material.type");
+  if (D == 2 && type == "lps") {
+    return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law));
   }
-  return make_linear_exact<D>(std::move(family), mirror, read_laws<D>(section, body), {},
+  if (type != "linear_exact") {
+    section.fail("material.type", fmt::format("'{}' beside cracks", type),
+                 D == 2 ? "linear_exact or lps" : "linear_exact");
+  }
+  return make_linear_exact<D>(std::move(family), mirror, std::move(law), {},
                               is_corotational(section));
 }
 

@@ -191,6 +191,12 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
         section.number("integrator.safety"), std::move(breaking));
   };
   if (!has_cracks(section)) return make(read_material<D>(section, *body, boundary), nullptr);
+  if (section.word("material.type") != "linear_exact") {
+    section.fail(
+        "material.type",
+        fmt::format("'{}' beside cracks in a solid with inertia", section.word("material.type")),
+        "linear_exact, or type: quasi_static");
+  }
   if (!names_critical_stretch(section.scene())) return make_dynamic_fracture(section, body);
   if (section.scene().has("crack_fluid")) {
     section.scene().fail("damage.type", "'critical_stretch' beside fluid in cracks",

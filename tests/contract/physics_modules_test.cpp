@@ -83,6 +83,9 @@ const std::vector<Variant>& variants() {
       variant("quasi_static_cracked", "solid/quasi_static", box_2d + quasi_static_2d,
               {"cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]",
                "damage={type: energy_release, fracture_energy: 1 kJ/m^2}"}),
+      variant("quasi_static_lps_cracked", "solid/quasi_static", box_2d + quasi_static_2d,
+              {cracked, "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
+               "solid.material.type=lps", "solid.confining_stress=[1 MPa, 1 MPa]"}),
       variant("dynamic_2d", "solid/dynamic", box_2d + dynamic_2d),
       variant("dynamic_cracked", "solid/dynamic", box_2d + dynamic_2d,
               {"cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]",
@@ -294,7 +297,7 @@ TEST(SwapMatrix, EveryCombinationRunsOrIsRefused) {
 
 /// A solid that fluid in its cracks splits, by one word, with and without pores to leak into.
 TEST(SwapMatrix, CracksBesideTheirFluidRunInEverySolid) {
-  for (const std::string& solid : {quasi_static_2d, dynamic_2d}) {
+  for (const std::string& solid : {quasi_static_2d, with_lps(quasi_static_2d), dynamic_2d}) {
     for (const char* leak_off : {"none", "carter", "pores"}) {
       SCOPED_TRACE(solid + leak_off);
       const bool pores = leak_off == std::string("pores");

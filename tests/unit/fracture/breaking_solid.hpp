@@ -4,22 +4,21 @@
 #include <utility>
 #include <vector>
 
+#include "tests/unit/fracture/rock.hpp"
 #include "tests/unit/solid/moving_solid.hpp"
 
 namespace perifrac::test {
 
-/// A linear-exact material on a family of its own, whose bonds may break.
+/// A material on a family of its own, whose bonds may break.
 template <int D>
 struct Breakable {
   std::shared_ptr<Family<D>> family;
   std::shared_ptr<BreakableElasticity<D>> elastic;
 
-  Breakable(const Body<D>& body, const SolidBoundary<D>& boundary, IsotropicElasticity<D> law)
-      : family(std::make_shared<Family<D>>(*body.family(boundary.mirrored()))) {
-    using Law = IsotropicElasticity<D>;
-    elastic = std::make_shared<LinearExactElasticity<D, Law>>(
-        LinearExactOperator<D, Law>(family, boundary.mirror_condition(*family), law));
-  }
+  Breakable(const Body<D>& body, const SolidBoundary<D>& boundary, IsotropicElasticity<D> law,
+            Rock rock = Rock::linear_exact)
+      : family(std::make_shared<Family<D>>(*body.family(boundary.mirrored()))),
+        elastic(breakable<D>(rock, family, boundary.mirror_condition(*family), law)) {}
 };
 
 /// A dynamic solid whose bonds break at `limit`.

@@ -7,17 +7,19 @@
 
 #include "modules/solid/cracked_body.hpp"
 #include "modules/solid/energy_release.hpp"
+#include "tests/unit/fracture/crystal_crack.hpp"
 #include "tests/unit/fracture/exact_crack.hpp"
+#include "tests/unit/fracture/rock.hpp"
 #include "tests/unit/operators/irregular_body.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
-#include "tests/unit/solid/elastic.hpp"
 
 namespace perifrac::test {
 
 /// A square plate of n * n points at spacing 1 around the origin of a crack, with E' = 1. Points in
-/// the outer three rows move as they are told, which stands for the plate going on for ever.
+/// the outer rows move as they are told, which stands for the plate going on for ever: so many that
+/// those inside have no bonds to points with cut families, where those matter.
 struct CrackedPlate {
-  static constexpr int outer_rows = 3;
+  int outer_rows;
 
   int n;
   double poisson_ratio;
@@ -35,8 +37,9 @@ struct CrackedPlate {
 
   CrackedPlate(int count, std::vector<CrackFacet<2>> seeds, double poisson = 0.25,
                std::shared_ptr<const Body<2>> shape = nullptr,
-               std::optional<InitialStress<2>> initial_stress = {})
-      : n(count),
+               std::optional<InitialStress<2>> initial_stress = {}, Rock rock = Rock::linear_exact)
+      : outer_rows(rock == Rock::lps ? 5 : 3),
+        n(count),
         poisson_ratio(poisson),
         body(shape ? shape : box_body<2>({n, n}, 1.0)),
         family(std::make_shared<Family<2>>(*body->family(0))),
@@ -44,8 +47,7 @@ struct CrackedPlate {
     const double mu = shear_modulus();
     const IsotropicElasticity<2> law{2.0 * mu * poisson / (1.0 - 2.0 * poisson), mu};
     const auto mirror = boundary.mirror_condition(*family);
-    elastic = std::make_shared<LinearExactElasticity<2, IsotropicElasticity<2>>>(
-        LinearExactOperator<2, IsotropicElasticity<2>>(family, mirror, law));
+    elastic = breakable<2>(rock, family, mirror, law);
     std::vector<Eigen::Triplet<double>> ones;
     const Index points = family->point_count;
     const auto is_told = [&](Index i) {
@@ -70,7 +72,8 @@ struct CrackedPlate {
   }
 
   /// The equilibrium with the outer rows where the exact crack's plate has them, and its pressure.
-  Eigen::VectorXd solve(const ExactCrack& exact) {
+  template <class Crack>
+  Eigen::VectorXd solve(const Crack& exact) {
     const Index points = family->point_count;
     for (const Index i : told) {
       const Vector<2> u = exact.displacement(body->points().at(i));
@@ -102,10 +105,41 @@ struct CrackedPlate {
            move.dot(cracked->face_force(pressure, false));
   }
 
+  /// What the plate is as a whole while it is intact: the mean stress of points with whole families
+  /// where the outer rows move with a uniform strain. Leaves the load changed.
+  PlaneStiffness effective_stiffness() {
+    PlaneStiffness stiffness;
+    const Index points = family->point_count;
+    for (int column = 0; column < 3; ++column) {
+      for (const Index i : told) {
+        const Vector<2> x = body->points().at(i);
+        prescribed[i] = column == 0 ? x[0] : column == 1 ? 0.0 : x[1];
+        prescribed[points + i] = column == 1 ? x[1] : 0.0;
+      }
+      const std::vector<double> u(prescribed.begin(), prescribed.end());
+      cracked->set_load(-free_.transpose() * inner_force(u, {}));
+      const Eigen::VectorXd all = prescribed + cracked->unknowns(Eigen::VectorXd(0));
+      std::vector<double> stress(4 * points);
+      elastic->stress({all.data(), static_cast<std::size_t>(all.size())}, stress);
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double volume = 0.0;
+      for (Index i = 0; i < points; ++i) {
+        const Vector<2> x = body->points().at(i);
+        if (std::min({x[0], x[1], n - x[0], n - x[1]}) < outer_rows) continue;
+        const auto at = [&](int k) { return stress[static_cast<std::size_t>(k) * points + i]; };
+        sum += family->volume[i] * Eigen::Vector3d(at(0), at(3), 0.5 * (at(1) + at(2)));
+        volume += family->volume[i];
+      }
+      stiffness.col(column) = sum / volume;
+    }
+    return 0.5 * (stiffness + stiffness.transpose());
+  }
+
   Eigen::VectorXd pressure;
 
   /// The tip of a straight crack at its end (1) or its beginning (0).
-  static CrackTip tip(const ExactCrack& exact, int end) {
+  template <class Crack>
+  static CrackTip tip(const Crack& exact, int end) {
     const double sign = end == 1 ? 1.0 : -1.0;
     const Vector<2> ahead = {sign * std::cos(exact.angle), sign * std::sin(exact.angle)};
     return {{exact.centre[0] + exact.half_length * ahead[0],
@@ -114,7 +148,8 @@ struct CrackedPlate {
             no_facet,
             no_facet};
   }
-  TipLoad tip_load(const ExactCrack& exact, int end, const Eigen::VectorXd& u) const {
+  template <class Crack>
+  TipLoad tip_load(const Crack& exact, int end, const Eigen::VectorXd& u) const {
     return EnergyRelease(*cracked, 1.0)
         .at(tip(exact, end), {u.data(), static_cast<std::size_t>(u.size())}, pressure);
   }

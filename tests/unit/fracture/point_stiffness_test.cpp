@@ -10,12 +10,12 @@ namespace {
 /// What all points add makes the whole stiffness: beside mirrored faces, on a cloud, and where
 /// bonds broke until families are thin.
 template <int D>
-void expect_sum(test::Cloud cloud, double limit) {
+void expect_sum(test::Cloud cloud, double limit, test::Rock rock) {
   const auto body = test::box_body<D>(test::cube<D>(D == 2 ? 8 : 4), 0.5, cloud);
   SolidBoundary<D> boundary(*body);
   boundary.fixed(0, {});
   boundary.roller(3, 0.0);
-  const test::Breakable<D> parts(*body, boundary, {test::lambda, test::mu});
+  const test::Breakable<D> parts(*body, boundary, {test::lambda, test::mu}, rock);
   CriticalStretch<D> breaking(parts.family, parts.elastic, body->claim_bond_state(), {}, limit);
   breaking.cut_seeds();
   const std::vector<double> u = test::random_values(parts.elastic->size());
@@ -40,17 +40,24 @@ void expect_sum(test::Cloud cloud, double limit) {
   parts.elastic->apply(u, {}, force, theta);
   EXPECT_LE((whole * test::as_eigen(u) - test::as_eigen(force)).cwiseAbs().maxCoeff(),
             1e-12 * test::largest(force));
+  double energy = 0.0;
+  for (Index i = 0; i < body->points().size(); ++i) energy += parts.elastic->point_energy(i, u);
+  EXPECT_NEAR(energy, parts.elastic->energy(u, force), 1e-12 * energy);
 }
 
 TEST(PointStiffness, AddsUpToTheWhole) {
-  expect_sum<2>(test::Cloud::lattice, INFINITY);
-  expect_sum<2>(test::Cloud::jittered, INFINITY);
-  expect_sum<3>(test::Cloud::lattice, INFINITY);
+  for (const test::Rock rock : test::rocks) {
+    expect_sum<2>(test::Cloud::lattice, INFINITY, rock);
+    expect_sum<2>(test::Cloud::jittered, INFINITY, rock);
+    expect_sum<3>(test::Cloud::lattice, INFINITY, rock);
+  }
 }
 
 TEST(PointStiffness, AddsUpToTheWholeWhereFamiliesAreThin) {
-  expect_sum<2>(test::Cloud::lattice, 0.0);
-  expect_sum<3>(test::Cloud::lattice, 0.0);
+  for (const test::Rock rock : test::rocks) {
+    expect_sum<2>(test::Cloud::lattice, 0.0, rock);
+    expect_sum<3>(test::Cloud::lattice, 0.0, rock);
+  }
 }
 
 }  // namespace
