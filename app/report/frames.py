@@ -39,13 +39,15 @@ class Slice:
     axes: tuple[int, int]  # across and up
     normal: int
     at: float | None  # [m]; None in 2D
+    flat: bool = False  # all points lie in it
 
     @property
     def names(self) -> tuple[str, str]:
         return "xyz"[self.axes[0]], "xyz"[self.axes[1]]
 
     def note(self, digits: int = 4) -> str:
-        return "" if self.at is None else f"slice at {'xyz'[self.normal]} = {quantity(self.at, 'm', digits)}"
+        kind = "plane" if self.flat else "slice at"
+        return "" if self.at is None else f"{kind} {'xyz'[self.normal]} = {quantity(self.at, 'm', digits)}"
 
 
 @dataclass(frozen=True)
@@ -100,12 +102,26 @@ def middle_cut(points: np.ndarray) -> Slice:
     return Slice((first, second), normal, float(along[np.argmin(np.abs(along - middle))]))
 
 
+def own_cut(points: np.ndarray, common: Slice) -> Slice:
+    """The plane that all points lie in, as those of a plane crack in 3D do; else the cut that the run is drawn by."""
+    if common.at is None or len(points) < 2:
+        return common
+    extent = np.ptp(points, axis=0)
+    flat = int(np.argmin(extent))
+    if extent[flat] > 1e-9 * extent.max():
+        return common
+    first, second = (axis for axis in range(3) if axis != flat)
+    return Slice((first, second), flat, float(points[0, flat]), flat=True)
+
+
 def layer(points: np.ndarray, cut: Slice) -> np.ndarray:
     """Indices of the points that the cut shows: those about as far along its normal as the nearest to it."""
     if cut.at is None or len(points) == 0:
         return np.arange(len(points))
     along = points[:, cut.normal]
     nearest = along[np.argmin(np.abs(along - cut.at))]
+    if np.ptp(along) == 0:
+        return np.arange(len(points))
     return np.flatnonzero(np.abs(along - nearest) <= 0.499 * spacing(points))
 
 
@@ -119,8 +135,16 @@ def scalar_fields(name: str, unit: str, values: np.ndarray, axes: str) -> list[F
     return [magnitude] + [Field(f"{name} {axis}", unit, values[:, i]) for i, axis in enumerate(axes)]
 
 
+def nearest_gap(points: np.ndarray) -> float:
+    """The least step between different coordinates of points on a square grid [m]."""
+    steps = np.concatenate([np.diff(np.unique(along.round(12))) for along in points.T])
+    return float(steps.min()) if len(steps) else 1.0
+
+
 def square_edges(points: np.ndarray, fields: list[Field], cut: Slice) -> np.ndarray:
     """Squares of the points' own volumes where these are known, as of fluid; else all alike."""
+    if cut.flat:
+        return np.full(len(points), nearest_gap(points))
     known = {field.name: field.values for field in fields}
     if "fluid_mass" in known and "fluid_density" in known:
         return (known["fluid_mass"] / known["fluid_density"]) ** (1 / (2 if cut.at is None else 3))
@@ -202,6 +226,7 @@ def by_quantity(frame: Frame) -> dict[tuple[str, str], np.ndarray]:
 
 def together(series: list[FrameSeries]) -> FrameSeries | None:
     """All points in one map, by what they share and what moving points have besides; None elsewhere."""
+    series = [s for s in series if not s.cut.flat]
     if len(series) < 2:
         return None
     known = [by_quantity(s.frames[-1]) for s in series]
@@ -228,13 +253,15 @@ def together(series: list[FrameSeries]) -> FrameSeries | None:
 
 
 def read_all_series(folder: Path) -> list[FrameSeries]:
-    """Every point set's series; before them, where there are several, one of all points together."""
+    """Every point set's series, plane cracks in 3D first; before them, where several are cut alike, one of all points."""
     listed = {path.name.removesuffix(".hdf.series"): listed_frames(path) for path in folder.glob("*.hdf.series")}
     files = {name: found for name, found in sorted(listed.items()) if found}
     if not files:
         return []
     cut = middle_cut(np.concatenate([read_points(found[-1][0]) for found in files.values()]))
     wanted = min(MOST_FRAMES, LARGEST_VALUES // max(sum(values_of(found, cut) for found in files.values()), 1))
-    series = [s for name, found in files.items() if (s := read_series(name, found, cut, wanted)) is not None]
+    cuts = {name: own_cut(read_points(found[-1][0]), cut) for name, found in files.items()}
+    series = [s for name, found in files.items() if (s := read_series(name, found, cuts[name], wanted)) is not None]
+    series.sort(key=lambda s: not s.cut.flat)
     all_points = together(series)
     return [all_points, *series] if all_points else series

@@ -196,8 +196,8 @@ def map_panel(series: FrameSeries, frame: Frame, field: Field) -> Panel:
 
 
 def field_rank(field: Field) -> int:
-    """Pressure tells most; where it is missing, damage, then displacement and velocity."""
-    telling = ("pressure", "damage", "displacement (magnitude)", "velocity (magnitude)")
+    """Pressure tells most, and how wide a crack is; where they are missing, damage, displacement and velocity."""
+    telling = ("pressure", "opening", "damage", "displacement (magnitude)", "velocity (magnitude)")
     return next((i for i, word in enumerate(telling) if word in field.name), len(telling))
 
 
@@ -226,7 +226,7 @@ def facts(run: Run) -> str:
 def verdict(run: Run) -> str:
     """The largest errors, in one line."""
     errors = run.reference.get("quantities", [])
-    largest = [(words(e["name"]), quantity(e["max_error"], e.get("unit", ""), 2)) for e in errors]
+    largest = [(words(e["name"]).split(" over the exact")[0], quantity(e["max_error"], e.get("unit", ""), 2)) for e in errors]
     return "  ·  ".join(f"{name}: max error {error}" for name, error in largest)
 
 

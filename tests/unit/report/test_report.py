@@ -25,7 +25,6 @@ REPORT = Path(__file__).resolve().parents[3] / "app" / "report"
 sys.path.insert(0, str(REPORT))
 
 import charts  # noqa: E402
-import frames  # noqa: E402
 import page  # noqa: E402
 import quantities  # noqa: E402
 
@@ -331,39 +330,6 @@ class Parts(unittest.TestCase):
         self.assertFalse(charts.spans_decades(np.linspace(0.0, 1.0, 1001)))  # even steps, three decades
         self.assertFalse(charts.spans_decades(np.array([0.0, 1.0, 10.0, 100.0])))
         self.assertFalse(charts.spans_decades(np.array([0.0, 1.0])))
-
-    def test_spacing_is_exact_on_lattices(self) -> None:
-        axes = [np.arange(n) * 0.25 for n in (7, 4, 3)]
-        for dimension in (1, 2, 3):
-            points = np.stack(np.meshgrid(*axes[:dimension]), axis=-1).reshape(-1, dimension)
-            self.assertAlmostEqual(frames.spacing(points), 0.25, places=12)
-
-    def test_3d_body_is_shown_by_a_layer_across_its_shortest_edge(self) -> None:
-        for counts, names, normal, at in (
-            ((7, 4, 5), ("x", "z"), 1, 0.25),
-            ((3, 7, 5), ("y", "z"), 0, 0.25),
-            ((7, 5, 3), ("x", "y"), 2, 0.25),
-            ((4, 4, 9), ("x", "z"), 1, 0.25),  # a column is cut along its height
-        ):
-            axes = [np.arange(n) * 0.25 for n in counts]
-            points = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
-            cut = frames.middle_cut(points)
-            chosen = frames.layer(points, cut)
-            self.assertEqual((cut.names, cut.normal, cut.at), (names, normal, at))
-            self.assertEqual(len(chosen), len(points) // counts[normal])
-            self.assertTrue(np.all(points[chosen, normal] == at))
-
-    def test_plane_body_is_shown_whole(self) -> None:
-        points = np.zeros((5, 3))
-        points[:, 0] = np.arange(5)
-        cut = frames.middle_cut(points)
-        chosen = frames.layer(points, cut)
-        self.assertEqual((len(chosen), cut.names, cut.at, cut.note()), (5, ("x", "y"), None, ""))
-
-    def test_frames_are_chosen_evenly_and_end_with_the_last(self) -> None:
-        self.assertEqual(frames.evenly(9, 3), [0, 4, 8])
-        self.assertEqual(frames.evenly(9, 1), [8])
-        self.assertEqual(frames.evenly(3, 100), [0, 1, 2])
 
 
 if __name__ == "__main__":
