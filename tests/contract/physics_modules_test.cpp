@@ -24,6 +24,18 @@ void seed_crack(const Body<2>& body) {
   }
 }
 
+/// Four squares in a row, half-way up, each across a bond.
+void seed_crack(const Body<3>& body) {
+  BondState<3>& bonds = body.claim_bond_state();
+  for (int k = 0; k < 4; ++k) {
+    const double x = 2.0 + k;
+    const std::pair bond = std::minmax(
+        {body.nearest_point({x + 0.5, 2.5, 1.5}), body.nearest_point({x + 0.5, 2.5, 2.5})});
+    bonds.add_facet({{{x, 2.0, 2.0}, {x + 1.0, 2.0, 2.0}, {x + 1.0, 3.0, 2.0}, {x, 3.0, 2.0}}},
+                    {{bond}});
+  }
+}
+
 std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::string& physics,
                                            const std::vector<std::string>& overrides) {
   const Section scene = read_scene_text(text, overrides);
@@ -32,7 +44,7 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
   if (dimension == 3) body = std::shared_ptr<const Body<3>>();
   if (scene.has("body")) body = make_body(scene.at("body"), dimension);
   if (physics == "crack_fluid" || (physics == "pore_flow" && scene.count("cracks") > 0)) {
-    seed_crack(*std::get<0>(body));
+    std::visit([](const auto& any) { seed_crack(*any); }, body);
   }
   return make_module(scene, physics, body);
 }
@@ -41,6 +53,11 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
 const std::string nested_left = "pore_flow.boundary.left={type: sealed}";
 
 const std::string cracked = "cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]";
+const std::string cracked_3d =
+    "cracks=[{name: cut, centre: [4 m, 2 m, 2 m], normal: [0, 0, 1], sides: [4 m, 2 m]}]";
+
+const std::string inlet_3d =
+    "crack_fluid.inlets=[{name: pump, at: [2 m, 2 m, 2 m], volume_rate: 5e-5 m^3/s}]";
 
 struct Variant {
   std::string type;  ///< as registered, `physics/type`
@@ -83,6 +100,9 @@ const std::vector<Variant>& variants() {
       variant("quasi_static_cracked", "solid/quasi_static", box_2d + quasi_static_2d,
               {"cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]",
                "damage={type: energy_release, fracture_energy: 1 kJ/m^2}"}),
+      variant("quasi_static_cracked_3d", "solid/quasi_static", box_3d + quasi_static_3d,
+              {cracked_3d, "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
+               "solid.confining_stress=[1 MPa, 1 MPa, 1 MPa]"}),
       variant("quasi_static_lps_cracked", "solid/quasi_static", box_2d + quasi_static_2d,
               {cracked, "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
                "solid.material.type=lps", "solid.confining_stress=[1 MPa, 1 MPa]"}),
@@ -106,6 +126,10 @@ const std::vector<Variant>& variants() {
       variant("rigid", "solid/rigid", box_2d + rigid),
       variant("rigid_slits", "solid/rigid", box_2d + rigid,
               {"cracks=[{name: slit, path: [2 m, 4 m, 6 m, 5 m], opening: 1 mm}]"}),
+      variant(
+          "rigid_slits_3d", "solid/rigid", box_3d + rigid,
+          {"cracks=[{name: slit, centre: [4 m, 2 m, 2 m], normal: [0, 0, 1], sides: [4 m, 2 m], "
+           "opening: 1 mm}]"}),
       variant("darcy_cvode_2d", "pore_flow/darcy", box_2d + darcy),
       variant("darcy_cvode_3d", "pore_flow/darcy", box_3d + darcy),
       variant("darcy_krylov", "pore_flow/darcy", box_2d + darcy,
@@ -164,6 +188,11 @@ const std::vector<Variant>& variants() {
                "crack_fluid.vapour_pressure=-50 kPa"}),
       variant("crack_network_in_pores", "crack_fluid/network", box_2d + darcy + crack_network,
               {"crack_fluid.leak_off=pores"}),
+      variant("crack_network_3d", "crack_fluid/network", box_3d + crack_network,
+              {inlet_3d, "crack_fluid.leak_off=carter",
+               "crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)"}),
+      variant("crack_network_in_pores_3d", "crack_fluid/network", box_3d + darcy + crack_network,
+              {inlet_3d, "crack_fluid.leak_off=pores"}),
       variant("fluid_2d", "fluid/semi_lagrangian", tank_2d),
       variant("fluid_3d", "fluid/semi_lagrangian", tank_3d),
       variant("fluid_tait", "fluid/semi_lagrangian", tank_2d,
@@ -313,6 +342,24 @@ TEST(SwapMatrix, CracksBesideTheirFluidRunInEverySolid) {
       const std::size_t links = pores ? 8 : leak_off == std::string("carter") ? 4 : 3;
       expect_to_run(scene, pores ? 3 : 2, links);
     }
+  }
+}
+
+TEST(SwapMatrix, CracksIn3DRunBesideTheirFluidInASolidWithoutInertia) {
+  for (const char* leak_off : {"none", "pores"}) {
+    const bool pores = leak_off == std::string("pores");
+    const std::vector<std::string> overrides = {
+        cracked_3d, inlet_3d, "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
+        std::string("crack_fluid.leak_off=") + leak_off, "coupling.iterations.max=20"};
+    const std::string fluids = crack_network + (pores ? darcy : "");
+    expect_to_run(read_scene_text(box_3d + quasi_static_3d + fluids, overrides), pores ? 3 : 2,
+                  pores ? 8 : 3);
+    EXPECT_THROW(make_simulation(read_scene_text(box_3d + dynamic_3d + fluids, overrides)),
+                 InputError);
+    std::vector<std::string> lps = overrides;
+    lps.push_back("solid.material.type=lps");
+    EXPECT_THROW(make_simulation(read_scene_text(box_3d + quasi_static_3d + fluids, lps)),
+                 InputError);
   }
 }
 
