@@ -65,7 +65,7 @@ The same body, with the effect in 1 % of where it could be and everywhere (slits
 - The crack network has unknowns on facets, leak-off on the points that facets touch.
 - Pore flow puts its matrix together anew in windows in which bonds broke, and in no other.
 
-What cannot follow: a solid's bonds carry forces everywhere, explicit pore flow flows everywhere, and what modules hand to each other on the body's points (displacement, pore pressure) is copied for all of them once a window. Where those are most of the scene, as under a solid that is pulled in one place, the whole costs nearly the same; where the effect is most of it, as water on rock, the whole follows too. When a crack grows, pore flow and a solid go over all bonds of the body once.
+What cannot follow: a solid's bonds carry forces everywhere, explicit pore flow flows everywhere, and what modules hand to each other on the body's points (displacement, pore pressure) is copied for all of them once a window. Where those are most of the scene, as under a solid that is pulled in one place, the whole costs nearly the same; where the effect is most of it, as water on rock, the whole follows too. So of the limit, that what is active in 1 % costs at most a fifth of what is active everywhere: the effect's own work keeps it in all three scenes, the whole scene in `film.yaml` only. `make instructions` holds just that, and prints the two wholes that do not follow. When a crack grows, pore flow and a solid go over all bonds of the body once.
 """
 
 

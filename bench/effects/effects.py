@@ -136,7 +136,7 @@ ABSENT = """## What is absent
 
 `tests/robustness/absent_effects_test.py` holds, exactly, that modules, links, arrays and bytes of a scene are those of what it names, and that a solid alone holds no number a point more than it did. `make instructions` counts, by valgrind:
 
-- a step of a solid in the program, where all physics is registered, against the same step in a binary to which no other physics, no coupling and no program is linked: within 0.1 %;
+- a step of a solid in the program, where all physics is registered, against the same step in a binary to which no other physics, no coupling and no program is linked: within 0.1 %, what the C library's heap does within its calls left out;
 - that step against the forces of its bonds alone: {ratio} times as many, as recorded, and not 0.1 % more;
 - functions of absent effects: none is called in a step;
 - what [work follows activity](#work-follows-activity) says, in instructions.

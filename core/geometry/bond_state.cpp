@@ -1,5 +1,7 @@
 #include "core/geometry/bond_state.hpp"
 
+#include <algorithm>
+
 #include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
@@ -69,6 +71,12 @@ void silence(Family<D>& family, Index i, Index j) {
       if (source == to) family.weight[bond] = 0.0;
     }
   }
+}
+
+void keep_each_once(std::vector<Index>& points) {
+  std::ranges::sort(points);
+  const auto repeats = std::ranges::unique(points);
+  points.erase(repeats.begin(), repeats.end());
 }
 
 template <int D>

@@ -62,6 +62,9 @@ class BondState {
 template <int D>
 void silence(Family<D>& family, Index i, Index j);
 
+/// Sorts points and drops repeats: the ends of many bonds, as operators want to hear of them.
+void keep_each_once(std::vector<Index>& points);
+
 /// The part of every point's family, by volume, that is beyond silenced bonds (paper Eq 16).
 template <int D>
 void find_damage(const Family<D>& family, std::span<double> damage);

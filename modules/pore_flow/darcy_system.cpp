@@ -79,9 +79,7 @@ bool DarcySystem<D>::follow(const BondState<D>& bonds) {
     silence(*cut_family_, bond.i, bond.j);
     cut_points_.insert(cut_points_.end(), {bond.i, bond.j});
   }
-  std::ranges::sort(cut_points_);
-  const auto twice = std::ranges::unique(cut_points_);
-  cut_points_.erase(twice.begin(), twice.end());
+  keep_each_once(cut_points_);
   flow_->take_bonds(cut_family_, cut_points_);
   if (smoothing_) smoothing_->take_bonds(cut_family_);
   storage_->take_bonds(bonds.broken());

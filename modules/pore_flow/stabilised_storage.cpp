@@ -1,6 +1,5 @@
 #include "modules/pore_flow/stabilised_storage.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/geometry/bond_state.hpp"
@@ -82,9 +81,7 @@ void StabilisedStorage<D>::assemble() {
       silence(*cut, bond.i, bond.j);
       points.insert(points.end(), {bond.i, bond.j});
     }
-    std::ranges::sort(points);
-    const auto twice = std::ranges::unique(points);
-    points.erase(twice.begin(), twice.end());
+    keep_each_once(points);
     op.update(cut, points);
   }
   between_ = op.assemble();

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Fuzzes the readers of scenes and of checkpoints.
 
-Usage: fuzz.py PERIFRAC FOLDER [--seconds N] [--only WORD]
+Usage: fuzz.py PERIFRAC FOLDER [--seconds N | --inputs N] [--only WORD]
 
-FOLDER holds fuzz_scene and fuzz_checkpoint. Each runs so long; fails where an input crashed, leaked, hung or ended
-otherwise than by a plain refusal: that input is then named. What they learn is kept in FOLDER/../fuzz and used again.
+FOLDER holds fuzz_scene and fuzz_checkpoint. Each runs so long, or takes so many inputs; fails where an input crashed,
+leaked, hung or ended otherwise than by a plain refusal: that input is then named. What they learn is kept in
+FOLDER/../fuzz and used again.
 """
 import argparse
 import os
@@ -33,7 +34,7 @@ def first_inputs(perifrac, what, folder):
     return folder
 
 
-def fuzz(perifrac, binaries, what, seconds, holder):
+def fuzz(perifrac, binaries, what, limit, holder):
     """Gives (inputs, seconds of the slowest, complaint)."""
     learnt = binaries.parent / "fuzz" / what
     learnt.mkdir(parents=True, exist_ok=True)
@@ -41,7 +42,7 @@ def fuzz(perifrac, binaries, what, seconds, holder):
     write_dictionary(perifrac, words)
     done = subprocess.run(
         [binaries / f"fuzz_{what}", learnt, first_inputs(perifrac, what, Path(holder) / what), f"-dict={words}",
-         f"-max_total_time={seconds}", f"-max_len={LONGEST_INPUT[what]}", f"-timeout={SLOW}", "-print_final_stats=1",
+         limit, f"-max_len={LONGEST_INPUT[what]}", f"-timeout={SLOW}", "-print_final_stats=1",
          f"-artifact_prefix={learnt.parent}/{what}-"], capture_output=True, text=True, errors="replace",
         env=os.environ | {"OMP_NUM_THREADS": "1", "ASAN_SYMBOLIZER_PATH": "/usr/lib/llvm-16/bin/llvm-symbolizer"})
 
@@ -58,14 +59,16 @@ def main():
     parser.add_argument("perifrac", type=os.path.abspath)
     parser.add_argument("binaries", type=lambda path: Path(path).resolve())
     parser.add_argument("--seconds", type=int, default=60)
+    parser.add_argument("--inputs", type=int)
     parser.add_argument("--only", default="")
     arguments = parser.parse_args()
+    limit = f"-runs={arguments.inputs}" if arguments.inputs else f"-max_total_time={arguments.seconds}"
     failed = False
     for what in LONGEST_INPUT:
         if arguments.only not in what:
             continue
         with tempfile.TemporaryDirectory() as holder:
-            count, slowest, complaint = fuzz(arguments.perifrac, arguments.binaries, what, arguments.seconds, holder)
+            count, slowest, complaint = fuzz(arguments.perifrac, arguments.binaries, what, limit, holder)
         failed = failed or bool(complaint) or count == 0
         verdict = "A FAULT: " + complaint if complaint else "no fault"
         print(f"{what}: {count} inputs, the slowest took {slowest} s, {verdict}", flush=True)

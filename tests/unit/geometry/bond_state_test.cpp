@@ -78,5 +78,11 @@ TEST(BondState, BreaksBondsInAFamilyAndToItsGhosts) {
   EXPECT_GT(ghosts, 0);
 }
 
+TEST(BondState, KeepsEveryEndOfBondsOnceAndInOrder) {
+  std::vector<Index> points = {7, 2, 7, 3, 2, 7};
+  keep_each_once(points);
+  EXPECT_EQ(points, (std::vector<Index>{2, 3, 7}));
+}
+
 }  // namespace
 }  // namespace perifrac
