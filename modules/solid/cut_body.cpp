@@ -43,9 +43,7 @@ void CutBody<D>::break_bonds(std::span<const std::pair<Index, Index>> bonds) {
     silence(*family_, i, j);
     points.insert(points.end(), {i, j});
   }
-  std::ranges::sort(points);
-  const auto twice = std::ranges::unique(points);
-  points.erase(twice.begin(), twice.end());
+  keep_each_once(points);
   elastic_->update(points);
 }
 
