@@ -28,10 +28,20 @@ template <int D>
                   "a body at least two points thick and a horizon of about 2.5 spacings");
 }
 
+/// One routine, never inlined: what a family's moments are must not depend, in the last digit, on
+/// whether they were made with all others or anew after bonds broke and mended.
+template <int D>
+[[gnu::noinline]] void set_inverse(const std::array<double, D * D>& sum, Index i,
+                                   FamilyMoments<D>& moments) {
+  using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
+  const Matrix inverse = Eigen::Map<const Matrix>(sum.data()).inverse();
+  for (int k = 0; k < D * D; ++k) moments.inverse_shape[k][i] = inverse(k / D, k % D);
+}
+
 }  // namespace
 
 template <int D>
-std::array<double, D * D> shape_tensor_at(const Family<D>& family, Index i) {
+[[gnu::noinline]] std::array<double, D * D> shape_tensor_at(const Family<D>& family, Index i) {
   return sum_over_bonds<D * D>(family, i, [](Index, const Vector<D>& xi, double w) {
     std::array<double, D * D> product;
     for (int a = 0; a < D; ++a) {
@@ -55,8 +65,7 @@ FamilyMoments<D> family_moments(const Family<D>& family) {
     if (!(spectrum.eigenvalues()[0] > flat_family * spectrum.eigenvalues()[D - 1])) {
       refuse_flat_family(family, i);
     }
-    const Matrix inverse = shape.inverse();
-    for (int k = 0; k < D * D; ++k) moments.inverse_shape[k][i] = inverse(k / D, k % D);
+    set_inverse<D>(sum, i, moments);
     moments.weighted_volume[i] = shape.trace();
   }
   return moments;
@@ -77,8 +86,11 @@ bool set_moments(const Family<D>& family, Index i, FamilyMoments<D>& moments) {
   const bool thin = is_thin(family, i);
   const auto sum = shape_tensor_at(family, i);
   const Matrix shape = Eigen::Map<const Matrix>(sum.data());
-  const Matrix inverse = thin ? Matrix::Zero() : Matrix(shape.inverse());
-  for (int k = 0; k < D * D; ++k) moments.inverse_shape[k][i] = inverse(k / D, k % D);
+  if (thin) {
+    for (auto& entry : moments.inverse_shape) entry[i] = 0.0;
+  } else {
+    set_inverse<D>(sum, i, moments);
+  }
   const double m = shape.trace();
   moments.weighted_volume[i] = m > 0.0 ? m : std::numeric_limits<double>::infinity();
   return thin;
