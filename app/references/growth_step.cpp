@@ -1,40 +1,33 @@
 #include "app/references/growth_step.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "core/time/schedule.hpp"
+
 namespace perifrac {
-
-namespace {
-
-/// The mean of `ratio` from `first` to `last`, each row standing for the time since the one before.
-std::optional<double> mean_over(std::span<const double> times, std::span<const double> ratio,
-                                double first, double last) {
-  double sum = 0.0, time = 0.0;
-  for (std::size_t k = 1; k < times.size(); ++k) {
-    if (times[k] < first || times[k] > last) continue;
-    sum += (times[k] - times[k - 1]) * ratio[k];
-    time += times[k] - times[k - 1];
-  }
-  if (!(time > 0.0)) return std::nullopt;
-  return sum / time;
-}
-
-}  // namespace
 
 decltype(Reference::Figure::computed) worst_mean_of_growth(Reference::OfTime step, double end,
                                                            Reference::OfTime exact) {
   return
       [=](std::span<const double> times, std::span<const double> values) -> std::optional<double> {
-        std::vector<double> ratio(times.size());
-        for (std::size_t k = 0; k < times.size(); ++k) ratio[k] = values[k] / exact(times[k]);
+        // Linear between rows.
+        std::vector<double> known, ratio;
+        for (std::size_t k = 0; k < times.size(); ++k) {
+          if (!(times[k] > 0.0)) continue;
+          known.push_back(times[k]);
+          ratio.push_back(values[k] / exact(times[k]));
+        }
+        if (known.empty()) return std::nullopt;
+        const Schedule over_exact = Schedule::table(known, ratio);
         std::optional<double> worst;
-        for (const double t : times) {
-          const double half = 0.5 * step(t);
-          if (!(t - half >= 0.5 * end && t + half <= end)) continue;  // NaN at t = 0
-          const std::optional<double> mean = mean_over(times, ratio, t - half, t + half);
-          if (!mean) continue;
-          if (!worst || std::abs(*mean - 1.0) > std::abs(*worst - 1.0)) worst = mean;
+        for (const double t : known) {
+          const double first = t - 0.5 * step(t), last = t + 0.5 * step(t);
+          const bool fits = first >= std::max(0.5 * end, known.front()) && last <= known.back();
+          if (!fits) continue;  // a step of NaN does not
+          const double mean = over_exact.integral(first, last) / (last - first);
+          if (!worst || std::abs(mean - 1.0) > std::abs(*worst - 1.0)) worst = mean;
         }
         return worst;
       };

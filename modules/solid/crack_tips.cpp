@@ -192,11 +192,27 @@ double CrackTips::grow(const CrackState<2>& state) {
   }
   double energy = 0.0;
   for (std::size_t k = 0; k < tips_.size(); ++k) {
-    if (tips_[k].grows && tips_[k].readiness >= ready) {
-      energy += advance(tips_[k], turns[k], state.t);
-    }
+    Tip& tip = tips_[k];
+    const bool goes_on = tip.grows && tip.readiness >= ready;
+    tip.spent = goes_on ? advance(tip, turns[k], state.t) : 0.0;
+    tip.released = tip.readiness * tip.readiness * tip.spent;
+    energy += tip.spent;
   }
   return energy;
+}
+
+double CrackTips::excess_release() const {
+  double sum = 0.0;
+  for (const Tip& tip : tips_) {
+    if (tip.spent == 0.0) continue;
+    double at_end = tip.released;
+    if (tip.grows) {
+      at_end = tip.readiness * tip.readiness * energy_to_cut(next_facet(tip.at, 0.0)) *
+               cracked_.jumps()[tip.at.facet].area;
+    }
+    sum += 0.5 * (tip.released + at_end) - tip.spent;
+  }
+  return sum;
 }
 
 double CrackTips::advance(Tip& tip, double turn, double t) {

@@ -28,6 +28,10 @@ class CrackTips {
   double find_readiness(const CrackState<2>& state);
   /// Those that were found ready go on; returns the energy that the new facets take [J/m].
   double grow(const CrackState<2>& state);
+  /// What the rock set free in that growth beyond the energy of the new facets, by the mean of J at
+  /// their beginning and end; asked once readiness has been found again, in rock without fluid in
+  /// its cracks [J/m].
+  double excess_release() const;
 
   void visit_state(StateVisitor& visitor);
 
@@ -42,6 +46,9 @@ class CrackTips {
     /// What J said last, in the same unit, and the opening of the last facet then [m].
     double asked = 0.0, asked_opening = 0.0;
     double readiness = 0.0;
+    /// The last facet's energy, 0 if it is not of the last growth, and what J would have made of it
+    /// at its beginning [J/m].
+    double spent = 0.0, released = 0.0;
   };
 
   double energy_to_cut(const CrackFacet<2>& facet) const;

@@ -61,7 +61,7 @@ void FracturingSolid<D>::initialize(double t) {
   load_is_current_ = !is_steady();
   unknowns_.assign(free_unknowns_.rows(), 0.0);
   unknowns_before_ = force_ = unknowns_;
-  external_work_ = spent_energy_ = readiness_before_ = 0.0;
+  external_work_ = spent_energy_ = radiated_energy_ = readiness_before_ = 0.0;
   load_work_ = relief_work_ = elastic_energy_ = 0.0;
   const auto facets = static_cast<Eigen::Index>(seeds_.size());
   faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
@@ -220,6 +220,7 @@ double FracturingSolid<D>::conclude(const TimeWindow& window) {
     book_work();
     if (wet() || spent == 0.0) break;
     most = tips_.find_readiness(crack_state());
+    if constexpr (D == 2) radiated_energy_ += tips_.excess_release();
   }
   return window.end;
 }
@@ -251,6 +252,7 @@ void FracturingSolid<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("crack_pressure", crack_pressure_);
   visitor.visit("external_work", external_work_);
   visitor.visit("fracture_energy", spent_energy_);
+  visitor.visit("radiated_energy", radiated_energy_);
   visitor.visit("readiness", readiness_before_);
   visitor.visit("last_growth", last_growth_);
   std::vector<double> opening(faces_.opening.begin(), faces_.opening.end());

@@ -29,6 +29,8 @@ namespace perifrac {
 /// another), with its slope against crack_pressure, a matrix. `damage` of the points (paper Eq 16),
 /// `crack_length` [m], of it `open_crack_length` where faces are apart, in 3D `crack_area` and
 /// `open_crack_area` [m^2], and `fracture_energy` [J], what new faces took, in 2D per metre.
+/// `radiated_energy` [J/m] is what unstable growth sets free beyond that, by J: a body with inertia
+/// would move by it. In 2D, where no fluid is in the cracks.
 template <int D>
 class FracturingSolid final : public PhysicsModule {
  public:
@@ -69,6 +71,7 @@ class FracturingSolid final : public PhysicsModule {
     elastic_energy,
     external_work,
     fracture_energy,
+    radiated_energy,
     first_plate
   };
 
@@ -113,6 +116,7 @@ class FracturingSolid final : public PhysicsModule {
          relief_work_ = 0.0;  ///< of the last window (CrackedBody::Energies) [J/m]
   double external_work_ = 0.0;
   double spent_energy_ = 0.0;      ///< on new faces [J/m]
+  double radiated_energy_ = 0.0;   ///< [J/m]
   double crack_area_ = 0.0;        ///< made when it is asked for
   double open_area_ = 0.0;         ///< likewise
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window

@@ -42,6 +42,8 @@ FracturingSolid<D>::FracturingSolid(std::shared_ptr<const Body<D>> body,
            PortRole::energy_gained},
           {"fracture_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
            PortRole::energy_dissipated},
+          {"radiated_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
+           PortRole::energy_dissipated},
       },
       initial_stress_(initial_stress),
       bonds_(body_->claim_bond_state()),
@@ -136,6 +138,8 @@ PortView FracturingSolid<D>::port(PortId id) {
       return {&whole_body, {&external_work_, 1}};
     case fracture_energy:
       return {&whole_body, {&spent_energy_, 1}};
+    case radiated_energy:
+      return {&whole_body, {&radiated_energy_, 1}};
     default:
       find_unknowns();
       return {&whole_body, {&unknowns_[plate_unknowns_[id - first_plate]], 1}};

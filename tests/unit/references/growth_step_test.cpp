@@ -19,11 +19,11 @@ std::optional<double> worst(double (*over_exact)(double t), double step) {
 }
 
 TEST(GrowthStep, TheWorstMeanIsTheOneFarthestFromOne) {
-  const auto low_late = [](double t) { return t > 8.0 ? 0.7 : 1.1; };
+  const auto low_late = [](double t) { return t > 7.9 ? 0.7 : 1.1; };
   EXPECT_DOUBLE_EQ(worst(low_late, 1.5).value(), 0.7);
-  // Of a step's 4 s at least one lies before.
-  const auto high_for_two = [](double t) { return t > 6.0 && t < 7.75 ? 1.4 : 1.0; };
-  EXPECT_NEAR(worst(high_for_two, 4.0).value(), 1.0 + 0.4 * 1.5 / 4.5, 1e-12);
+  // Up within half a second, high for one, down again.
+  const auto high_for_one = [](double t) { return t > 6.4 && t < 7.6 ? 1.4 : 1.0; };
+  EXPECT_NEAR(worst(high_for_one, 4.0).value(), 1.0 + 0.4 * 1.5 / 4.0, 1e-12);
 }
 
 TEST(GrowthStep, WhatIsBeforeTheLatterHalfDoesNotCount) {
