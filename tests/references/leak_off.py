@@ -8,6 +8,13 @@ of strain along the flow only, as it is for any flow in an infinite body.
 
 A facet is the share of the crack around a point of the frames `crack`. Its pressure is taken as
 linear between frames, of which there should be many.
+
+`strained`: the rock's strain moves pore water. Near a face, where water flows along the normal n only,
+fluid content is S p + alpha (sigma_nn + 2 G e_tt) / (lambda + 2 G), S the storage above, and it diffuses
+as pressure does in the other accounts. Rock that the crack has loaded before water could move holds
+none more than at rest: it is under p_u = -alpha (sigma_nn + 2 G e_tt) / (S (lambda + 2 G)), and Carter's
+law is driven by the crack's pressure beyond that. sigma_nn: from the closing stress to the crack's
+pressure; e_tt, the strain along the crack, from the run's displacements beside it (frames `body`).
 """
 
 from __future__ import annotations
@@ -40,9 +47,21 @@ class Rock:
         return self.permeability / self.viscosity
 
     @property
+    def shear_modulus(self) -> float:
+        return self.young / (2 * (1 + self.poisson))
+
+    @property
+    def uniaxial_modulus(self) -> float:
+        return self.young * (1 - self.poisson) / ((1 + self.poisson) * (1 - 2 * self.poisson))
+
+    @property
     def storage(self) -> float:
-        uniaxial = self.young * (1 - self.poisson) / ((1 + self.poisson) * (1 - 2 * self.poisson))
-        return self.porosity / self.bulk_modulus + 1 / uniaxial
+        return self.porosity / self.bulk_modulus + 1 / self.uniaxial_modulus
+
+    def undrained_pressure(self, normal: Array, along: Array) -> Array:
+        """Beside a face, of compression on it [Pa] and of strain along it."""
+        loaded = normal - 2 * self.shear_modulus * along
+        return loaded / (self.storage * self.uniaxial_modulus)
 
     def half_space(self) -> float:
         """Fluid that a face at unit pressure takes per area: twice this times sqrt(t)."""
@@ -122,6 +141,22 @@ def frames(folder: Path) -> tuple[Array, Array, Array]:
     return np.array([entry["time"] for entry in listed]), places, pressure
 
 
+def strain_along(folder: Path, places: Array, middle: float) -> Array:
+    """Of the rock beside a crack straight down at x = `middle`, by frame and facet."""
+    listed = json.loads((folder / "frames" / "body.hdf.series").read_text())["files"]
+    rows = []
+    for entry in listed:
+        with h5py.File(folder / "frames" / entry["name"]) as file:
+            points = np.array(file["VTKHDF/Points"])
+            moved = np.array(file["VTKHDF/PointData/displacement"])
+        aside = np.abs(points[:, 0] - middle)
+        beside = aside < 1.01 * aside.min()
+        y, row = np.unique(points[beside, 1].round(9), return_inverse=True)
+        mean = np.bincount(row, moved[beside, 1]) / np.bincount(row)
+        rows.append(np.interp(places[:, 1], y, np.gradient(mean, y)))
+    return np.array(rows)
+
+
 def leaked_by_run(folder: Path, times: Array, density: float) -> Array:
     with open(folder / "history.csv") as file:
         rows = list(csv.DictReader(file))
@@ -156,6 +191,21 @@ def test_plane() -> None:
     assert abs(ends / carter - expected) < 0.005
 
 
+def test_undrained() -> None:
+    """Skempton's pressure in plane strain, 2 B (1 + nu_u) / 3 under equal stresses; loading efficiency."""
+    rock = Rock()
+    bulk = rock.young / (3 * (1 - 2 * rock.poisson))
+    undrained = bulk + rock.bulk_modulus / rock.porosity  # of stiff grains
+    skempton = 1 - bulk / undrained
+    g = rock.shear_modulus
+    nu = (3 * undrained - 2 * g) / (2 * (3 * undrained + g))
+    equal = rock.undrained_pressure(1.0, -(1 - 2 * nu) / (2 * g))
+    confined = rock.undrained_pressure(1.0, 0.0)
+    assert abs(equal / (2 / 3 * skempton * (1 + nu)) - 1) < 1e-12
+    assert abs(confined / (skempton * (1 + nu) / (3 * (1 - nu))) - 1) < 1e-12
+    print("undrained pressure under equal stresses, and where no strain is along the face")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", type=Path, nargs="?", help="folder of results")
@@ -163,6 +213,7 @@ def main() -> None:
     parser.add_argument("--facet", type=float, default=1e-3, help="length of a facet [m]")
     parser.add_argument("--size", type=float, nargs=2, default=(0.15, 0.2), help="of the box [m]")
     parser.add_argument("--cell", type=float, default=5e-4, help="of `plane` [m]")
+    parser.add_argument("--closing", type=float, default=0.21e6, help="stress across the crack [Pa]")
     parser.add_argument("--density", type=float, default=1000.0)
     for name, value in vars(Rock()).items():
         parser.add_argument(f"--{name.replace('_', '-')}", type=float, default=value)
@@ -170,16 +221,20 @@ def main() -> None:
     a = parser.parse_args()
     if a.test:
         test_half_space()
+        test_undrained()
         return test_plane()
     rock = Rock(**{name: getattr(a, name) for name in vars(Rock())})
     times, places, pressure = frames(a.run)
     pressure = pressure * (a.size[1] - places[:, 1] > a.sealed)
     carter = 2 * a.facet * sum(superposed(times, p, rock.half_space()) for p in pressure.T)
     plane = diffused(rock, times, a.size[1] - places[:, 1], pressure, a.facet, a.cell, a.size)
+    strain = strain_along(a.run, places, a.size[0] / 2)
+    drive = np.where(pressure > 0, pressure - rock.undrained_pressure(pressure - a.closing, strain), 0.0)
+    strained = 2 * a.facet * sum(superposed(times, p, rock.half_space()) for p in drive.T)
     run = leaked_by_run(a.run, times, a.density)
     writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(("time", "run", "carter", "plane", "run_over_carter", "run_over_plane"))
-    for time, leaked, *expected in zip(times, run, carter, plane):
+    writer.writerow(("time", "run", "carter", "plane", "strained", "run_over_carter", "run_over_plane", "run_over_strained"))
+    for time, leaked, *expected in zip(times, run, carter, plane, strained):
         ratios = [leaked / e if e > 0 else np.nan for e in expected]
         writer.writerow([f"{time:.6g}", *(f"{v:.4g}" for v in (leaked, *expected, *ratios))])
 

@@ -146,7 +146,6 @@ double wander(Rock rock, const Loading& loading, double angle, int half_length, 
   return farthest;
 }
 
-/// Half a spacing is asked for; `lps`, whose lattice is not isotropic, misses that at 26.6 degrees.
 TEST_P(ApparentToughnessOf, GoesStraight) {
   fmt::print("Off the line in 10 spacings of growth, {}, a/dx 10: in spacings\n", name(GetParam()));
   for (const double angle : {0.0, 20.0, 26.565051177, 45.0}) {
@@ -154,7 +153,7 @@ TEST_P(ApparentToughnessOf, GoesStraight) {
     for (const Loading& loading : loadings) {
       const double found = wander(GetParam(), loading, angle * degree, 10, 10);
       fmt::print(" {:>9} {:.3f}", loading.name, found);
-      EXPECT_LE(found, GetParam() == Rock::lps ? 0.6 : 0.5) << loading.name << ' ' << angle;
+      EXPECT_LE(found, 0.5) << loading.name << ' ' << angle;
     }
     fmt::print("\n");
   }
