@@ -100,6 +100,7 @@ std::unique_ptr<Reference> make_radial_reference(const Section& scene,
   compare({.quantity = "radius",
            .place = "the edge",
            .unit = "m",
+           .between = BetweenRows::held,
            .computed = [=] { return std::sqrt(area.values()[0] / (share * M_PI)); },
            .exact = [=](double t) { return solution.radius(t); }});
   compare({.quantity = "pressure",
