@@ -36,6 +36,8 @@ QUICK = {
     ("source in nearly undrained rock, fluid of 1e6 GPa, c t / Δx² = 0.01", "quasi_static, darcy cvode, stabilised"),
 }
 
+NOTHING_TO_COMPARE = -1  # in place of an exit code
+
 
 @functools.lru_cache(maxsize=None)
 def cached_run(perifrac, scene, settings):
@@ -49,11 +51,16 @@ def fine_run(perifrac, case):
 def outcome(perifrac, case):
     begin = time.monotonic()
     one = run(perifrac, case.scene, case.settings)
-    bounds, accuracy = [], []
-    if one.done:
-        bounds, accuracy = case.measure(one, fine_run(perifrac, case)) if case.fine else case.measure(one)
-    return Outcome(case, bounds, accuracy, "" if one.done else one.complaint, one.code,
-                   time.monotonic() - begin, "warning" in one.said)
+    bounds, accuracy, complaint, code = [], [], "" if one.done else one.complaint, one.code
+    if one.done and not case.fine:
+        bounds, accuracy = case.measure(one)
+    elif one.done:
+        fine = fine_run(perifrac, case)
+        if fine.done:
+            bounds, accuracy = case.measure(one, fine)
+        else:  # says nothing of the case, whatever is expected of it
+            complaint, code = f"the finer run: {fine.complaint}", NOTHING_TO_COMPARE
+    return Outcome(case, bounds, accuracy, complaint, code, time.monotonic() - begin, "warning" in one.said)
 
 
 def line(found):
