@@ -40,7 +40,8 @@ FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vecto
                                 Period<D> period, FluidPoints<D> points, WallCloud<D> cloud,
                                 std::vector<RigidWall<D>> rigid, std::size_t body_points,
                                 FluidOpenings<D> openings, std::unique_ptr<WallForce<D>> wall_force,
-                                std::unique_ptr<Exchange<D>> exchange)
+                                std::unique_ptr<Exchange<D>> exchange,
+                                std::unique_ptr<DamagedWalls<D>> damaged_walls)
     : fluid_(fluid),
       scheme_(scheme),
       gravity_(gravity),
@@ -50,6 +51,7 @@ FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vecto
       openings_(std::move(openings)),
       wall_force_(std::move(wall_force)),
       exchange_(std::move(exchange)),
+      damaged_walls_(std::move(damaged_walls)),
       neighbours_(scheme.horizon, skin * scheme.spacing, std::move(period)) {
   moments_.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon);
 }
@@ -153,10 +155,7 @@ void FluidDynamics<D>::find_neighbours(double t) {
   if (openings_.outlets) openings_.outlets->remove(points_);
   openings_.domain.remove(points_, t);
   neighbours_.find(points_, wall_motion_.positions(t), walls_);
-  walls_.volume.resize(walls_.wall.size());
-  for (std::size_t k = 0; k < walls_.wall.size(); ++k) {
-    walls_.volume[k] = wall_motion_.cloud().volume[walls_.wall[k]];
-  }
+  wall_motion_.copy_volumes(walls_);
   wall_motion_.place(t, neighbours_.wall_images(), walls_);
   ++version_;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/state/state_visitor.hpp"
+#include "modules/fluid/damaged_walls.hpp"
 #include "modules/fluid/even_masses.hpp"
 #include "modules/fluid/exchange.hpp"
 #include "modules/fluid/fluid_neighbours.hpp"
@@ -25,11 +26,18 @@ class FluidDynamics {
   FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vector<D> gravity, Period<D> period,
                 FluidPoints<D> points, WallCloud<D> cloud, std::vector<RigidWall<D>> rigid,
                 std::size_t body_points, FluidOpenings<D> openings,
-                std::unique_ptr<WallForce<D>> wall_force, std::unique_ptr<Exchange<D>> exchange);
+                std::unique_ptr<WallForce<D>> wall_force, std::unique_ptr<Exchange<D>> exchange,
+                std::unique_ptr<DamagedWalls<D>> damaged_walls = nullptr);
 
   /// Where cracks open into the fluid; null: nowhere.
   FluidMouths<D>* mouths() { return openings_.mouths.get(); }
   void set_body(const BodyInput& body) { wall_motion_.set_body(body); }
+  /// Fluid may enter the body where it is damaged.
+  bool enters_damaged_walls() const { return damaged_walls_ != nullptr; }
+  /// That of all points of the body; only where fluid may enter it.
+  void set_damage(std::span<const double> damage) {
+    if (damaged_walls_->apply(damage, wall_motion_.cloud())) wall_motion_.copy_volumes(walls_);
+  }
   /// Totals given to the body's points are counted from here: impulse, D blocks [N s], and mass
   /// [kg]. They are empty where the body is not there, or nothing passes into it.
   void start_totals();
@@ -83,6 +91,7 @@ class FluidDynamics {
   FluidOpenings<D> openings_;
   std::unique_ptr<WallForce<D>> wall_force_;
   std::unique_ptr<Exchange<D>> exchange_;
+  std::unique_ptr<DamagedWalls<D>> damaged_walls_;  ///< null: they are as intact ones
   PoreInput pores_;
 
   FluidNeighbours<D> neighbours_;

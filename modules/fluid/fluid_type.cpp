@@ -55,6 +55,23 @@ std::unique_ptr<Exchange<D>> make_exchange(const Section& scene, const Body<D>* 
                                                scheme.horizon);
 }
 
+/// Null where damaged points of the body are walls as intact ones; else all its points are.
+template <int D>
+std::unique_ptr<DamagedWalls<D>> make_damaged_walls(const Section& scene, const Body<D>* body,
+                                                    WallCloud<D>& cloud) {
+  if (body == nullptr || scene.word("interface.damaged_rock") == "wall") return nullptr;
+  if (!scene.has("damage") || scene.word("solid.type") == "rigid") {
+    scene.fail("interface.damaged_rock", "'open' where no rock is damaged",
+               "a section 'damage' and a solid that breaks, or wall");
+  }
+  if (scene.has("pore_flow") && scene.word("interface.exchange") != "none") {
+    scene.fail("interface.damaged_rock", "'open' beside fluid that seeps through surfaces",
+               "wall, or exchange: none");
+  }
+  add_inner_points(*body, scene.word("interface.slip") == "free", cloud);
+  return std::make_unique<DamagedWalls<D>>(cloud);
+}
+
 template <int D>
 std::unique_ptr<WallForce<D>> make_wall_force(const Section& scene) {
   if (!scene.has("interface") || scene.word("interface.force") == "two_sided") {
@@ -85,6 +102,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
       read_fluid_walls<D>(section, body.get(), body_slips, spacing, scheme.horizon);
   const std::size_t body_points = body ? body->points().size() : 0;
   auto exchange = make_exchange<D>(scene, body.get(), walls, scheme);
+  auto damaged_walls = make_damaged_walls<D>(scene, body.get(), walls.cloud);
   const bool exchanges = exchange != nullptr;
   const std::vector<Vector<D>> mouths = read_mouths<D>(scene, body.get());
   if (exchanges || !mouths.empty()) scheme.merge_below = scene.number("interface.merge_below");
@@ -95,7 +113,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   auto dynamics = std::make_unique<FluidDynamics<D>>(
       fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
       std::move(walls.rigid), body_points, std::move(openings), make_wall_force<D>(scene),
-      std::move(exchange));
+      std::move(exchange), std::move(damaged_walls));
   check_fluid_steps(section, *dynamics);
   return std::make_unique<SemiLagrangianFluid<D>>(std::move(body), exchanges, std::move(dynamics));
 }
@@ -193,6 +211,13 @@ const KeyTable& interface_keys() {
        .fallback = "1",
        .when = "force=one_sided",
        .meaning = "Coefficient of the repulsion that makes up for it where it is strong enough."},
+      {.path = "damaged_rock",
+       .type = KeyType::word,
+       .fallback = "wall",
+       .words = {"wall", "open"},
+       .meaning = "What broken bonds change. wall: nothing, fluid stays out of the body. open: as "
+                  "published, for comparison; a point stands in for fluid by the part of its bonds "
+                  "that it has left, and only repulsion keeps fluid off it."},
       {.path = "merge_below",
        .range = "[0, 0.5]",
        .fallback = "0.1",

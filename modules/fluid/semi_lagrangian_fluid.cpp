@@ -42,6 +42,7 @@ SemiLagrangianFluid<D>::SemiLagrangianFluid(std::shared_ptr<const Body<D>> body,
     add_port(Quantity::interface_impulse,
              {"interface_impulse", total("N s"), out, extensive, PortRole::field, D});
   }
+  if (dynamics_->enters_damaged_walls()) add_port(Quantity::damage, {"damage", "1", in});
   if (exchanges) {
     add_port(Quantity::pore_pressure, {"pore_pressure", "Pa", in});
     add_port(Quantity::pore_mobility, {"pore_mobility", "m^2/(Pa s)", in});
@@ -173,6 +174,10 @@ PortView SemiLagrangianFluid<D>::port(PortId id) {
       displacement_.resize(D * body_points);
       displacement_rate_.resize(D * body_points);
       return {body, displacement_, displacement_rate_};
+    case Quantity::damage:
+      damage_.resize(body_points);
+      damage_rate_.resize(body_points);
+      return {body, damage_, damage_rate_};
     case Quantity::pore_pressure:
       pore_pressure_.resize(body_points);
       pore_pressure_rate_.resize(body_points);
@@ -221,6 +226,12 @@ double SemiLagrangianFluid<D>::stable_time_step() const {
 template <int D>
 double SemiLagrangianFluid<D>::advance(const TimeWindow& window) {
   dynamics_->set_body({displacement_, displacement_rate_, window.end});
+  if (!damage_.empty()) {
+    // Bonds break at once: what is known is the window's beginning.
+    for (std::size_t i = 0; i < damage_.size(); ++i)
+      damage_[i] -= window.length() * damage_rate_[i];
+    dynamics_->set_damage(damage_);
+  }
   dynamics_->start_totals();
   if (dynamics_->mouths() != nullptr) dynamics_->mouths()->begin_window(window.length());
   dynamics_->set_pores(

@@ -17,8 +17,9 @@ namespace perifrac {
 /// `<name>_displacement` [m] of each piston, and counts of work; with inlets `injected_fluid_mass`
 /// [kg], where points may be removed `removed_fluid_mass` [kg, negative] and `points_left`.
 /// On the points of a body, if there is one: in `displacement` [m]; out `interface_impulse` [N s],
-/// what the fluid gave each point over the window. If it has pores: in `pore_pressure` [Pa]
-/// with rate and slope, `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg], likewise.
+/// what the fluid gave each point over the window; where fluid may enter broken rock, in `damage`.
+/// If it has pores: in `pore_pressure` [Pa] with rate and slope, `pore_mobility` [m^2/(Pa s)]; out
+/// `exchanged_mass` [kg], likewise.
 /// Where cracks open into it, on their mouths: in `mouth_intake` [kg]; out `mouth_pressure` [Pa],
 /// `mouth_stiffness` [Pa/kg]; for the ledger `mass_given_to_cracks` [kg].
 template <int D>
@@ -50,6 +51,7 @@ class SemiLagrangianFluid final : public PhysicsModule {
     searches,
     displacement,
     interface_impulse,
+    damage,
     pore_pressure,
     pore_mobility,
     exchanged_mass,
@@ -82,6 +84,7 @@ class SemiLagrangianFluid final : public PhysicsModule {
   std::vector<double> displacement_, displacement_rate_;
   std::vector<double> pore_pressure_, pore_pressure_rate_, pore_pressure_slope_;
   std::vector<double> pore_mobility_;
+  std::vector<double> damage_, damage_rate_;
   // Outputs, made when they are asked for.
   std::vector<double> impulse_, exchanged_mass_;
   std::vector<double> pressure_, velocity_, density_, mass_;

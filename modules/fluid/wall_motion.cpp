@@ -83,6 +83,12 @@ void WallMotion<D>::place(double t, const PeriodicImages<D>& images, NearWalls<D
 }
 
 template <int D>
+void WallMotion<D>::copy_volumes(NearWalls<D>& near) const {
+  near.volume.resize(near.wall.size());
+  for (std::size_t k = 0; k < near.wall.size(); ++k) near.volume[k] = cloud_.volume[near.wall[k]];
+}
+
+template <int D>
 bool WallMotion<D>::leaves_room(const Vector<D>& x, double t, double spacing) const {
   for (Index w = 0; w < cloud_.size(); ++w) {
     const Vector<D> moved = displacement(w, t);

@@ -26,6 +26,7 @@ class WallMotion {
 
   void set_body(const BodyInput& body) { body_ = body; }
   const WallCloud<D>& cloud() const { return cloud_; }
+  WallCloud<D>& cloud() { return cloud_; }
   const std::vector<RigidWall<D>>& rigid() const { return rigid_; }
   std::size_t body_points() const { return body_points_; }
 
@@ -42,6 +43,8 @@ class WallMotion {
   const std::array<std::vector<double>, D>& positions(double t);
   /// Positions and velocities of the near points and their images.
   void place(double t, const PeriodicImages<D>& images, NearWalls<D>& near) const;
+  /// Volumes of the near points and their images.
+  void copy_volumes(NearWalls<D>& near) const;
   /// No wall point's cell holds x, nor comes near it, for a fluid of this spacing [m].
   bool leaves_room(const Vector<D>& x, double t, double spacing) const;
 
