@@ -1,6 +1,6 @@
 """The paper's figures of its hydraulic fractures, 18 to 25, from runs of perifrac alone.
 
-The paper's own scheme, with points of fluid in the crack, is not run here.
+The paper's own scheme, with points of fluid that are to enter the crack, has one of its own: `points`.
 """
 
 from __future__ import annotations
@@ -221,4 +221,38 @@ def fig25(runs: Runs, images: Path, errors: Errors) -> None:
     print(images / "fig25.png")
 
 
-FIGURES = {f.__name__: f for f in (fig18, fig19, fig20, fig21, fig22, fig23, fig24, fig25)}
+BROKEN = 0.35  # damage; beside a straight crack it is 0.4
+FLOOR = 0.190  # [m], of the notch
+
+
+def points(runs: Runs, images: Path, errors: Errors) -> None:
+    """The storage-dominated case by the paper's own rules: pressure in the notch, growth, and what is left."""
+    figure, axes = panels(3, "The paper's points of fluid, storage-dominated (2 mm)")
+    network, exact = runs.history("network"), table("hf_storage_reference.csv")
+    bodies, fluids = runs.frames("points", "body"), runs.frames("points", "fluid")
+    ms = 1e3 * np.array([frame.time for frame in bodies])
+    pressure = [f.fields["fluid_pressure"][f.points[:, 1] > FLOOR].mean() for f in fluids]
+    depth = [0.2 - b.points[b.fields["damage"] > BROKEN, 1].min() for b in bodies]
+    pumped = ms >= 0.0
+    lines = [
+        (axes[0], 1e-3 * np.array(pressure), 1e-3 * network["inlet_notch_pressure"], 1e-3 * exact["inlet_notch_pressure"]),
+        (axes[1], 1e3 * (np.array(depth) - NOTCH), 1e3 * (network["crack_length"] - NOTCH), 1e3 * (exact["crack_length"] - NOTCH)),
+    ]  # fmt: skip
+    for axis, by_points, by_network, marched in lines:
+        axis.plot(ms[pumped], by_points[pumped], color="C3", lw=1.2, label="the paper's points")
+        axis.plot(1e3 * network["time"], by_network, color="C0", lw=1.2, label="network")
+        axis.plot(1e3 * exact["time"], marched, "k-", lw=1.0, label="this specimen, marched by other means")
+        axis.set_xlim(0.0, ms[-1])
+        axis.set_xlabel("time since the pump began [ms]")
+        axis.legend(fontsize=8, frameon=False)
+    axes[0].set_ylabel("pressure in the notch [kPa]")
+    axes[0].set_ylim(0.0, None)
+    axes[1].set_ylabel("growth, deepest broken point [mm]")
+    image = draw_field(axes[2], bodies[-1], bodies[-1].fields["damage"], (0.0, 1.0), "magma_r")
+    axes[2].scatter(*(1e3 * fluids[-1].points[:, :2].T), s=4, color="C0")
+    axes[2].set_title(f"damage and water at {ms[-1]:.0f} ms", fontsize=9)
+    figure.colorbar(image, ax=axes[2], shrink=0.8)
+    save(figure, images, "points")
+
+
+FIGURES = {f.__name__: f for f in (fig18, fig19, fig20, fig21, fig22, fig23, fig24, fig25, points)}

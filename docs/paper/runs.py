@@ -47,11 +47,13 @@ _SHOWN = ["output.times=[70 s, 140 s, 500 s, 1000 s, 2000 s]", "output.history_i
 SCHEMES["head"] = Scheme("perifrac", "constant_head.yaml", _SHOWN, 20.0)
 SCHEMES["head_exchange"] = Scheme("exchange: paper", "constant_head.yaml", [*_SHOWN, "interface.exchange=paper", "ledger.mass_error=10"], 20.0)  # fmt: skip
 SCHEMES["head_force"] = Scheme("force: one_sided", "constant_head.yaml", [*_SHOWN, "interface.force=one_sided"], 20.0, "500 s")  # fmt: skip
-# Hydraulic fracture, without the paper's own scheme.
+# Hydraulic fracture; by the paper's own points once, from the start of the pump.
 SCHEMES["storage"] = Scheme("perifrac", "hf_storage_pores.yaml", ["output.interval=1 ms"])
 SCHEMES["leak_off"] = Scheme("into pores", "hf_leakoff_pores.yaml")
 SCHEMES["carter"] = Scheme("Carter's law", "hf_leakoff.yaml")
 SCHEMES["no_leak_off"] = Scheme("nothing leaks", "hf_leakoff.yaml", ["crack_fluid.leak_off_coefficient=0"])
+SCHEMES["network"] = Scheme("network", "hf_storage.yaml")
+SCHEMES["points"] = Scheme("the paper's points", "hf_storage_points.yaml", ["output.interval=1 ms"], 0.005, "32 ms")
 SCHEMES["natural"] = Scheme("perifrac", "hf_natural_fracture.yaml")
 
 
