@@ -53,7 +53,7 @@ SCHEMES["leak_off"] = Scheme("into pores", "hf_leakoff_pores.yaml")
 SCHEMES["carter"] = Scheme("Carter's law", "hf_leakoff.yaml")
 SCHEMES["no_leak_off"] = Scheme("nothing leaks", "hf_leakoff.yaml", ["crack_fluid.leak_off_coefficient=0"])
 SCHEMES["network"] = Scheme("network", "hf_storage.yaml")
-SCHEMES["points"] = Scheme("the paper's points", "hf_storage_points.yaml", ["output.interval=1 ms"], 0.005, "32 ms")
+SCHEMES["points"] = Scheme("the paper's points", "hf_storage_points.yaml", loaded_at=0.005)
 SCHEMES["natural"] = Scheme("perifrac", "hf_natural_fracture.yaml")
 
 

@@ -64,6 +64,10 @@ std::unique_ptr<DamagedWalls<D>> make_damaged_walls(const Section& scene, const 
     scene.fail("interface.damaged_rock", "'open' where no rock is damaged",
                "a section 'damage' and a solid that breaks, or wall");
   }
+  if (scene.has("crack_fluid")) {
+    scene.fail("interface.damaged_rock", "'open' beside crack_fluid, which fills the same cracks",
+               "one of the two");
+  }
   if (scene.has("pore_flow") && scene.word("interface.exchange") != "none") {
     scene.fail("interface.damaged_rock", "'open' beside fluid that seeps through surfaces",
                "wall, or exchange: none");
