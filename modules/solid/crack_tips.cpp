@@ -96,7 +96,8 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
   const TipLoad load =
       energy_release_.at(tip.at, state.unknowns(energy_release_.looks_at(tip.at)), state.pressure,
                          state.pore_stress, state.inertia, state.shear);
-  const bool opens = load.opening > 0.0 && load.energy_release > 0.0;
+  // A tip that is closed may go on where its faces slide under friction.
+  const bool opens = (load.opening > 0.0 || !state.shear.empty()) && load.energy_release > 0.0;
   tip.asked = opens ? std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
   tip.asked_opening = opens ? opening : 0.0;
   return tip.asked;

@@ -129,11 +129,9 @@ void FracturingSolid<D>::solve_faces() {
   load_is_current_ = load_is_current_ && is_steady();
   take_load();
   if constexpr (D == 2) {
-    faces_ = friction_ ? friction_->faces(cracked_, in_cracks(), window_end_)
-                       : cracked_.faces(in_cracks());
-  } else {
-    faces_ = cracked_.faces(in_cracks());
+    if (friction_) faces_ = friction_->faces(cracked_, in_cracks(), window_end_);
   }
+  if (!friction_) faces_ = cracked_.faces(in_cracks());
   unknowns_are_current_ = false;
 }
 
@@ -167,10 +165,8 @@ void FracturingSolid<D>::derive() {
   std::vector<double> force(unknowns_.size());
   dilatation_.resize(body_->points().size());
   cracked_.elastic().apply(unknowns_, {}, force, dilatation_);
-  if (!is_steady()) {
-    elastic_energy_ = 0.5 * view(unknowns_).dot(view(force));
-    if (friction_) elastic_energy_ += friction_->elastic_energy();
-  }
+  if (!is_steady()) elastic_energy_ = 0.5 * view(unknowns_).dot(view(force));
+  if (!is_steady() && friction_) elastic_energy_ += friction_->elastic_energy();
   derived_ = true;
 }
 

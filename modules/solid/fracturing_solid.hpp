@@ -32,6 +32,8 @@ namespace perifrac {
 /// `open_crack_area` [m^2], and `fracture_energy` [J], what new faces took, in 2D per metre.
 /// `radiated_energy` [J/m] is what unstable growth sets free beyond that, by J: a body with inertia
 /// would move by it. In 2D, where no fluid is in the cracks.
+/// With friction between faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip
+/// of all facets, counted positive, times their length.
 template <int D>
 class FracturingSolid final : public PhysicsModule {
  public:

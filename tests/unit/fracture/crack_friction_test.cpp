@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/solid/crack_tips.hpp"
 #include "tests/unit/fracture/cracked_plate.hpp"
 
 namespace perifrac::test {
@@ -152,7 +153,7 @@ TEST(CrackFriction, OfNoneIsContactAsItWas) {
 /// 4 f c (T - f) a cycle.
 TEST(CrackFriction, TakesWhatACycleOfSlipDissipates) {
   const double coefficient = 0.3, borne = coefficient * stress, most = 1.5e-3;
-  const int steps = 20;
+  const int steps = 10;
   ShearedPlate sheared(0.0, 20);
   sheared.friction = CrackFriction(coefficient);
   const auto book = [&] {
@@ -177,6 +178,42 @@ TEST(CrackFriction, TakesWhatACycleOfSlipDissipates) {
   EXPECT_NEAR(first, exact, 0.09 * exact);
   EXPECT_NEAR(cycle, 4.0 * first, 1e-3 * cycle);
   EXPECT_NEAR(sheared.friction.dissipation(), borne * slipped, 1e-9 * borne * slipped);
+}
+
+/// A closed tip goes on by the shear that its faces do not bear, and turns by 70 degrees to where
+/// it opens: the wings of a crack under compression. One that sticks stays.
+TEST(CrackFriction, LetsWingsGrowFromAClosedCrack) {
+  const double coefficient = 0.4, shear = 1.5e-3, fracture_energy = 1e-5;
+  ShearedPlate sheared(0.0, 10);
+  CrackTips tips(*sheared.plate.body, *sheared.plate.cracked, {{fracture_energy}});
+  tips.start(sheared.plate.cracked->facets(), 0.0);
+  const auto state = [&]() -> CrackState<2> {
+    return {.t = 1.0,
+            .opening = sheared.faces.opening,
+            .pressure = sheared.faces.pressure,
+            .unknowns =
+                [&](auto) { return std::span<const double>(sheared.u.data(), sheared.u.size()); },
+            .jumps =
+                [&] {
+                  return sheared.plate.cracked->jumps_under(sheared.faces.pressure,
+                                                            sheared.faces.shear);
+                },
+            .shear = sheared.faces.shear};
+  };
+  sheared.friction = CrackFriction(1.5);
+  sheared.load(shear, shear);
+  EXPECT_LT(tips.find_readiness(state()), 0.2);
+  sheared.friction = CrackFriction(coefficient);
+  sheared.load(shear, coefficient * stress);
+  const double mode_two = (shear - coefficient * stress) * std::sqrt(M_PI * sheared.half);
+  const double ready = mode_two / std::sqrt(fracture_energy);
+  EXPECT_NEAR(tips.find_readiness(state()), ready, 0.05 * ready);
+  EXPECT_NEAR(tips.grow(state()), 2.0 * fracture_energy, 1e-12 * fracture_energy);
+  for (const int wing : {1, 2}) {
+    const auto& jump = sheared.plate.cracked->jumps()[sheared.plate.cracked->jumps().size() - wing];
+    const double angle = std::atan(jump.tangents[0][1] / jump.tangents[0][0]);
+    EXPECT_NEAR(angle * 180.0 / M_PI, -70.0, 1.0);
+  }
 }
 
 }  // namespace
