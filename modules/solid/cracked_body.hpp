@@ -45,7 +45,7 @@ class CrackedBody final : public CutBody<D> {
     Eigen::VectorXd pressure;  ///< on the faces, that of contact included [Pa]
     std::vector<bool> closed;
     std::vector<double> shear{};  ///< on the faces, along their tangent; empty: no friction [Pa]
-    std::vector<double> slip{};   ///< with friction: mean tangential jump [m]
+    std::vector<double> slip{};   ///< with friction, by CrackFriction [m]
   };
   /// Without friction.
   Faces faces(const Eigen::VectorXd& pressure) const;

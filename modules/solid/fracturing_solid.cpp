@@ -175,6 +175,7 @@ template <int D>
 void FracturingSolid<D>::book_work() {
   if constexpr (D == 2) {
     if (friction_) friction_->book(cracked_, faces_, in_cracks());
+    derived_ = derived_ && !friction_;  // what is elastic holds friction's part
   }
   if (is_steady()) {
     const auto energies = cracked_.energies(faces_.pressure, faces_.shear);
