@@ -31,7 +31,8 @@ struct CrackState {
   /// Mean jumps across all facets along their normal and tangents [m], when they are asked for.
   std::function<std::vector<Vector<D>>()> jumps;
   PointInertia<D> inertia{};
-  double pause = 0.0;  ///< a tip stays where it came to for at least so long [s]
+  std::span<const double> shear{};  ///< of friction on every facet [Pa]; empty: there is none
+  double pause = 0.0;               ///< a tip stays where it came to for at least so long [s]
 
   bool has_fluid() const { return !viscosity.empty(); }
 };

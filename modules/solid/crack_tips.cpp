@@ -93,9 +93,11 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
     const bool is_near = std::abs(opening / tip.asked_opening - 1.0) < telling_change;
     if (is_near && (guess < surely_not || guess > surely)) return guess;
   }
-  const TipLoad load = energy_release_.at(tip.at, state.unknowns(energy_release_.looks_at(tip.at)),
-                                          state.pressure, state.pore_stress, state.inertia);
-  const bool opens = load.opening > 0.0 && load.energy_release > 0.0;
+  const TipLoad load =
+      energy_release_.at(tip.at, state.unknowns(energy_release_.looks_at(tip.at)), state.pressure,
+                         state.pore_stress, state.inertia, state.shear);
+  // A tip that is closed may go on where its faces slide under friction.
+  const bool opens = (load.opening > 0.0 || !state.shear.empty()) && load.energy_release > 0.0;
   tip.asked = opens ? std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
   tip.asked_opening = opens ? opening : 0.0;
   return tip.asked;

@@ -56,7 +56,7 @@ void CrackedBody<D>::start() {
   for (const CrackFacet<D>& seed : seeds_) add_mode(face_jump<D>(seed, intact_, spacing_));
   intact_move_.resize(0);
   set_load(load_);
-  find_compliance();
+  compliance_ = compliance(0, 0);
 }
 
 template <int D>
@@ -96,7 +96,7 @@ bool CrackedBody<D>::cut(const CrackFacet<D>& facet) {
   bonds_.add_facet(facet, bonds);
   followed_ = bonds_.version();
   add_mode(face_jump<D>(facet, intact_, spacing_));
-  find_compliance();
+  compliance_ = compliance(0, 0);
   find_opening();
   return true;
 }
@@ -163,23 +163,24 @@ void CrackedBody<D>::add_mode(const FaceJump<D>& jump) {
 }
 
 template <int D>
-void CrackedBody<D>::find_compliance() {
+Eigen::MatrixXd CrackedBody<D>::compliance(int jump, int traction) const {
   const Eigen::Index count = static_cast<Eigen::Index>(modes_.size());
   Eigen::MatrixXd response(inverse_->block().rows(), count);
   for (Eigen::Index g = 0; g < count; ++g) {
     response.col(g).setZero();
-    for (const auto& [place, coefficient] : modes_[g][0]) {
+    for (const auto& [place, coefficient] : modes_[g][traction]) {
       response.col(g) += jumps_[g].area * coefficient * inverse_->block().col(place);
     }
   }
-  compliance_.resize(count, count);
+  Eigen::MatrixXd compliance(count, count);
   for (Eigen::Index f = 0; f < count; ++f) {
     for (Eigen::Index g = 0; g < count; ++g) {
       double sum = 0.0;
-      for (const auto& [place, coefficient] : modes_[f][0]) sum += coefficient * response(place, g);
-      compliance_(f, g) = sum;
+      for (const auto& [place, c] : modes_[f][jump]) sum += c * response(place, g);
+      compliance(f, g) = sum;
     }
   }
+  return compliance;
 }
 
 template <int D>
@@ -191,13 +192,23 @@ void CrackedBody<D>::set_load(const Eigen::VectorXd& load) {
   find_opening();
 }
 
-/// What a pressure on the faces, and the stress they are relieved of, do on the condensed unknowns.
+/// What facet f's faces carry along its normal and tangents [Pa].
 template <int D>
-Eigen::VectorXd CrackedBody<D>::block_force(const Eigen::VectorXd& pressure) const {
+Vector<D> CrackedBody<D>::face_load(std::size_t f, double pressure, std::span<const double> shear,
+                                    bool relief) const {
+  Vector<D> load = relief ? this->relief(static_cast<Index>(f)) : Vector<D>{};
+  load[0] += pressure;
+  if (!shear.empty()) load[1] += shear[f];
+  return load;
+}
+
+/// What the faces do on the condensed unknowns.
+template <int D>
+Eigen::VectorXd CrackedBody<D>::block_force(const Eigen::VectorXd& pressure,
+                                            std::span<const double> shear) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
   for (std::size_t f = 0; f < modes_.size(); ++f) {
-    Vector<D> load = this->relief(static_cast<Index>(f));
-    load[0] += pressure[f];
+    const Vector<D> load = face_load(f, pressure[f], shear);
     for (int k = 0; k < D; ++k) {
       for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * load[k] * c;
     }
@@ -241,11 +252,11 @@ double CrackedBody<D>::intensity_at_fixed_volume(Index facet) const {
 }
 
 template <int D>
-Eigen::VectorXd CrackedBody<D>::face_force(const Eigen::VectorXd& pressure, bool relief) const {
+Eigen::VectorXd CrackedBody<D>::face_force(const Eigen::VectorXd& pressure, bool relief,
+                                           std::span<const double> shear) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(free_unknowns_.rows());
   for (std::size_t f = 0; f < jumps_.size(); ++f) {
-    Vector<D> load = relief ? this->relief(static_cast<Index>(f)) : Vector<D>{};
-    load[0] += pressure[f];
+    const Vector<D> load = face_load(f, pressure[f], shear, relief);
     for (const auto& [point, coefficient] : jumps_[f].terms) {
       for (int a = 0; a < D; ++a) {
         double along = load[0] * jumps_[f].normal[a];
@@ -275,8 +286,9 @@ Eigen::VectorXd CrackedBody<D>::force_on_first_body(const Eigen::VectorXd& force
 }
 
 template <int D>
-Eigen::VectorXd CrackedBody<D>::unknowns(const Eigen::VectorXd& pressure) const {
-  const Eigen::VectorXd force = block_force(pressure);
+Eigen::VectorXd CrackedBody<D>::unknowns(const Eigen::VectorXd& pressure,
+                                         std::span<const double> shear) const {
+  const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   const Eigen::VectorXd all = force_on_first_body(force, block);
   Eigen::VectorXd moved(all.size());
@@ -286,8 +298,8 @@ Eigen::VectorXd CrackedBody<D>::unknowns(const Eigen::VectorXd& pressure) const 
 
 template <int D>
 void CrackedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
-                                   std::span<double> all) const {
-  const Eigen::VectorXd force = block_force(pressure);
+                                   std::span<double> all, std::span<const double> shear) const {
+  const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   std::vector<int> wanted;
   for (const Index unknown : named) {
@@ -303,8 +315,9 @@ void CrackedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<co
 }
 
 template <int D>
-std::vector<Vector<D>> CrackedBody<D>::jumps_under(const Eigen::VectorXd& pressure) const {
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure);
+std::vector<Vector<D>> CrackedBody<D>::jumps_under(const Eigen::VectorXd& pressure,
+                                                   std::span<const double> shear) const {
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure, shear);
   std::vector<Vector<D>> jumps;
   for (const Mode& mode : modes_) {
     Vector<D>& jump = jumps.emplace_back();
@@ -314,8 +327,9 @@ std::vector<Vector<D>> CrackedBody<D>::jumps_under(const Eigen::VectorXd& pressu
 }
 
 template <int D>
-typename CrackedBody<D>::Energies CrackedBody<D>::energies(const Eigen::VectorXd& pressure) const {
-  const Eigen::VectorXd force = block_force(pressure);
+typename CrackedBody<D>::Energies CrackedBody<D>::energies(const Eigen::VectorXd& pressure,
+                                                           std::span<const double> shear) const {
+  const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   Energies energies{};
   // The factor's inverse is symmetric, so that load times displacement needs no displacement.

@@ -18,8 +18,8 @@ namespace perifrac {
 /// A linear elastic body in equilibrium, in 2D in plane strain, while cracks cut its bonds facet by
 /// facet. The stiffness of the body with its first cracks is factored once; every later facet is a
 /// low-rank change of it. The faces of a crack carry the pressure of what is in it and, where they
-/// close, the pressure of contact, which keeps them from passing through one another (without
-/// friction).
+/// close, the pressure of contact, which keeps them from passing through one another; in 2D also
+/// the shear of friction, where the scene has it (crack_friction.hpp).
 template <int D>
 class CrackedBody final : public CutBody<D> {
  public:
@@ -44,23 +44,31 @@ class CrackedBody final : public CutBody<D> {
     Eigen::VectorXd opening;   ///< mean normal jump [m], >= 0
     Eigen::VectorXd pressure;  ///< on the faces, that of contact included [Pa]
     std::vector<bool> closed;
+    std::vector<double> shear{};  ///< on the faces, along their tangent; empty: no friction [Pa]
+    std::vector<double> slip{};   ///< with friction, by CrackFriction [m]
   };
+  /// Without friction.
   Faces faces(const Eigen::VectorXd& pressure) const;
   /// The mean normal jumps of faces that may pass through one another [m].
   Eigen::VectorXd free_opening(const Eigen::VectorXd& pressure) const;
   /// d(free_opening)/d(pressure) [m/Pa].
   const Eigen::MatrixXd& compliance() const { return compliance_; }
+  /// Mean jumps along one axis of the facets' frames (0: normal) by tractions along another [m/Pa].
+  Eigen::MatrixXd compliance(int jump, int traction) const;
   double intensity_at_fixed_volume(Index facet) const override;
 
-  /// Mean jumps across all facets along their normal and tangents under a pressure on the faces
-  /// [m].
-  std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure) const;
+  // Of a pressure on the faces and, unless it is empty, a shear along their (first) tangent:
 
-  /// All unknowns without what is prescribed, under the load and a pressure on the faces [m].
-  Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure) const;
+  /// Mean jumps across all facets along their normal and tangents [m].
+  std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure,
+                                     std::span<const double> shear = {}) const;
+
+  /// All unknowns without what is prescribed, under the load too [m].
+  Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure,
+                           std::span<const double> shear = {}) const;
   /// The same, those named only, which alone are written: cheap where they lie close together.
   void find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
-                     std::span<double> all) const;
+                     std::span<double> all, std::span<const double> shear = {}) const;
   /// What the body holds and what its loads would have done, had they been there from the start
   /// [J], in 2D per metre; at no back-substitution.
   struct Energies {
@@ -68,9 +76,10 @@ class CrackedBody final : public CutBody<D> {
     double load;    ///< load times displacement
     double relief;  ///< the stress that faces are relieved of, times their jumps
   };
-  Energies energies(const Eigen::VectorXd& pressure) const;
-  /// Force of a pressure on the faces, and of the stress they are relieved of, on all unknowns [N].
-  Eigen::VectorXd face_force(const Eigen::VectorXd& pressure, bool relief = true) const;
+  Energies energies(const Eigen::VectorXd& pressure, std::span<const double> shear = {}) const;
+  /// Force of the faces, and of the stress they are relieved of, on all unknowns [N].
+  Eigen::VectorXd face_force(const Eigen::VectorXd& pressure, bool relief = true,
+                             std::span<const double> shear = {}) const;
 
   /// Of what is solved for, with all bonds that are broken now; kept for start().
   const Eigen::SparseMatrix<double>& free_stiffness();
@@ -91,9 +100,11 @@ class CrackedBody final : public CutBody<D> {
   /// A symmetric matrix of all unknowns on those solved for.
   PointStiffness on_free(const PointStiffness& all) const;
   void add_mode(const FaceJump<D>& jump);
-  void find_compliance();
   void find_opening();
-  Eigen::VectorXd block_force(const Eigen::VectorXd& pressure) const;
+  Vector<D> face_load(std::size_t f, double pressure, std::span<const double> shear,
+                      bool relief = true) const;
+  Eigen::VectorXd block_force(const Eigen::VectorXd& pressure,
+                              std::span<const double> shear = {}) const;
   Eigen::VectorXd block_force_on_first_body(const Eigen::VectorXd& force,
                                             const Eigen::VectorXd& block) const;
   Eigen::VectorXd force_on_first_body(const Eigen::VectorXd& force,

@@ -51,6 +51,7 @@ class CutBody {
   bool reaches(const Vector<D>& x, double distance) const;
 
   const Family<D>& family() const { return *family_; }
+  double spacing() const { return spacing_; }
   BreakableElasticity<D>& elastic() { return *elastic_; }
 
  protected:

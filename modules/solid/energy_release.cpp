@@ -66,12 +66,12 @@ constexpr double largest_kink = 70.0 * M_PI / 180.0;
 
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
                           const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
-                          const PointInertia<2>& inertia) const {
+                          const PointInertia<2>& inertia, std::span<const double> shear) const {
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
   }
-  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, pore_stress, inertia)};
+  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, pore_stress, inertia, shear)};
 }
 
 /// Near a boundary the ring is drawn in, so as to lie within the body [m].
@@ -152,7 +152,8 @@ Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
                                       const Eigen::VectorXd& pressure,
                                       std::span<const double> pore_stress,
-                                      const PointInertia<2>& inertia) const {
+                                      const PointInertia<2>& inertia,
+                                      std::span<const double> shear) const {
   const Family<2>& family = body_.family();
   const Index points = family.point_count;
   const Cutoff cutoff{tip.place, spacing_, radius(tip)};
@@ -201,7 +202,8 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
     const Vector<2>& tangent = body_.jumps()[f].tangents[0];
     const double ahead = tangent[0] * tip.direction[0] + tangent[1] * tip.direction[1];
     const Vector<2> relief = body_.relief(static_cast<Index>(f));
-    const Vector<2> load = {pressure[f] + relief[0], relief[1]};
+    const Vector<2> load = {pressure[f] + relief[0],
+                            shear.empty() ? relief[1] : relief[1] + shear[f]};
     for (int a = 0; a < 2; ++a) {
       const double begin = jump_at(facet[0], tip, jumps)[a] - jumps[f][a];
       const double end = jump_at(facet[1], tip, jumps)[a] - jumps[f][a];

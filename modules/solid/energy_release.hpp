@@ -48,9 +48,10 @@ class EnergyRelease {
   EnergyRelease(CutBody<2>& body, double spacing) : body_(body), spacing_(spacing) {}
 
   /// `unknowns`: all displacements; `pressure`: on the faces, by facet [Pa]; `pore_stress`: of all
-  /// points [Pa], or empty.
+  /// points [Pa], or empty; `shear`: of friction on the faces, by facet [Pa], or empty.
   TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
-             std::span<const double> pore_stress = {}, const PointInertia<2>& inertia = {}) const;
+             std::span<const double> pore_stress = {}, const PointInertia<2>& inertia = {},
+             std::span<const double> shear = {}) const;
   /// The unknowns that at() depends on, but for `inertia`.
   std::vector<Index> looks_at(const CrackTip& tip) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
@@ -62,7 +63,7 @@ class EnergyRelease {
                     std::span<const Vector<2>> jumps) const;
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
                          const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
-                         const PointInertia<2>& inertia) const;
+                         const PointInertia<2>& inertia, std::span<const double> shear) const;
 
   CutBody<2>& body_;
   double spacing_;

@@ -66,6 +66,7 @@ void FracturingSolid<D>::initialize(double t) {
   const auto facets = static_cast<Eigen::Index>(seeds_.size());
   faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
             std::vector<bool>(seeds_.size(), false)};
+  if (friction_) friction_->start();
   unknowns_are_current_ = true;
   derived_ = false;
 }
@@ -127,7 +128,10 @@ template <int D>
 void FracturingSolid<D>::solve_faces() {
   load_is_current_ = load_is_current_ && is_steady();
   take_load();
-  faces_ = cracked_.faces(in_cracks());
+  if constexpr (D == 2) {
+    if (friction_) faces_ = friction_->faces(cracked_, in_cracks(), window_end_);
+  }
+  if (!friction_) faces_ = cracked_.faces(in_cracks());
   unknowns_are_current_ = false;
 }
 
@@ -135,7 +139,7 @@ template <int D>
 void FracturingSolid<D>::find_unknowns() {
   if (unknowns_are_current_) return;
   take_load();
-  view(unknowns_) = prescribed_.at(window_end_) + cracked_.unknowns(faces_.pressure);
+  view(unknowns_) = prescribed_.at(window_end_) + cracked_.unknowns(faces_.pressure, faces_.shear);
   unknowns_are_current_ = true;
   derived_ = false;
 }
@@ -146,7 +150,7 @@ std::span<const double> FracturingSolid<D>::find_unknowns(std::span<const Index>
   if (unknowns_are_current_) return unknowns_;
   take_load();
   some_unknowns_.resize(unknowns_.size());
-  cracked_.find_unknowns(faces_.pressure, named, some_unknowns_);
+  cracked_.find_unknowns(faces_.pressure, named, some_unknowns_, faces_.shear);
   if (prescribes_) {
     const Eigen::VectorXd prescribed = prescribed_.at(window_end_);
     for (const Index unknown : named) some_unknowns_[unknown] += prescribed[unknown];
@@ -162,26 +166,31 @@ void FracturingSolid<D>::derive() {
   dilatation_.resize(body_->points().size());
   cracked_.elastic().apply(unknowns_, {}, force, dilatation_);
   if (!is_steady()) elastic_energy_ = 0.5 * view(unknowns_).dot(view(force));
+  if (!is_steady() && friction_) elastic_energy_ += friction_->elastic_energy();
   derived_ = true;
 }
 
 /// Work since the last time; that of the fluid in the cracks is the fluid's, and contact does none.
 template <int D>
 void FracturingSolid<D>::book_work() {
+  if constexpr (D == 2) {
+    if (friction_) friction_->book(cracked_, faces_, in_cracks());
+    derived_ = derived_ && !friction_;  // what is elastic holds friction's part
+  }
   if (is_steady()) {
-    const typename CrackedBody<D>::Energies energies = cracked_.energies(faces_.pressure);
+    const auto energies = cracked_.energies(faces_.pressure, faces_.shear);
     // Loads that come on suddenly do half of it: a body in equilibrium has no kinetic energy.
     const double share = load_work_ == 0.0 ? 0.5 : 1.0;
     external_work_ += share * (energies.load - load_work_) + energies.relief - relief_work_;
     load_work_ = energies.load;
     relief_work_ = energies.relief;
-    elastic_energy_ = energies.elastic;
+    elastic_energy_ = energies.elastic + (friction_ ? friction_->elastic_energy() : 0.0);
     return;
   }
   find_unknowns();
   std::vector<double> force(unknowns_.size()), scratch(body_->points().size());
   cracked_.elastic().apply(unknowns_, {pore_stress_}, force, scratch);
-  view(force) -= cracked_.face_force(faces_.pressure);
+  view(force) -= cracked_.face_force(faces_.pressure, true, faces_.shear);
   double relief = 0.0;
   for (Index f = 0; f < static_cast<Index>(cracked_.jumps().size()); ++f) {
     const Vector<D> stress = cracked_.relief(f), jump = cracked_.jump(f, unknowns_);
@@ -234,7 +243,8 @@ CrackState<D> FracturingSolid<D>::crack_state() {
           .leak_off = crack_leak_off_,
           .pore_stress = pore_stress_,
           .unknowns = [this](std::span<const Index> named) { return find_unknowns(named); },
-          .jumps = [this] { return cracked_.jumps_under(faces_.pressure); }};
+          .jumps = [this] { return cracked_.jumps_under(faces_.pressure, faces_.shear); },
+          .shear = faces_.shear};
 }
 
 template <int D>
@@ -261,7 +271,13 @@ void FracturingSolid<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("crack_opening", opening);
   visitor.visit("face_pressure", pressure);
   visitor.visit("closed_faces", closed);
-  faces_ = {view(opening), view(pressure), std::vector<bool>(closed.begin(), closed.end())};
+  faces_.opening = view(opening);
+  faces_.pressure = view(pressure);
+  faces_.closed.assign(closed.begin(), closed.end());
+  if (friction_) {
+    visitor.visit("face_shear", faces_.shear);
+    friction_->visit_state(visitor);
+  }
   tips_.visit_state(visitor);
   bonds_.visit_state(visitor);
   interface_.visit_state(visitor);

@@ -9,6 +9,7 @@
 #include "core/geometry/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/time/scheduled_vector.hpp"
+#include "modules/solid/crack_friction.hpp"
 #include "modules/solid/crack_front.hpp"
 #include "modules/solid/crack_tips.hpp"
 #include "modules/solid/cracked_body.hpp"
@@ -31,14 +32,18 @@ namespace perifrac {
 /// `open_crack_area` [m^2], and `fracture_energy` [J], what new faces took, in 2D per metre.
 /// `radiated_energy` [J/m] is what unstable growth sets free beyond that, by J: a body with inertia
 /// would move by it. In 2D, where no fluid is in the cracks.
+/// With friction between faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip
+/// of all facets, counted positive, times their length.
 template <int D>
 class FracturingSolid final : public PhysicsModule {
  public:
-  /// `fracture_energy` infinite: no crack grows.
+  /// `fracture_energy` infinite: no crack grows. `friction`: between faces, in 2D without fluid in
+  /// the cracks; null: none.
   FracturingSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<Family<D>> family,
                   std::shared_ptr<BreakableElasticity<D>> elastic, const SolidBoundary<D>& boundary,
                   std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,
-                  FractureEnergy<D> fracture_energy);
+                  FractureEnergy<D> fracture_energy,
+                  std::unique_ptr<CrackFriction> friction = nullptr);
 
   /// As QuasiStaticSolid's.
   std::string free_motion();
@@ -104,6 +109,7 @@ class FracturingSolid final : public PhysicsModule {
   BondState<D>& bonds_;
   CrackedBody<D> cracked_;
   std::conditional_t<D == 2, CrackTips, CrackFront> tips_;
+  std::unique_ptr<CrackFriction> friction_;  ///< null: there is none
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   bool unknowns_are_current_ = false;
@@ -119,6 +125,7 @@ class FracturingSolid final : public PhysicsModule {
   double radiated_energy_ = 0.0;   ///< [J/m]
   double crack_area_ = 0.0;        ///< made when it is asked for
   double open_area_ = 0.0;         ///< likewise
+  double slip_area_ = 0.0;         ///< likewise
   double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
   double last_growth_ = 0.0;       ///< [s]
   int cuts_ = 0;                   ///< of the window at hand

@@ -1,5 +1,7 @@
 // How the solid is put together, and what other modules and the history read of it.
 
+#include <cmath>
+
 #include "modules/solid/fracturing_solid.hpp"
 
 namespace perifrac {
@@ -11,13 +13,11 @@ const PointSet whole_body{.name = "solid"};
 }  // namespace
 
 template <int D>
-FracturingSolid<D>::FracturingSolid(std::shared_ptr<const Body<D>> body,
-                                    std::shared_ptr<Family<D>> family,
-                                    std::shared_ptr<BreakableElasticity<D>> elastic,
-                                    const SolidBoundary<D>& boundary,
-                                    std::optional<InitialStress<D>> initial_stress,
-                                    std::vector<CrackFacet<D>> seeds,
-                                    FractureEnergy<D> fracture_energy)
+FracturingSolid<D>::FracturingSolid(
+    std::shared_ptr<const Body<D>> body, std::shared_ptr<Family<D>> family,
+    std::shared_ptr<BreakableElasticity<D>> elastic, const SolidBoundary<D>& boundary,
+    std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,
+    FractureEnergy<D> fracture_energy, std::unique_ptr<CrackFriction> friction)
     : body_(std::move(body)),
       seeds_(std::move(seeds)),
       ports_{
@@ -50,13 +50,19 @@ FracturingSolid<D>::FracturingSolid(std::shared_ptr<const Body<D>> body,
       cracked_(family, body_->spacing(), elastic,
                boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
                seeds_),
-      tips_(*body_, cracked_, std::move(fracture_energy)) {
+      tips_(*body_, cracked_, std::move(fracture_energy)),
+      friction_(std::move(friction)) {
   const auto mirror = boundary.mirror_condition(*family);
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
     ports_.push_back({face + "_plate_displacement", "m", PortDirection::out});
     plate_unknowns_.push_back(
         Eigen::SparseMatrix<double>::InnerIterator(free_unknowns_, column).row());
+  }
+  if (friction_) {
+    ports_.push_back({"friction_dissipation", "J/m", PortDirection::out, PortKind::extensive,
+                      PortRole::energy_dissipated});
+    ports_.push_back({"crack_slip_area", "m^2", PortDirection::out});
   }
   prescribed_ = boundary.prescribed(mirror);
   load_ = boundary.loads(mirror, elastic->gradient_matrix());
@@ -141,6 +147,14 @@ PortView FracturingSolid<D>::port(PortId id) {
     case radiated_energy:
       return {&whole_body, {&radiated_energy_, 1}};
     default:
+      if (const PortId after_plates = first_plate + plate_unknowns_.size(); id >= after_plates) {
+        if (id == after_plates) return {&whole_body, {&friction_->dissipation(), 1}};
+        slip_area_ = 0.0;
+        for (std::size_t f = 0; f < friction_->slip().size(); ++f) {
+          slip_area_ += cracked_.jumps()[f].area * std::abs(friction_->slip()[f]);
+        }
+        return {&whole_body, {&slip_area_, 1}};
+      }
       find_unknowns();
       return {&whole_body, {&unknowns_[plate_unknowns_[id - first_plate]], 1}};
   }

@@ -6,6 +6,7 @@
 
 #include "core/geometry/crack_seeds.hpp"
 #include "core/geometry/plane_crack_seeds.hpp"
+#include "modules/solid/crack_friction_keys.hpp"
 #include "modules/solid/damage_keys.hpp"
 #include "modules/solid/dynamic_fracture.hpp"
 #include "modules/solid/dynamic_solid.hpp"
@@ -112,9 +113,9 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
   auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
   auto elastic =
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));
-  auto solid = std::make_unique<FracturingSolid<D>>(body, family, std::move(elastic), boundary,
-                                                    read_initial_stress<D>(section, *body),
-                                                    cracks.seeds, cracks.fracture_energy);
+  auto solid = std::make_unique<FracturingSolid<D>>(
+      body, family, std::move(elastic), boundary, read_initial_stress<D>(section, *body),
+      cracks.seeds, cracks.fracture_energy, read_crack_friction<D>(section));
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -149,6 +150,7 @@ std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
   refuse_large_rotations(section, "of a solid in equilibrium", "type: dynamic");
   if (has_cracks(section)) return make_fracturing(section, body);
+  refuse_crack_friction(section, "without cracks", "a list 'cracks' with one crack or more");
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
   auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary);
@@ -182,6 +184,7 @@ std::unique_ptr<CriticalStretch<D>> make_breaking(const Section& section, const 
 template <int D>
 std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
+  refuse_crack_friction(section, "in a solid with inertia", "type: quasi_static");
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   check_large_rotations(section, *body, boundary);
   const auto make = [&](std::shared_ptr<ElasticOperator<D>> elastic,
@@ -234,6 +237,7 @@ KeyTable elastic_keys() {
                   .range = "[0, inf)",
                   .fallback = "0 1/s",
                   .meaning = "dynamic: rate at which a free velocity decays."});
+  keys.push_back(crack_friction_key());
   keys.push_back({.path = "integrator.safety",
                   .range = "(0, 1)",
                   .fallback = "0.9",

@@ -89,6 +89,17 @@ class Restart(RunTest):
                 self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], scene=path)
                 self.assert_same_results(whole, parts)
 
+    def test_a_sliding_crack_in_parts(self):
+        path = CONFIGS / "sliding_crack.yaml"
+        keys = {"body.spacing": "4 mm", "time.end": "2.5 s", "output.checkpoint_interval": "0 s",
+                "damage": "{type: energy_release, fracture_energy: 5 J/m^2}"}
+        whole = self.run_scene(keys, "whole", scene=path)
+        # It slides and has grown, then sticks, when the parts end.
+        parts = self.run_scene(keys, "parts", "--until", "0.8 s", scene=path)
+        for end in ("1.6 s", "2.5 s"):
+            self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], "--until", end, scene=path)
+        self.assert_same_results(whole, parts)
+
     def test_fluids_in_parts(self):
         for name, scene in FLUIDS.items():
             with self.subTest(name):

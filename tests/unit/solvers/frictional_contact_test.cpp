@@ -1,0 +1,72 @@
+#include "core/solvers/frictional_contact.hpp"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "core/solvers/complementarity.hpp"
+
+namespace perifrac {
+namespace {
+
+Eigen::MatrixXd random_matrix(int rows, int columns, unsigned seed) {
+  std::mt19937 bits(seed);
+  std::uniform_real_distribution<double> value(-1.0, 1.0);
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return value(bits); });
+}
+
+/// Positive definite; `coupling` of the normal and tangential components of a pair with others.
+Eigen::MatrixXd compliance(int pairs, double coupling, unsigned seed) {
+  const Eigen::MatrixXd root = random_matrix(2 * pairs, 2 * pairs, seed);
+  return Eigen::MatrixXd::Identity(2 * pairs, 2 * pairs) +
+         coupling / pairs * root * root.transpose();
+}
+
+/// What it is by definition, in random problems where openings and slips call for each other.
+TEST(FrictionalContact, KeepsSignorinisAndCoulombsConditions) {
+  int open = 0, stuck = 0, sliding = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const int n = 1 + static_cast<int>(seed % 30);
+    const double coefficient = 0.3 * static_cast<double>(seed % 5);
+    const Eigen::MatrixXd m = compliance(n, 2.0, seed);
+    const Eigen::VectorXd q = random_matrix(2 * n, 1, seed + 1000);
+    const auto [x, y] = solve_frictional_contact(m, q, coefficient, 1e-14);
+    EXPECT_LE((q + m * x - y).cwiseAbs().maxCoeff(), 1e-12 * (1.0 + x.cwiseAbs().maxCoeff()));
+    for (int i = 0; i < n; ++i) {
+      EXPECT_GE(x[i], 0.0) << seed;
+      EXPECT_GE(y[i], -1e-14) << seed;
+      EXPECT_EQ(x[i] == 0.0 || y[i] == 0.0, true) << seed;
+      const double limit = coefficient * x[i], shear = x[n + i], slip = y[n + i];
+      EXPECT_LE(std::abs(shear), (1.0 + 1e-8) * limit) << seed;
+      EXPECT_LE(shear * slip, 0.0) << seed;
+      if (slip != 0.0) EXPECT_NEAR(std::abs(shear), limit, 1e-13 * limit) << seed;
+      (x[i] == 0.0 ? open : slip == 0.0 ? stuck : sliding) += 1;
+    }
+  }
+  for (const int count : {open, stuck, sliding}) EXPECT_GT(count, 400);
+}
+
+TEST(FrictionalContact, IsContactWithoutFriction) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const int n = 15;
+    const Eigen::MatrixXd m = compliance(n, 2.0, seed);
+    const Eigen::VectorXd q = random_matrix(2 * n, 1, seed + 1000);
+    const auto [x, y] = solve_frictional_contact(m, q, 0.0, 1e-14);
+    const Complementarity smooth = solve_complementarity(m.topLeftCorner(n, n), q.head(n), 1e-14);
+    EXPECT_LE((x.head(n) - smooth.x).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LE((y.head(n) - smooth.y).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_EQ(x.tail(n).cwiseAbs().maxCoeff(), 0.0);
+  }
+}
+
+TEST(FrictionalContact, SaysWhereItFindsNone) {
+  const Eigen::Vector2d q(-1.0, std::nan(""));
+  EXPECT_THROW(solve_frictional_contact(Eigen::Matrix2d::Identity(), q, 0.5, 1e-14),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace perifrac
