@@ -62,8 +62,8 @@ double required_fracture_energy(const Section& scene) {
 
 /// What regions of the body have of `key`; each has something of its own.
 template <int D>
-void read_regions(const Section& scene, const Body<D>& body, const std::string& key,
-                  ByRegion<D, double>& values) {
+void read_by_region(const Section& scene, const Body<D>& body, const std::string& key,
+                    ByRegion<D, double>& values) {
   if (!scene.has("damage.regions")) return;
   for (const std::string& name : scene.names("damage.regions")) {
     const std::string path = "damage.regions." + name;
@@ -96,7 +96,7 @@ FractureEnergy<D> read_fracture_energy(const Section& scene, const Body<D>& body
   }
   FractureEnergy<D> energy{{required_fracture_energy(scene)}};
   energy.scatter = read_scatter<D>(scene, "damage.scatter");
-  read_regions(scene, body, "fracture_energy", energy.by_region);
+  read_by_region(scene, body, "fracture_energy", energy.by_region);
   return energy;
 }
 
@@ -105,7 +105,7 @@ std::optional<TensileStrength<D>> read_tensile_strength(const Section& scene, co
   if (!scene.has("damage")) return {};
   if (!scene.has("damage.tensile_strength")) {
     ByRegion<D, double> none{};
-    read_regions(scene, body, "tensile_strength", none);
+    read_by_region(scene, body, "tensile_strength", none);
     if (none.inside.empty()) return {};
     scene.fail("damage", "missing key 'tensile_strength'", "a number in Pa");
   }
@@ -114,7 +114,7 @@ std::optional<TensileStrength<D>> read_tensile_strength(const Section& scene, co
   }
   TensileStrength<D> strength{{scene.number("damage.tensile_strength")}};
   strength.scatter = read_scatter<D>(scene, "damage.scatter");
-  read_regions(scene, body, "tensile_strength", strength.by_region);
+  read_by_region(scene, body, "tensile_strength", strength.by_region);
   return strength;
 }
 

@@ -56,6 +56,10 @@ Cracks<D> read_cracks(const Section& section, const Body<D>& body) {
   Cracks<D> cracks{.seeds = read_seeds(scene, body),
                    .fracture_energy = read_fracture_energy(scene, body),
                    .tensile_strength = read_tensile_strength(scene, body)};
+  if (cracks.seeds.empty() && scene.has("crack_fluid")) {
+    scene.fail("crack_fluid", "no crack that it could be in",
+               "a list 'cracks' with one crack or more");
+  }
   if (cracks.seeds.empty() && !cracks.tensile_strength) {
     scene.fail("damage", "no crack to grow",
                "a list 'cracks' with one crack or more, or damage.tensile_strength");
