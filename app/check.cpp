@@ -8,6 +8,7 @@
 #include "app/array_list.hpp"
 #include "app/coarse_twin.hpp"
 #include "app/forecast.hpp"
+#include "app/nucleus_warning.hpp"
 #include "app/output_times.hpp"
 #include "app/recorder.hpp"
 #include "app/scene_keys.hpp"
@@ -159,6 +160,7 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
     result["regime"] = regime_json(*regime);
     for (const std::string& warning : regime->warnings) result["warnings"].push_back(warning);
   }
+  if (const auto warning = nucleus_warning(scene)) result["warnings"].push_back(*warning);
   if (trial_seconds > 0.0) {
     const double building =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/nucleus_warning.hpp"
 #include "app/output_times.hpp"
 #include "app/profile_report.hpp"
 #include "app/recorder.hpp"
@@ -171,6 +172,7 @@ int run_scene(const RunRequest& request) {
   const Section scene = read(request);
   const std::string text = scene_text(request);
   Simulation simulation = set_up(scene);
+  if (const auto warning = nucleus_warning(scene)) log_warning(*warning);
   const std::vector<double> outputs =
       read_output_times(scene.at("output"), simulation.end, read_until(request.until));
   simulation.end = outputs.back();

@@ -32,15 +32,19 @@ CrackTips::CrackTips(const Body<2>& body, CutBody<2>& cracked, FractureEnergy<2>
 
 void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
   tips_.clear();
-  for (std::size_t f = 0; f < seeds.size(); ++f) {
+  take_ends(seeds, 0, t);
+}
+
+void CrackTips::take_ends(std::span<const CrackFacet<2>> facets, std::size_t first, double t) {
+  for (std::size_t f = first; f < facets.size(); ++f) {
     for (const int end : {0, 1}) {
-      const Vector<2>& place = seeds[f][end];
+      const Vector<2>& place = facets[f][end];
       Index before = no_facet;
       bool joined = false;
-      for (std::size_t g = 0; g < seeds.size(); ++g) {
+      for (std::size_t g = 0; g < facets.size(); ++g) {
         if (g == f) continue;
-        joined = joined || seeds[g][0] == place || seeds[g][1] == place;
-        if (seeds[g][0] == seeds[f][1 - end] || seeds[g][1] == seeds[f][1 - end]) {
+        joined = joined || facets[g][0] == place || facets[g][1] == place;
+        if (facets[g][0] == facets[f][1 - end] || facets[g][1] == facets[f][1 - end]) {
           before = static_cast<Index>(g);
         }
       }

@@ -23,6 +23,8 @@ class CrackTips {
 
   /// Takes the ends of the seeds that no other seed touches and that lie in the rock.
   void start(std::span<const CrackFacet<2>> seeds, double t);
+  /// Likewise those of all facets from `first` on.
+  void take_ends(std::span<const CrackFacet<2>> facets, std::size_t first, double t);
 
   /// How close the tips are to growth, the largest: 1 at it.
   double find_readiness(const CrackState<2>& state);

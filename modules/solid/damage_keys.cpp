@@ -21,6 +21,15 @@ KeyTable damage_keys() {
        .unit = "J/m^2",
        .range = "(0, inf)",
        .meaning = "Energy that new crack takes per area of it, both faces together."},
+      {.path = "tensile_strength",
+       .unit = "Pa",
+       .range = "(0, inf)",
+       .meaning = "energy_release beside a quasi_static solid, 2D: effective tension at which a "
+                  "crack begins where there is none. Without it cracks only grow from `cracks`."},
+      {.path = "regions.*.tensile_strength",
+       .unit = "Pa",
+       .range = "(0, inf)",
+       .meaning = "The same in a region of the body (body.regions)."},
       {.path = "regions.*.fracture_energy",
        .unit = "J/m^2",
        .range = "(0, inf)",
@@ -51,6 +60,28 @@ double required_fracture_energy(const Section& scene) {
   return scene.number("damage.fracture_energy");
 }
 
+/// What regions of the body have of `key`; each has something of its own.
+template <int D>
+void read_by_region(const Section& scene, const Body<D>& body, const std::string& key,
+                    ByRegion<D, double>& values) {
+  if (!scene.has("damage.regions")) return;
+  for (const std::string& name : scene.names("damage.regions")) {
+    const std::string path = "damage.regions." + name;
+    const auto found = std::ranges::find(body.regions(), name, &Region<D>::name);
+    if (found == body.regions().end()) {
+      std::vector<std::string> known;
+      for (const Region<D>& region : body.regions()) known.push_back(region.name);
+      scene.fail_unknown(path, name, known);
+    }
+    if (!scene.has(path + ".fracture_energy") && !scene.has(path + ".tensile_strength")) {
+      scene.fail(path, "missing key 'fracture_energy'", "a number in J/m^2");
+    }
+    if (scene.has(path + "." + key)) {
+      values.inside.emplace_back(*found, scene.number(path + "." + key));
+    }
+  }
+}
+
 }  // namespace
 
 bool names_critical_stretch(const Section& scene) {
@@ -65,27 +96,32 @@ FractureEnergy<D> read_fracture_energy(const Section& scene, const Body<D>& body
   }
   FractureEnergy<D> energy{{required_fracture_energy(scene)}};
   energy.scatter = read_scatter<D>(scene, "damage.scatter");
-  if (!scene.has("damage.regions")) return energy;
-  for (const std::string& name : scene.names("damage.regions")) {
-    const std::string path = "damage.regions." + name;
-    const auto found = std::ranges::find(body.regions(), name, &Region<D>::name);
-    if (found == body.regions().end()) {
-      std::vector<std::string> known;
-      for (const Region<D>& region : body.regions()) known.push_back(region.name);
-      scene.fail_unknown(path, name, known);
-    }
-    if (!scene.has(path + ".fracture_energy")) {
-      scene.fail(path, "missing key 'fracture_energy'", "a number in J/m^2");
-    }
-    energy.by_region.inside.emplace_back(*found, scene.number(path + ".fracture_energy"));
-  }
+  read_by_region(scene, body, "fracture_energy", energy.by_region);
   return energy;
+}
+
+template <int D>
+std::optional<TensileStrength<D>> read_tensile_strength(const Section& scene, const Body<D>& body) {
+  if (!scene.has("damage")) return {};
+  if (!scene.has("damage.tensile_strength")) {
+    ByRegion<D, double> none{};
+    read_by_region(scene, body, "tensile_strength", none);
+    if (none.inside.empty()) return {};
+    scene.fail("damage", "missing key 'tensile_strength'", "a number in Pa");
+  }
+  if constexpr (D == 3) {
+    scene.fail("damage.tensile_strength", "in 3D", "a list 'cracks', or dimension: 2");
+  }
+  TensileStrength<D> strength{{scene.number("damage.tensile_strength")}};
+  strength.scatter = read_scatter<D>(scene, "damage.scatter");
+  read_by_region(scene, body, "tensile_strength", strength.by_region);
+  return strength;
 }
 
 template <int D>
 double read_stretch_limit(const Section& scene, const Body<D>& body, const Family<D>& family,
                           const IsotropicElasticity<D>& law) {
-  for (const char* key : {"damage.regions", "damage.scatter"}) {
+  for (const char* key : {"damage.regions", "damage.scatter", "damage.tensile_strength"}) {
     if (scene.has(key)) scene.fail(key, "with critical_stretch", "energy_release");
   }
   if (scene.has("damage.stretch")) {
@@ -109,6 +145,8 @@ double read_stretch_limit(const Section& scene, const Body<D>& body, const Famil
 
 template FractureEnergy<2> read_fracture_energy<2>(const Section&, const Body<2>&);
 template FractureEnergy<3> read_fracture_energy<3>(const Section&, const Body<3>&);
+template std::optional<TensileStrength<2>> read_tensile_strength<2>(const Section&, const Body<2>&);
+template std::optional<TensileStrength<3>> read_tensile_strength<3>(const Section&, const Body<3>&);
 template double read_stretch_limit<2>(const Section&, const Body<2>&, const Family<2>&,
                                       const IsotropicElasticity<2>&);
 template double read_stretch_limit<3>(const Section&, const Body<3>&, const Family<3>&,

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <optional>
+
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/geometry/body.hpp"
 #include "modules/solid/fracture_energy.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/solid/tensile_strength.hpp"
 
 namespace perifrac {
 
@@ -18,6 +21,10 @@ bool names_critical_stretch(const Section& scene);
 /// another criterion than energy_release.
 template <int D>
 FractureEnergy<D> read_fracture_energy(const Section& scene, const Body<D>& body);
+
+/// At which cracks begin by themselves; nothing where the scene has none. Throws InputError.
+template <int D>
+std::optional<TensileStrength<D>> read_tensile_strength(const Section& scene, const Body<D>& body);
 
 /// The stretch at which bonds of this rock break by critical_stretch. Throws InputError.
 template <int D>

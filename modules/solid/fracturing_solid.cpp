@@ -21,6 +21,9 @@ constexpr double late = 0.02;
 /// is unstable, as a dry tip's may be that has just gone on.
 constexpr int most_cuts = 8;
 
+/// The same of a crack that begins: only its load is to be met.
+constexpr double late_nucleus = 1e-3;
+
 Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
@@ -61,7 +64,8 @@ void FracturingSolid<D>::initialize(double t) {
   load_is_current_ = !is_steady();
   unknowns_.assign(free_unknowns_.rows(), 0.0);
   unknowns_before_ = force_ = unknowns_;
-  external_work_ = spent_energy_ = radiated_energy_ = readiness_before_ = 0.0;
+  external_work_ = spent_energy_ = radiated_energy_ = 0.0;
+  readiness_before_ = nucleus_before_ = 0.0;
   load_work_ = relief_work_ = elastic_energy_ = 0.0;
   const auto facets = static_cast<Eigen::Index>(seeds_.size());
   faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
@@ -206,24 +210,55 @@ void FracturingSolid<D>::book_work() {
   unknowns_before_ = unknowns_;
 }
 
+/// Where the window is to end [s]: at its end, or at the first event where that is far before.
 template <int D>
-double FracturingSolid<D>::conclude(const TimeWindow& window) {
-  double most = tips_.find_readiness(crack_state());
+double FracturingSolid<D>::first_event(const TimeWindow& window) {
+  const double most = readiness_ = tips_.find_readiness(crack_state());
+  const double nucleus = nucleus_readiness_ = find_nucleus_readiness();
   // Shorter windows than this, of the time since the last growth, would not tell.
   const bool can_cut = window.length() > 5e-2 * (window.end - last_growth_);
-  if (wet() && most > 1.0 + late && can_cut && cuts_ < most_cuts) {
-    // A tip that is late in however short a window is not met by the secant.
-    const double longest = ++cuts_ > 5 ? 0.5 : 0.95;
-    const double share = (1.0 - readiness_before_) / (most - readiness_before_);
-    return window.begin + std::clamp(share, 0.05, longest) * window.length();
+  const bool is_late = wet() && most > 1.0 + late && can_cut;
+  const bool begins_late = nucleus > 1.0 + late_nucleus && nucleus_before_ < 1.0 - late_nucleus;
+  if (!(is_late || begins_late) || cuts_ == most_cuts) return window.end;
+  // A tip that is late in however short a window is not met by the secant.
+  const double longest = ++cuts_ > 5 ? 0.5 : 0.95;
+  double share = longest;
+  if (is_late) {
+    share = std::clamp((1.0 - readiness_before_) / (most - readiness_before_), 0.05, longest);
+  }
+  if (begins_late) {
+    const double secant = (1.0 - nucleus_before_) / (nucleus - nucleus_before_);
+    share = is_late ? std::min(share, secant) : secant;
+  }
+  return window.begin + share * window.length();
+}
+
+template <int D>
+double FracturingSolid<D>::conclude(const TimeWindow& window) {
+  TimeWindow tried = window;
+  for (double end = first_event(tried); end < tried.end; end = first_event(tried)) {
+    if (!is_alone()) return end;
+    tried.end = window_end_ = end;
+    solve_faces();
   }
   cuts_ = 0;
   book_work();
-  readiness_before_ = most;
+  readiness_before_ = readiness_;
+  const bool has_grown = grow(readiness_);
+  // With fluid one event does a window.
+  if (nucleation_ && !(has_grown && wet())) begin_cracks(has_grown);
+  return tried.end;
+}
+
+/// Cuts what is ready, all of it where no fluid answers.
+template <int D>
+bool FracturingSolid<D>::grow(double most) {
+  bool has_grown = false;
   while (most >= ready) {
     const double spent = tips_.grow(crack_state());
+    has_grown = has_grown || spent > 0.0;
     spent_energy_ += spent;
-    last_growth_ = window.end;
+    last_growth_ = window_end_;
     readiness_before_ = 0.0;
     solve_faces();
     book_work();
@@ -231,7 +266,7 @@ double FracturingSolid<D>::conclude(const TimeWindow& window) {
     most = tips_.find_readiness(crack_state());
     if constexpr (D == 2) radiated_energy_ += tips_.excess_release();
   }
-  return window.end;
+  return has_grown;
 }
 
 template <int D>
@@ -265,6 +300,7 @@ void FracturingSolid<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("radiated_energy", radiated_energy_);
   visitor.visit("readiness", readiness_before_);
   visitor.visit("last_growth", last_growth_);
+  if (nucleation_) visitor.visit("nucleus_readiness", nucleus_before_);
   std::vector<double> opening(faces_.opening.begin(), faces_.opening.end());
   std::vector<double> pressure(faces_.pressure.begin(), faces_.pressure.end());
   std::vector<std::int64_t> closed(faces_.closed.begin(), faces_.closed.end());

@@ -11,6 +11,7 @@
 #include "core/time/scheduled_vector.hpp"
 #include "modules/solid/crack_friction.hpp"
 #include "modules/solid/crack_front.hpp"
+#include "modules/solid/crack_nucleation.hpp"
 #include "modules/solid/crack_tips.hpp"
 #include "modules/solid/cracked_body.hpp"
 #include "modules/solid/interface_force.hpp"
@@ -21,7 +22,8 @@ namespace perifrac {
 /// The quasi-static solid with cracks that grow (in 2D in plane strain): in equilibrium at the end
 /// of every window. In 2D tips go on (crack_tips.hpp), in 3D fronts in their plane
 /// (crack_front.hpp). The window is cut to the time when the first one does; with fluid in the
-/// crack one does a window, so that the pressure answers before the next.
+/// crack one does a window, so that the pressure answers before the next. In 2D cracks may begin
+/// by themselves (crack_nucleation.hpp); the window is cut to the time of that too.
 ///
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
 /// [Pa], `crack_viscosity` [Pa s] and Carter's `crack_leak_off` [m/s^0.5], of the fluid at the
@@ -32,17 +34,19 @@ namespace perifrac {
 /// `open_crack_area` [m^2], and `fracture_energy` [J], what new faces took, in 2D per metre.
 /// `radiated_energy` [J/m] is what unstable growth sets free beyond that, by J: a body with inertia
 /// would move by it. In 2D, where no fluid is in the cracks.
-/// With friction between faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip
-/// of all facets, counted positive, times their length.
+/// A crack that begins by itself sets free what the balance of energy says. With friction between
+/// faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip of all facets, counted
+/// positive, times their length.
 template <int D>
 class FracturingSolid final : public PhysicsModule {
  public:
-  /// `fracture_energy` infinite: no crack grows. `friction`: between faces, in 2D without fluid in
-  /// the cracks; null: none.
+  /// `fracture_energy` infinite: no crack grows. `tensile_strength`, in 2D: cracks begin at it.
+  /// `friction`: between faces, in 2D without fluid in the cracks; null: none.
   FracturingSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<Family<D>> family,
                   std::shared_ptr<BreakableElasticity<D>> elastic, const SolidBoundary<D>& boundary,
                   std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,
                   FractureEnergy<D> fracture_energy,
+                  const std::optional<TensileStrength<D>>& tensile_strength = {},
                   std::unique_ptr<CrackFriction> friction = nullptr);
 
   /// As QuasiStaticSolid's.
@@ -81,6 +85,8 @@ class FracturingSolid final : public PhysicsModule {
   };
 
   bool wet() const { return !crack_pressure_.empty(); }  ///< fluid may be in the cracks
+  /// Nothing of the solid's comes from others: it may take a window back by itself.
+  bool is_alone() const { return !wet() && pore_stress_.empty() && !interface_.is_linked(); }
   /// Nothing but the faces' pressure changes: then displacements are found only when asked for.
   bool is_steady() const {
     return loads_are_steady_ && pore_stress_.empty() && !interface_.is_linked();
@@ -94,6 +100,13 @@ class FracturingSolid final : public PhysicsModule {
   std::span<const double> find_unknowns(std::span<const Index> named);
   void derive();
   void book_work();
+  double elastic_energy_now();
+  void find_effective_stress();
+  bool grow(double most);
+  double find_nucleus_readiness();
+  double first_event(const TimeWindow& window);
+  void begin_cracks(bool has_grown);
+  bool begin_crack();
 
   std::shared_ptr<const Body<D>> body_;
   std::vector<CrackFacet<D>> seeds_;
@@ -109,7 +122,8 @@ class FracturingSolid final : public PhysicsModule {
   BondState<D>& bonds_;
   CrackedBody<D> cracked_;
   std::conditional_t<D == 2, CrackTips, CrackFront> tips_;
-  std::unique_ptr<CrackFriction> friction_;  ///< null: there is none
+  std::unique_ptr<CrackFriction> friction_;      ///< null: there is none
+  std::unique_ptr<CrackNucleation> nucleation_;  ///< null where no crack begins by itself
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   bool unknowns_are_current_ = false;
@@ -121,14 +135,17 @@ class FracturingSolid final : public PhysicsModule {
   double load_work_ = 0.0,
          relief_work_ = 0.0;  ///< of the last window (CrackedBody::Energies) [J/m]
   double external_work_ = 0.0;
-  double spent_energy_ = 0.0;      ///< on new faces [J/m]
-  double radiated_energy_ = 0.0;   ///< [J/m]
-  double crack_area_ = 0.0;        ///< made when it is asked for
-  double open_area_ = 0.0;         ///< likewise
-  double slip_area_ = 0.0;         ///< likewise
-  double readiness_before_ = 0.0;  ///< the largest of the tips, at the beginning of the window
-  double last_growth_ = 0.0;       ///< [s]
-  int cuts_ = 0;                   ///< of the window at hand
+  double spent_energy_ = 0.0;       ///< on new faces [J/m]
+  double radiated_energy_ = 0.0;    ///< [J/m]
+  double crack_area_ = 0.0;         ///< made when it is asked for
+  double open_area_ = 0.0;          ///< likewise
+  double slip_area_ = 0.0;          ///< likewise
+  double readiness_ = 0.0;          ///< the largest of the tips, at the end of the window
+  double nucleus_readiness_ = 0.0;  ///< that for a new crack likewise
+  double readiness_before_ = 0.0;   ///< at the beginning of the window
+  double nucleus_before_ = 0.0;     ///< likewise
+  double last_growth_ = 0.0;        ///< [s]
+  int cuts_ = 0;                    ///< of the window at hand
 
   std::vector<double> pore_stress_;
   std::vector<double> crack_pressure_;

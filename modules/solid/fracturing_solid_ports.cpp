@@ -17,7 +17,8 @@ FracturingSolid<D>::FracturingSolid(
     std::shared_ptr<const Body<D>> body, std::shared_ptr<Family<D>> family,
     std::shared_ptr<BreakableElasticity<D>> elastic, const SolidBoundary<D>& boundary,
     std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,
-    FractureEnergy<D> fracture_energy, std::unique_ptr<CrackFriction> friction)
+    FractureEnergy<D> fracture_energy, const std::optional<TensileStrength<D>>& tensile_strength,
+    std::unique_ptr<CrackFriction> friction)
     : body_(std::move(body)),
       seeds_(std::move(seeds)),
       ports_{
@@ -50,8 +51,14 @@ FracturingSolid<D>::FracturingSolid(
       cracked_(family, body_->spacing(), elastic,
                boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
                seeds_),
-      tips_(*body_, cracked_, std::move(fracture_energy)),
+      tips_(*body_, cracked_, fracture_energy),
       friction_(std::move(friction)) {
+  if constexpr (D == 2) {
+    if (tensile_strength) {
+      nucleation_ = std::make_unique<CrackNucleation>(*body_, cracked_, std::move(fracture_energy),
+                                                      *tensile_strength);
+    }
+  }
   const auto mirror = boundary.mirror_condition(*family);
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
@@ -99,15 +106,7 @@ PortView FracturingSolid<D>::port(PortId id) {
       derive();
       return {points, dilatation_, {}, slope_};
     case effective_stress:
-      find_unknowns();
-      effective_stress_.resize(D * D * body_->points().volume.size());
-      cracked_.elastic().stress(unknowns_, effective_stress_);
-      for (Index i = 0; i < body_->points().size() && initial_stress_; ++i) {
-        const Vector<D> there = initial_stress_->at(body_->points().at(i));
-        for (std::size_t a = 0; a < D; ++a) {
-          effective_stress_[(a * D + a) * body_->points().volume.size() + i] += there[a];
-        }
-      }
+      find_effective_stress();
       return {points, effective_stress_};
     case damage:
       damage_.resize(body_->points().size());
@@ -138,7 +137,7 @@ PortView FracturingSolid<D>::port(PortId id) {
       }
       return {&whole_body, {&open_area_, 1}};
     case elastic_energy:
-      if (!is_steady()) derive();
+      elastic_energy_now();
       return {&whole_body, {&elastic_energy_, 1}};
     case external_work:
       return {&whole_body, {&external_work_, 1}};
@@ -157,6 +156,19 @@ PortView FracturingSolid<D>::port(PortId id) {
       }
       find_unknowns();
       return {&whole_body, {&unknowns_[plate_unknowns_[id - first_plate]], 1}};
+  }
+}
+
+template <int D>
+void FracturingSolid<D>::find_effective_stress() {
+  find_unknowns();
+  effective_stress_.resize(D * D * body_->points().volume.size());
+  cracked_.elastic().stress(unknowns_, effective_stress_);
+  for (Index i = 0; i < body_->points().size() && initial_stress_; ++i) {
+    const Vector<D> there = initial_stress_->at(body_->points().at(i));
+    for (std::size_t a = 0; a < D; ++a) {
+      effective_stress_[(a * D + a) * body_->points().volume.size() + i] += there[a];
+    }
   }
 }
 

@@ -48,15 +48,22 @@ template <int D>
 struct Cracks {
   std::vector<CrackFacet<D>> seeds;
   FractureEnergy<D> fracture_energy;
+  std::optional<TensileStrength<D>> tensile_strength;
 };
 
 template <int D>
 Cracks<D> read_cracks(const Section& section, const Body<D>& body) {
   const Section scene = section.scene();
   Cracks<D> cracks{.seeds = read_seeds(scene, body),
-                   .fracture_energy = read_fracture_energy(scene, body)};
-  if (cracks.seeds.empty()) {
-    scene.fail("damage", "no crack to grow", "a list 'cracks' with one crack or more");
+                   .fracture_energy = read_fracture_energy(scene, body),
+                   .tensile_strength = read_tensile_strength(scene, body)};
+  if (cracks.seeds.empty() && scene.has("crack_fluid")) {
+    scene.fail("crack_fluid", "no crack that it could be in",
+               "a list 'cracks' with one crack or more");
+  }
+  if (cracks.seeds.empty() && !cracks.tensile_strength) {
+    scene.fail("damage", "no crack to grow",
+               "a list 'cracks' with one crack or more, or damage.tensile_strength");
   }
   return cracks;
 }
@@ -115,7 +122,8 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));
   auto solid = std::make_unique<FracturingSolid<D>>(
       body, family, std::move(elastic), boundary, read_initial_stress<D>(section, *body),
-      cracks.seeds, cracks.fracture_energy, read_crack_friction<D>(section));
+      cracks.seeds, cracks.fracture_energy, cracks.tensile_strength,
+      read_crack_friction<D>(section));
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -128,6 +136,10 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
   refuse_large_rotations(section, "beside cracks whose faces do not turn",
                          "damage.type: critical_stretch");
   const Cracks<2> cracks = read_cracks(section, *body);
+  if (cracks.tensile_strength) {
+    section.scene().fail("damage.tensile_strength", "in a dynamic solid",
+                         "solid.type: quasi_static, or damage.type: critical_stretch");
+  }
   const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<2>> elastic =

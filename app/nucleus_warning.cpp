@@ -1,0 +1,27 @@
+#include "app/nucleus_warning.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/references/rock.hpp"
+#include "modules/solid/crack_nucleation.hpp"
+
+namespace perifrac {
+
+std::optional<std::string> nucleus_warning(const Section& scene) {
+  if (!scene.has("damage.tensile_strength") || !scene.has("body.spacing")) return {};
+  const double strength = scene.number("damage.tensile_strength");
+  const double length = read_elastic_rock(scene).plane_strain_modulus() *
+                        scene.number("damage.fracture_energy") / (strength * strength);
+  const double longest =
+      length * std::min(edge_nucleus / least_edge_facets, inner_nucleus / least_inner_facets);
+  if (scene.number("body.spacing") <= 1.0001 * longest) return {};
+  return fmt::format(
+      "body.spacing is too coarse for the rock's length E' Gc / damage.tensile_strength^2 = {:.2g} "
+      "m: cracks begin longer than they ought to, and where stress is not uniform under a larger "
+      "load; at most {:.2g} m",
+      length, longest);
+}
+
+}  // namespace perifrac
