@@ -77,6 +77,7 @@ class Restart(RunTest):
         stabilised = pores | {"pore_flow.undrained_stabilisation": "0.25"}
         front = {"body.size": "[8 mm, 8 mm, 32 mm]", "time.end": "12 ms"}
         for name, scene, until, keys in (("dry", "hf_storage", "10 ms", dry),
+                                         ("begins later", "three_point_bending", "0.2 s", {"time.end": "0.3 s"}),
                                          ("inertia", "hf_storage", "10 ms", dry | {"solid.type": "dynamic"}),
                                          ("in 3D", "radial", "10 ms", front),
                                          ("explicit pores", "hf_storage_pores", "5 ms", pores),

@@ -33,6 +33,25 @@ TEST(Nucleation, OfAUniformStressIsAtTheStrength) {
   EXPECT_LE(run.column("energy_stored [J/m]").back(), 1e-9 * work);
 }
 
+/// At the corner of a hole, where the stress at a point has no limit: half the spacing would raise
+/// it by 1.37 (Williams 1952), and the load hardly changes.
+TEST(Nucleation, AtACornerDependsOnTheRockAlone) {
+  const auto load = [](const std::string& spacing) {
+    const SceneRun run =
+        pull("0.4 mm", "0.8 MPa",
+             {"body.spacing=" + spacing, "output.history_interval=0.1 ms", "time.end=0.6 s",
+              "body.cutouts={hole: {from: [0 mm, 88 mm], to: [20 mm, 112 mm]}}"});
+    const std::vector<double> time = run.column("time [s]"),
+                              length = run.column("crack_length [m]");
+    std::size_t k = 0;
+    while (k + 1 < length.size() && length[k] == 0.0) ++k;
+    EXPECT_GT(length[k], 0.0);
+    return time[k];
+  };
+  const double coarse = load("4 mm");
+  EXPECT_NEAR(load("2 mm"), coarse, 0.05 * coarse);
+}
+
 /// Balance of energy where the crack stops, at rock that is too tough for it: what growth sets free
 /// is that of J. Of the nucleus itself the balance closes by what is booked.
 TEST(Nucleation, ClosesTheBalanceOfEnergy) {

@@ -1,0 +1,138 @@
+// What happens to the solid's cracks at the end of a window, and when that is.
+
+#include <algorithm>
+
+#include "modules/solid/fracturing_solid.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// The window is cut where a tip is this far beyond its criterion.
+constexpr double late = 0.02;
+/// A tip that is late in so short a window as so many cuts in a row leave goes on at once: its step
+/// is unstable, as a dry tip's may be that has just gone on.
+constexpr int most_cuts = 8;
+
+/// The same of a crack that begins: only its load is to be met.
+constexpr double late_nucleus = 1e-3;
+
+/// A crack begins within this of its criterion.
+constexpr double begins = 0.999;
+
+}  // namespace
+
+/// Where the window is to end [s]: at its end, or at the first event where that is far before.
+template <int D>
+double FracturingSolid<D>::first_event(const TimeWindow& window) {
+  const double most = readiness_ = tips_.find_readiness(crack_state());
+  const double nucleus = nucleus_readiness_ = find_nucleus_readiness();
+  // Shorter windows than this, of the time since the last growth, would not tell.
+  const bool can_cut = window.length() > 5e-2 * (window.end - last_growth_);
+  const bool is_late = wet() && most > 1.0 + late && can_cut;
+  const bool begins_late = nucleus > 1.0 + late_nucleus && nucleus_before_ < 1.0 - late_nucleus;
+  if (!(is_late || begins_late) || cuts_ == most_cuts) return window.end;
+  // A tip that is late in however short a window is not met by the secant.
+  const double longest = ++cuts_ > 5 ? 0.5 : 0.95;
+  double share = longest;
+  if (is_late) {
+    share = std::clamp((1.0 - readiness_before_) / (most - readiness_before_), 0.05, longest);
+  }
+  if (begins_late) {
+    const double secant = (1.0 - nucleus_before_) / (nucleus - nucleus_before_);
+    share = is_late ? std::min(share, secant) : secant;
+  }
+  return window.begin + share * window.length();
+}
+
+template <int D>
+double FracturingSolid<D>::conclude(const TimeWindow& window) {
+  TimeWindow tried = window;
+  for (double end = first_event(tried); end < tried.end; end = first_event(tried)) {
+    if (!is_alone()) return end;
+    tried.end = window_end_ = end;
+    solve_faces();
+  }
+  cuts_ = 0;
+  book_work();
+  readiness_before_ = readiness_;
+  const bool has_grown = grow(readiness_);
+  // With fluid one event does a window.
+  if (nucleation_ && !(has_grown && wet())) begin_cracks(has_grown);
+  nucleus_before_ = nucleus_readiness_;
+  return tried.end;
+}
+
+/// Cuts what is ready, all of it where no fluid answers.
+template <int D>
+bool FracturingSolid<D>::grow(double most) {
+  bool has_grown = false;
+  while (most >= ready) {
+    const double spent = tips_.grow(crack_state());
+    has_grown = has_grown || spent > 0.0;
+    spent_energy_ += spent;
+    last_growth_ = window_end_;
+    readiness_before_ = 0.0;
+    solve_faces();
+    book_work();
+    if (wet() || spent == 0.0) break;
+    most = tips_.find_readiness(crack_state());
+    if constexpr (D == 2) radiated_energy_ += tips_.excess_release();
+  }
+  return has_grown;
+}
+
+template <int D>
+double FracturingSolid<D>::elastic_energy_now() {
+  if (!is_steady()) derive();
+  return elastic_energy_;
+}
+
+template <int D>
+double FracturingSolid<D>::find_nucleus_readiness() {
+  if (!nucleation_) return 0.0;
+  find_effective_stress();
+  return nucleation_->find_readiness(effective_stress_);
+}
+
+/// One after the other where no fluid answers.
+template <int D>
+void FracturingSolid<D>::begin_cracks(bool has_grown) {
+  if (has_grown) nucleus_readiness_ = find_nucleus_readiness();
+  while (nucleus_readiness_ >= begins && begin_crack() && !wet()) {
+    grow(tips_.find_readiness(crack_state()));
+    nucleus_readiness_ = find_nucleus_readiness();
+  }
+}
+
+/// A new crack is cut all at once: J says nothing of what that sets free, the balance does.
+template <int D>
+bool FracturingSolid<D>::begin_crack() {
+  if constexpr (D == 2) {
+    const auto released = [this] {
+      double sum = external_work_ - elastic_energy_now();
+      for (std::size_t i = 0; i < pore_stress_.size(); ++i) {
+        sum += pore_stress_[i] * dilatation_[i] * body_->points().volume[i];
+      }
+      return sum;
+    };
+    const double before = released();
+    const std::size_t facets = cracked_.facets().size();
+    const double spent = nucleation_->cut();
+    if (spent == 0.0) return false;
+    tips_.take_ends(cracked_.facets(), facets, window_end_);
+    spent_energy_ += spent;
+    last_growth_ = window_end_;
+    readiness_before_ = 0.0;
+    solve_faces();
+    book_work();
+    if (!wet()) radiated_energy_ += released() - before - spent;
+    return true;
+  }
+  return false;
+}
+
+template class FracturingSolid<2>;
+template class FracturingSolid<3>;
+
+}  // namespace perifrac
