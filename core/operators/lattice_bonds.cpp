@@ -104,9 +104,10 @@ std::optional<LatticeBonds<D>> LatticeBonds<D>::find(const Family<D>& family) {
       auto found = std::ranges::find(result.neighbours_, offset, &Neighbour::offset);
       if (found == result.neighbours_.end()) {
         const auto step = steps(i, bond);
-        Vector<D> xi;
-        for (int a = 0; a < D; ++a) xi[a] = static_cast<double>(step[a]) * spacing;
-        result.neighbours_.push_back({offset, xi, family.weight[bond]});
+        const double weight = family.weight[bond];
+        Vector<D> weighted;
+        for (int a = 0; a < D; ++a) weighted[a] = weight * static_cast<double>(step[a]) * spacing;
+        result.neighbours_.push_back({offset, weight, weighted});
         found = std::prev(result.neighbours_.end());
         if (result.neighbours_.size() > most_bits) return {};
       }

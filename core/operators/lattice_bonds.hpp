@@ -40,19 +40,27 @@ class LatticeBonds {
   /// The real point in a cell; -1: there is none.
   Index point(Index cell) const { return point_[cell]; }
 
-  /// The sum over the bonds of the points in a packet of cells of term(j, xi, weight), j being the
-  /// first of the cells at their other ends. Missing bonds have weight 0.
+  /// The sum over the bonds of the points in a packet of cells of term(j, weight, weight xi), j
+  /// being the first of the cells at their other ends. Missing bonds have weight 0; where none is
+  /// missing the weights are plain numbers.
   template <int K, class Term>
   std::array<Packet, K> sum_over_bonds(Index cell, Term&& term) const {
-    std::array<Packet, K> sum{};
     PacketMask present;
     std::memcpy(&present, &present_[cell], sizeof present);
+    const auto all = static_cast<std::int64_t>((std::uint64_t{1} << neighbours_.size()) - 1);
+    std::array<Packet, K> sum{};
+    if (is_everywhere(present == all)) {
+      for (const Neighbour& n : neighbours_) {
+        add(sum, term(cell + n.offset, n.weight, n.weighted));
+      }
+      return sum;
+    }
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
       const Neighbour& n = neighbours_[k];
-      const Packet weight =
-          (present & (std::int64_t{1} << k)) != 0 ? Packet{} + n.weight : Packet{};
-      const std::array<Packet, K> t = term(cell + n.offset, n.xi, weight);
-      for (int i = 0; i < K; ++i) sum[i] += t[i];
+      const PacketMask has = (present & (std::int64_t{1} << k)) != 0;
+      PacketVector<D> weighted;
+      for (int a = 0; a < D; ++a) weighted[a] = has ? Packet{} + n.weighted[a] : Packet{};
+      add(sum, term(cell + n.offset, has ? Packet{} + n.weight : Packet{}, weighted));
     }
     return sum;
   }
@@ -60,9 +68,14 @@ class LatticeBonds {
  private:
   struct Neighbour {
     Index offset;  ///< of cells
-    Vector<D> xi;
     double weight;
+    Vector<D> weighted;  ///< bond vector times weight
   };
+
+  template <std::size_t K>
+  static void add(std::array<Packet, K>& sum, const std::array<Packet, K>& term) {
+    for (std::size_t i = 0; i < K; ++i) sum[i] += term[i];
+  }
 
   std::vector<Neighbour> neighbours_;  ///< at most 63
   std::vector<std::int64_t> present_;  ///< by cell: bit k, there is a bond to neighbour k

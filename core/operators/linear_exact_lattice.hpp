@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/operators/lattice_bonds.hpp"
@@ -112,12 +113,12 @@ class LinearExactLattice {
   void store_state(const AnyLaw& law, Index c) {
     Packets<R> own;
     for (int r = 0; r < R; ++r) own[r] = load(&field_[r][c]);
-    const Packets<R* D> moment = bonds_.template sum_over_bonds<R * D>(
-        c, [&](Index j, const Vector<D>& xi, const Packet& w) {
+    const Packets<R* D> moment =
+        bonds_.template sum_over_bonds<R * D>(c, [&](Index j, const auto&, const auto& w_xi) {
           Packets<R * D> t;
           for (int r = 0; r < R; ++r) {
-            const Packet difference = w * (load(&field_[r][j]) - own[r]);
-            for (int b = 0; b < D; ++b) t[r * D + b] = difference * xi[b];
+            const Packet difference = load(&field_[r][j]) - own[r];
+            for (int b = 0; b < D; ++b) t[r * D + b] = difference * w_xi[b];
           }
           return t;
         });
@@ -151,15 +152,18 @@ class LinearExactLattice {
     for (int k = 0; k < R * D; ++k) own_state[k] = load(&state_[k][c]);
     const Packet own_stiffness = load(&stiffness_[c]);
     Packets<R> force =
-        bonds_.template sum_over_bonds<R>(c, [&](Index j, const Vector<D>& xi, const Packet& w) {
+        bonds_.template sum_over_bonds<R>(c, [&](Index j, const auto& w, const auto& w_xi) {
+          // Where no bond is missing those of opposite directions cancel the point's own state.
+          constexpr bool has_all = std::is_same_v<decltype(w), const double&>;
           Packets<R> t;
-          const Packet stiffness = own_stiffness + load(&stiffness_[j]);
+          const Packet stiffness = w * (own_stiffness + load(&stiffness_[j]));
           for (int r = 0; r < R; ++r) {
             t[r] = stiffness * (load(&field_[r][j]) - own[r]);
             for (int b = 0; b < D; ++b) {
-              t[r] += (own_state[r * D + b] + load(&state_[r * D + b][j])) * xi[b];
+              Packet state = load(&state_[r * D + b][j]);
+              if constexpr (!has_all) state += own_state[r * D + b];
+              t[r] += state * w_xi[b];
             }
-            t[r] *= w;
           }
           return t;
         });

@@ -37,6 +37,13 @@ inline PacketMask lanes() {
   (std::make_integer_sequence<std::int64_t, packet_size>{});
 }
 
+/// What was compared holds for every number.
+inline bool is_everywhere(const PacketMask& mask) {
+  std::int64_t both = -1;
+  for (int l = 0; l < packet_size; ++l) both &= mask[l];
+  return both != 0;
+}
+
 /// values[0], values[1], ...
 inline Packet load(const double* values) {
   Packet packet;

@@ -34,6 +34,12 @@ class ScheduledVector {
   Eigen::Index size() const { return constant_.size(); }
   bool is_constant() const { return parts_.empty(); }
 
+  /// The entry is other than 0 at some time.
+  bool has(Eigen::Index entry) const {
+    return constant_[entry] != 0.0 ||
+           std::ranges::any_of(parts_, [&](const auto& part) { return part.second[entry] != 0.0; });
+  }
+
   /// Of all its schedules, sorted [s].
   std::vector<double> break_points() const {
     std::vector<double> all;

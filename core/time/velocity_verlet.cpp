@@ -46,13 +46,21 @@ void VelocityVerlet::step(double t, double length, Motion& motion) {
   const double factor = std::exp(-0.5 * damping_ * length);
   damp(factor, motion);
   system_.begin_step(length, motion.velocity);
-  kick(0.5 * length, motion);
-  const double* const v = motion.velocity.data();
+  const auto count = static_cast<Index>(motion.position.size());
+  const double half = 0.5 * length;
+  const double* const mass = system_.mass().data();
   double* const y = motion.position.data();
-  for_each_entry(static_cast<Index>(motion.position.size()),
-                 [=](Index i) { y[i] += length * v[i]; });
-  evaluate(t, motion);
-  kick(0.5 * length, motion);
+  double* const v = motion.velocity.data();
+  double* const a = motion.acceleration.data();
+  for_each_entry(count, [=](Index i) {
+    v[i] += half * a[i];
+    y[i] += length * v[i];
+  });
+  system_.force(t, motion.position, motion.acceleration);
+  for_each_entry(count, [=](Index i) {
+    a[i] /= mass[i];
+    v[i] += half * a[i];
+  });
   system_.end_step(length, motion.velocity);
   damp(factor, motion);
   if (system_.changes()) evaluate(t, motion);
@@ -69,13 +77,6 @@ void VelocityVerlet::damp(double factor, Motion& motion) {
         return energy;
       });
   motion.damped_energy += (1.0 - factor * factor) * before;
-}
-
-void VelocityVerlet::kick(double length, Motion& motion) const {
-  const double* const a = motion.acceleration.data();
-  double* const v = motion.velocity.data();
-  for_each_entry(static_cast<Index>(motion.velocity.size()),
-                 [=](Index i) { v[i] += length * a[i]; });
 }
 
 double VelocityVerlet::stable_step(double t) {

@@ -49,7 +49,6 @@ class VelocityVerlet {
  private:
   void step(double t, double length, Motion& motion);
   void damp(double factor, Motion& motion);
-  void kick(double length, Motion& motion) const;
 
   SecondOrderSystem& system_;
   double damping_;

@@ -55,6 +55,7 @@ class CrackNetwork final : public PhysicsModule {
   void initialize(double t) override;
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
+  bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor& visitor) override;
   void on_restored(double t) override;
 

@@ -14,6 +14,9 @@ namespace perifrac {
 template <int D>
 using PointInertia = std::function<Vector<D>(Index)>;
 
+/// Says which displacements are asked for; not called where all are known.
+using UnknownNames = std::function<std::vector<Index>()>;
+
 /// What tips need to know of the body at the end of a window.
 template <int D>
 struct CrackState {
@@ -27,7 +30,7 @@ struct CrackState {
   /// Of all points [Pa]; empty where no pore flow is simulated.
   std::span<const double> pore_stress;
   /// All displacements, of which those named count: they are found when they are asked for.
-  std::function<std::span<const double>(std::span<const Index> named)> unknowns;
+  std::function<std::span<const double>(const UnknownNames& named)> unknowns;
   /// Mean jumps across all facets along their normal and tangents [m], when they are asked for.
   std::function<std::vector<Vector<D>>()> jumps;
   PointInertia<D> inertia{};

@@ -98,8 +98,8 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
     if (is_near && (guess < surely_not || guess > surely)) return guess;
   }
   const TipLoad load =
-      energy_release_.at(tip.at, state.unknowns(energy_release_.looks_at(tip.at)), state.pressure,
-                         state.pore_stress, state.inertia, state.shear);
+      energy_release_.at(tip.at, state.unknowns([&] { return energy_release_.looks_at(tip.at); }),
+                         state.pressure, state.pore_stress, state.inertia, state.shear);
   // A tip that is closed may go on where its faces slide under friction.
   const bool opens = (load.opening > 0.0 || !state.shear.empty()) && load.energy_release > 0.0;
   tip.asked = opens ? std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;

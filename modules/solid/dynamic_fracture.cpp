@@ -151,7 +151,9 @@ CrackState<2> DynamicFracture::crack_state() {
           .viscosity = crack_viscosity_,
           .leak_off = crack_leak_off_,
           .pore_stress = {},
-          .unknowns = [this](auto) -> std::span<const double> { return system_->unknowns(); },
+          .unknowns = [this](const UnknownNames&) -> std::span<const double> {
+            return system_->unknowns();
+          },
           .jumps = [this] { return cracks_.jumps_at(system_->unknowns()); },
           .inertia =
               [this, on_faces](Index i) {

@@ -60,9 +60,11 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
     plate_unknowns_.push_back(Eigen::SparseMatrix<double>::InnerIterator(free, plate.column).row());
   }
   prescribed_.at(0.0, prescribed_now_);
+  prescribes_ = !prescribed_.is_constant() || !prescribed_now_.isZero(0.0);
   loads_.at(0.0, load_now_);
   initial_force_ = elastic_->initial_force();
   if (std::ranges::all_of(initial_force_, [](double f) { return f == 0.0; })) initial_force_ = {};
+  find_acted_on();
 }
 
 template <int D>
@@ -107,21 +109,21 @@ void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<do
   find_pore_stress(t);
   before_.swap(unknowns_);
   unknowns_.resize(owner_.size());
-  expand(y, view(prescribed_now_), unknowns_);
+  expand(y, prescribes_ ? view(prescribed_now_) : std::span<const double>(), unknowns_);
   place_plates(view(load_now_), pore_stress_, unknowns_);
   const bool answers = !pore_.value.empty();
   apply(unknowns_, {pore_stress_, pore_slope_}, inner_,
         answers ? std::span(dilatation_) : std::span<double>());
   if (added_ != nullptr) added_->add(t, unknowns_, inner_);
   // Trapezoidal in time: the work that this scheme's energy answers to.
-  external_work_ += block_sum(static_cast<Index>(owner_.size()), block_sums_, [&](Index k) {
+  external_work_ += block_sum(static_cast<Index>(acted_on_.size()), block_sums_, [&](Index n) {
+    const Index k = acted_on_[n];
     const double now = owner_[k] == none ? inner_[k] : load_now_[k];
     const double work = 0.5 * (external_force_[k] + now) * (unknowns_[k] - before_[k]);
     external_force_[k] = now;
-    inner_[k] = load_now_[k] - inner_[k];
     return work;
   });
-  gather(inner_, force);
+  gather([&](Index k) { return load_now_[k] - inner_[k]; }, force);
 }
 
 /// The inner force, less what bears the initial stress from outside.
@@ -152,7 +154,7 @@ void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<do
   expand(v, {}, trial_);
   place_plates({}, {}, trial_);
   apply_small(trial_, {no_pore_stress_, reference_slope_}, inner_, {});
-  gather(inner_, product);
+  gather([&](Index k) { return inner_[k]; }, product);
 }
 
 /// Every unknown from what has a mass and what is prescribed (empty: 0); plates at 0.
@@ -165,12 +167,13 @@ void ElasticDynamics<D>::expand(std::span<const double> y, std::span<const doubl
   });
 }
 
-/// Force on what has a mass from that on every unknown.
+/// Force on what has a mass from that on an unknown.
 template <int D>
-void ElasticDynamics<D>::gather(std::span<const double> all, std::span<double> y) const {
+template <class ForceOn>
+void ElasticDynamics<D>::gather(ForceOn&& force_on, std::span<double> y) const {
   for_each_entry(static_cast<Index>(first_moved_.size()),
-                 [&](Index i) { y[i] = all[first_moved_[i]]; });
-  for (const auto& [i, unknown] : also_moved_) y[i] += all[unknown];
+                 [&](Index i) { y[i] = force_on(first_moved_[i]); });
+  for (const auto& [i, unknown] : also_moved_) y[i] += force_on(unknown);
 }
 
 /// Each plate where its row of the equations is in equilibrium with its load and the pore stress
@@ -224,7 +227,9 @@ void ElasticDynamics<D>::find_plate_rows() {
 
 template <int D>
 void ElasticDynamics<D>::set_interface_force(std::span<const double> force) {
+  const bool is_first = interface_force_.empty() && !force.empty();
   interface_force_ = force;
+  if (is_first) find_acted_on();
   if (loads_.is_constant()) find_loads(0.0);
 }
 
@@ -240,6 +245,16 @@ void ElasticDynamics<D>::find_pore_stress(double t) {
   const double since_end = t - pore_.end;
   for_each_entry(static_cast<Index>(pore_stress_.size()),
                  [&](Index i) { pore_stress_[i] = pore_.value[i] + since_end * pore_.rate[i]; });
+}
+
+template <int D>
+void ElasticDynamics<D>::find_acted_on() {
+  acted_on_.clear();
+  const Index points = D * body_.points().size();
+  for (Index k = 0; k < static_cast<Index>(owner_.size()); ++k) {
+    const bool by_interface = !interface_force_.empty() && k < points;
+    if (by_interface || owner_[k] == none || loads_.has(k)) acted_on_.push_back(k);
+  }
 }
 
 template <int D>

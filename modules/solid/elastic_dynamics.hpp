@@ -137,9 +137,11 @@ class ElasticDynamics final : public SecondOrderSystem {
   void place_plates(std::span<const double> load, std::span<const double> pore,
                     std::vector<double>& unknowns);
   void find_plate_rows();
-  void gather(std::span<const double> all, std::span<double> y) const;
+  template <class ForceOn>
+  void gather(ForceOn&& force_on, std::span<double> y) const;
   void find_pore_stress(double t);
   void find_loads(double t);
+  void find_acted_on();
 
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
@@ -147,6 +149,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   AddedForce* added_ = nullptr;
   std::vector<double> initial_force_;  ///< of the initial stress [N]; empty without one
   ScheduledVector prescribed_;
+  bool prescribes_ = false;  ///< something other than 0
   ScheduledVector loads_;
   std::vector<double> mass_;
   std::vector<Index> owner_;        ///< what moves each unknown; none: prescribed, or a plate
@@ -161,6 +164,7 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   std::vector<double> unknowns_;        ///< [m]
   std::vector<double> external_force_;  ///< on every unknown, reactions included [N]
+  std::vector<Index> acted_on_;         ///< the unknowns where it may be other than 0
   double external_work_ = 0.0;
   std::vector<double> dilatation_;
 

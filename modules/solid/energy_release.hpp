@@ -45,7 +45,7 @@ struct TipLoad : TipJump {
 /// it, a part of (speed of the tip / speed of sound)^2.
 class EnergyRelease {
  public:
-  EnergyRelease(CutBody<2>& body, double spacing) : body_(body), spacing_(spacing) {}
+  EnergyRelease(CutBody<2>& body, double spacing);
 
   /// `unknowns`: all displacements; `pressure`: on the faces, by facet [Pa]; `pore_stress`: of all
   /// points [Pa], or empty; `shear`: of friction on the faces, by facet [Pa], or empty.
@@ -59,6 +59,7 @@ class EnergyRelease {
 
  private:
   double radius(const CrackTip& tip) const;
+  std::vector<Index> points_around(const Vector<2>& centre, double radius) const;
   Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
                     std::span<const Vector<2>> jumps) const;
   double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
@@ -67,6 +68,7 @@ class EnergyRelease {
 
   CutBody<2>& body_;
   double spacing_;
+  std::vector<Index> by_x_;  ///< points
 };
 
 /// The angle by which a crack turns, to the left positive, in the direction of largest hoop stress

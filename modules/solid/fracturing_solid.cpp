@@ -141,8 +141,9 @@ void FracturingSolid<D>::find_unknowns() {
 
 /// Those named of an array of all, which the next call may write to again.
 template <int D>
-std::span<const double> FracturingSolid<D>::find_unknowns(std::span<const Index> named) {
+std::span<const double> FracturingSolid<D>::find_unknowns(const UnknownNames& names) {
   if (unknowns_are_current_) return unknowns_;
+  const std::vector<Index> named = names();
   take_load();
   some_unknowns_.resize(unknowns_.size());
   cracked_.find_unknowns(faces_.pressure, named, some_unknowns_, faces_.shear);
@@ -209,7 +210,7 @@ CrackState<D> FracturingSolid<D>::crack_state() {
           .viscosity = crack_viscosity_,
           .leak_off = crack_leak_off_,
           .pore_stress = pore_stress_,
-          .unknowns = [this](std::span<const Index> named) { return find_unknowns(named); },
+          .unknowns = [this](const UnknownNames& named) { return find_unknowns(named); },
           .jumps = [this] { return cracked_.jumps_under(faces_.pressure, faces_.shear); },
           .shear = faces_.shear};
 }

@@ -97,7 +97,7 @@ class FracturingSolid final : public PhysicsModule {
   void take_load();
   void solve_faces();
   void find_unknowns();
-  std::span<const double> find_unknowns(std::span<const Index> named);
+  std::span<const double> find_unknowns(const UnknownNames& names);
   void derive();
   void book_work();
   double elastic_energy_now();

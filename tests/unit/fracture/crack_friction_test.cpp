@@ -191,6 +191,9 @@ TEST(CrackFriction, LetsWingsGrowFromAClosedCrack) {
     return {.t = 1.0,
             .opening = sheared.faces.opening,
             .pressure = sheared.faces.pressure,
+            .viscosity = {},
+            .leak_off = {},
+            .pore_stress = {},
             .unknowns =
                 [&](auto) { return std::span<const double>(sheared.u.data(), sheared.u.size()); },
             .jumps =

@@ -39,7 +39,9 @@ TEST(RoundCrack, OpensUnderPressureAsSneddonSays) {
     const Vector<3> at = middle<3>(disc[f]);
     const double r = std::hypot(at[0], at[1]);
     const double exact = 8.0 / M_PI * pressure * std::sqrt(radius * radius - r * r);
-    if (r < 0.7 * radius) EXPECT_NEAR(opening[f], exact, 0.07 * exact) << r;
+    if (r < 0.7 * radius) {
+      EXPECT_NEAR(opening[f], exact, 0.07 * exact) << r;
+    }
   }
   const double volume = 4.0 / 3.0 * pressure * std::pow(radius, 3);  // of the quarter
   EXPECT_NEAR(opening.sum(), volume, 0.03 * volume);

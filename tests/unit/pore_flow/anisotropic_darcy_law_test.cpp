@@ -77,7 +77,9 @@ void expect_exact_for_linear_pressure(Cloud cloud) {
       inside = inside && std::abs(points.position[a][i] - 0.5 * size) < 0.5 * size - 2.6;
     }
     // On a lattice, a uniform flux leaves nothing behind but at the surface.
-    if (inside && cloud == Cloud::lattice) EXPECT_NEAR(outflow[i], 0.0, 1e-13);
+    if (inside && cloud == Cloud::lattice) {
+      EXPECT_NEAR(outflow[i], 0.0, 1e-13);
+    }
   }
 }
 

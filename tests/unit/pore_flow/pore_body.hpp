@@ -61,7 +61,8 @@ DarcySystem<D> darcy_system(const Body<D>& body, const PoreBoundary<D>& boundary
   return darcy_system(boundary, scheme, flow_operator<D>(body, boundary, rock.mobility), rock);
 }
 
-constexpr std::array schemes = {FlowScheme::conservative, FlowScheme::bond, FlowScheme::nested};
+[[maybe_unused]] constexpr std::array schemes = {FlowScheme::conservative, FlowScheme::bond,
+                                                 FlowScheme::nested};
 
 inline const char* name_of(FlowScheme scheme) {
   constexpr std::array names = {"conservative", "bond", "nested"};
