@@ -14,6 +14,9 @@ import tempfile
 STUDY = os.path.join(os.path.dirname(__file__), "..", "..", "configs", "studies", "permeability.yaml")
 SPACING, END, STORAGE, VISCOSITY = 1.0, 1.0, 0.2 / 2e9, 1e-3
 EIGENVALUE, MARGIN = 5.29, 0.9  # of the operator over kappa/dx^2; of the stable step that is taken
+# The river's fall is a jump: steps begin with an eighth of the longest, then take half of the time since
+# it. Eight of them go as far as 2.85 of the longest.
+SHORT_STEPS = 6
 LARGEST_ERROR, LARGEST_MASS_ERROR = 5e-3, 1e-12  # of the drop; relative
 UNRESOLVED_ERROR = 0.1  # while diffusion has come less than three spacings far
 
@@ -37,7 +40,8 @@ def complaints(folder):
             yield f"{name}: mass off by {mass_error:.1e}"
         steps = variant["modules"][0]["statistics"]["integrator_steps"]
         stable = END * mobility * EIGENVALUE / (2.0 * MARGIN * STORAGE * SPACING**2)
-        if variant["choice"]["integrator"] == "explicit" and not 0.9 * stable <= steps <= 1.1 * stable + 1.0:
+        least, most = 0.9 * stable, 1.1 * stable + 1.0 + SHORT_STEPS
+        if variant["choice"]["integrator"] == "explicit" and not least <= steps <= most:
             yield f"{name}: {steps:g} steps, about {stable:.0f} expected"
     places = [place for crossing in study["crossings"] for place in crossing["places"]]
     if len(places) != 1:
