@@ -4,16 +4,17 @@
 
 #include <fmt/format.h>
 
-#include "app/references/rock.hpp"
 #include "modules/solid/crack_nucleation.hpp"
+#include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
 
 std::optional<std::string> nucleus_warning(const Section& scene) {
   if (!scene.has("damage.tensile_strength") || !scene.has("body.spacing")) return {};
   const double strength = scene.number("damage.tensile_strength");
-  const double length = read_elastic_rock(scene).plane_strain_modulus() *
-                        scene.number("damage.fracture_energy") / (strength * strength);
+  const double modulus =
+      read_isotropic_elasticity<2>(scene.at("solid"), "material").plane_strain_modulus();
+  const double length = modulus * scene.number("damage.fracture_energy") / (strength * strength);
   const double longest =
       length * std::min(edge_nucleus / least_edge_facets, inner_nucleus / least_inner_facets);
   if (scene.number("body.spacing") <= 1.0001 * longest) return {};

@@ -4,6 +4,13 @@
 
 namespace perifrac {
 
+namespace {
+
+/// What is left of a stiffness, as a part of it, that counts as nothing.
+constexpr double singular = 1e-12;
+
+}  // namespace
+
 CondensedInverse::CondensedInverse(const SparseCholesky& factor, Eigen::Index size)
     : factor_(factor), place_(size, -1) {}
 
@@ -40,7 +47,11 @@ void CondensedInverse::change(std::span<const int> places, const Eigen::MatrixXd
   for (Eigen::Index k = 0; k < count; ++k) own.row(k) = columns.row(places[k]);
   Eigen::MatrixXd system = delta * own;
   system.diagonal().array() += 1.0;
-  const Eigen::MatrixXd core = system.partialPivLu().solve(delta);
+  if (count == 0) return;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factored(system);
+  const double size = system.cwiseAbs().colwise().sum().maxCoeff();
+  if (!(factored.rcond() * size > singular)) throw NotPositiveDefinite(unknowns_[places[0]]);
+  const Eigen::MatrixXd core = factored.solve(delta);
   const Eigen::MatrixXd symmetric = 0.5 * (core + core.transpose());
   block_.noalias() -= columns * (symmetric * columns.transpose());
   changes_.push_back({{places.begin(), places.end()}, delta});

@@ -24,7 +24,8 @@ class CondensedInverse {
   /// Adds those that have no place yet.
   void add(std::span<const int> unknowns);
 
-  /// A += delta on the unknowns at these places, symmetric. A must stay positive definite.
+  /// A += delta on the unknowns at these places, symmetric. Throws
+  /// NotPositiveDefinite, with one of the unknowns, where that makes A singular.
   void change(std::span<const int> places, const Eigen::MatrixXd& delta);
 
   /// S, one row and column an unknown named, in the order of their places.

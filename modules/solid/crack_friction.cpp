@@ -9,9 +9,12 @@
 
 namespace perifrac {
 
-void CrackFriction::start() {
+void CrackFriction::start(const CrackedBody<2>& body) {
   slip_.clear();
   limit_.clear();
+  for (Index f = 0; f < static_cast<Index>(body.facets().size()); ++f) {
+    limit_.push_back(coefficient_ * std::max(0.0, -body.relief(f)[0]));
+  }
   dissipation_ = elastic_energy_ = 0.0;
   version_.reset();
 }
@@ -69,17 +72,14 @@ CrackedBody<2>::Faces CrackFriction::faces(CrackedBody<2>& body, const Eigen::Ve
 /// While faces slide the shear is at its limit, which goes evenly from what it was to what it is.
 void CrackFriction::book(const CrackedBody<2>& body, const CrackedBody<2>::Faces& faces,
                          const Eigen::VectorXd& pressure) {
-  for (Index f = static_cast<Index>(limit_.size()); f < static_cast<Index>(faces.slip.size());
-       ++f) {
-    limit_.push_back(coefficient_ * std::max(0.0, -body.relief(f)[0]));  // a body at rest
-  }
+  limit_.resize(faces.slip.size(), 0.0);  // a new facet has borne nothing yet
   elastic_energy_ = 0.0;
   for (std::size_t f = 0; f < faces.slip.size(); ++f) {
     const double limit = coefficient_ * (faces.pressure[f] - pressure[f]);
     dissipation_ +=
         body.jumps()[f].area * 0.5 * (limit_[f] + limit) * std::abs(faces.slip[f] - slip_[f]);
-    const double shear = faces.shear[f], at_rest = body.relief(f)[1];
-    elastic_energy_ += body.jumps()[f].area * 0.5 * layer_[f] * (shear * shear - at_rest * at_rest);
+    const double shear = faces.shear[f], first = body.relief(f)[1];
+    elastic_energy_ += body.jumps()[f].area * 0.5 * layer_[f] * (shear * shear - first * first);
     slip_[f] = faces.slip[f];
     limit_[f] = limit;
   }

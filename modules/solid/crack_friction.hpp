@@ -24,8 +24,8 @@ class CrackFriction {
  public:
   explicit CrackFriction(double coefficient) : coefficient_(coefficient) {}
 
-  /// No facet has slipped in the body, which is at rest.
-  void start();
+  /// No facet has slipped in the body, which is at rest, under its initial stress.
+  void start(const CrackedBody<2>& body);
 
   /// What the faces do at a pressure in the cracks, by facet, at the end of a window. Throws
   /// NumericalError, with the time t [s], where no state of the faces is found that is in

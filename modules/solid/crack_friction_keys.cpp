@@ -12,7 +12,7 @@ Key crack_friction_key() {
   return {.path = name,
           .range = "[0, inf)",
           .meaning =
-              "quasi_static, 2D, cracks without fluid: Coulomb's coefficient of friction "
+              "quasi_static, 2D, cracks and rock without fluid: Coulomb's coefficient of friction "
               "between faces that touch; left out, they bear no shear."};
 }
 
@@ -28,6 +28,10 @@ std::unique_ptr<CrackFriction> read_crack_friction(const Section& section) {
   if (D == 3) refuse_crack_friction(section, "in 3D", "dimension: 2");
   if (section.scene().has("crack_fluid")) {
     refuse_crack_friction(section, "beside fluid in cracks", "dry cracks");
+  }
+  if (section.scene().has("pore_flow")) {
+    refuse_crack_friction(section, "beside pore flow, whose pressure faces do not feel",
+                          "dry rock");
   }
   return std::make_unique<CrackFriction>(section.number(name));
 }

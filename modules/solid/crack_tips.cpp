@@ -89,10 +89,11 @@ double CrackTips::readiness(Tip& tip, const CrackState<2>& state) const {
 }
 
 /// From K_I, without what fluid does beyond its pressure. J asks for the displacements, which are
-/// dear: away from growth K_I goes with the opening of the last facet since J was asked last.
+/// dear: away from growth K_I goes with the opening of the last facet since J was asked last, where
+/// that is the fluid's doing. Other loads may shear the crack as well.
 double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const {
   const double opening = state.opening[tip.at.facet];
-  if (tip.asked_opening > 0.0 && !state.inertia) {
+  if (tip.asked_opening > 0.0 && state.has_fluid() && !state.inertia) {
     const double guess = tip.asked * opening / tip.asked_opening;
     const bool is_near = std::abs(opening / tip.asked_opening - 1.0) < telling_change;
     if (is_near && (guess < surely_not || guess > surely)) return guess;

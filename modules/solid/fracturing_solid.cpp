@@ -31,12 +31,23 @@ std::string FracturingSolid<D>::free_motion() {
                                         plate_unknowns_.size());
 }
 
+/// The point that this one of what is solved for moves.
+template <int D>
+Index FracturingSolid<D>::point_of(Eigen::Index free) const {
+  const Index unknown = Eigen::SparseMatrix<double>::InnerIterator(free_unknowns_, free).row();
+  return unknown % body_->points().size();
+}
+
+template <int D>
+std::string FracturingSolid<D>::place_of(Eigen::Index free) const {
+  return describe_point(point_of(free), body_->points().at(point_of(free)));
+}
+
 /// `free` is of what is solved for; where its stiffness is nothing.
 template <int D>
 BodyError FracturingSolid<D>::loose_piece(Eigen::Index free) const {
   const Points<D>& points = body_->points();
-  const Index unknown = Eigen::SparseMatrix<double>::InnerIterator(free_unknowns_, free).row();
-  const Index i = unknown % points.size();
+  const Index i = point_of(free);
   return {fmt::format("its cracks leave a piece that nothing holds, or that is too thin to bear "
                       "anything, at ({:.6g}) m",
                       fmt::join(points.at(i), ", ")),
@@ -61,7 +72,9 @@ void FracturingSolid<D>::initialize(double t) {
   const auto facets = static_cast<Eigen::Index>(seeds_.size());
   faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
             std::vector<bool>(seeds_.size(), false)};
-  if (friction_) friction_->start();
+  if constexpr (D == 2) {
+    if (friction_) friction_->start(cracked_);
+  }
   unknowns_are_current_ = true;
   derived_ = false;
 }

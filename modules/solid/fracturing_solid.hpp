@@ -62,6 +62,8 @@ class FracturingSolid final : public PhysicsModule {
   void on_restored(double t) override;
 
  private:
+  Index point_of(Eigen::Index free) const;
+  std::string place_of(Eigen::Index free) const;
   BodyError loose_piece(Eigen::Index free) const;
   enum Id : PortId {
     pore_stress,

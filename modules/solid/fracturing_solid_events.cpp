@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/errors.hpp"
 #include "modules/solid/fracturing_solid.hpp"
 
 namespace perifrac {
@@ -17,6 +18,9 @@ constexpr int most_cuts = 8;
 /// The same of a crack that begins: only its load is to be met.
 constexpr double late_nucleus = 1e-3;
 
+/// Windows are not cut to less than this part of the time.
+constexpr double shortest = 1e-9;
+
 /// A crack begins within this of its criterion.
 constexpr double begins = 0.999;
 
@@ -30,7 +34,9 @@ double FracturingSolid<D>::first_event(const TimeWindow& window) {
   // Shorter windows than this, of the time since the last growth, would not tell.
   const bool can_cut = window.length() > 5e-2 * (window.end - last_growth_);
   const bool is_late = wet() && most > 1.0 + late && can_cut;
-  const bool begins_late = nucleus > 1.0 + late_nucleus && nucleus_before_ < 1.0 - late_nucleus;
+  // A load that jumps is met by no window, however short.
+  const bool begins_late = nucleus > 1.0 + late_nucleus && nucleus_before_ < 1.0 - late_nucleus &&
+                           window.length() > shortest * window.end;
   if (!(is_late || begins_late) || cuts_ == most_cuts) return window.end;
   // A tip that is late in however short a window is not met by the secant.
   const double longest = ++cuts_ > 5 ? 0.5 : 0.95;
@@ -39,7 +45,8 @@ double FracturingSolid<D>::first_event(const TimeWindow& window) {
     share = std::clamp((1.0 - readiness_before_) / (most - readiness_before_), 0.05, longest);
   }
   if (begins_late) {
-    const double secant = (1.0 - nucleus_before_) / (nucleus - nucleus_before_);
+    const double secant =
+        std::clamp((1.0 - nucleus_before_) / (nucleus - nucleus_before_), 0.05, longest);
     share = is_late ? std::min(share, secant) : secant;
   }
   return window.begin + share * window.length();
@@ -56,10 +63,18 @@ double FracturingSolid<D>::conclude(const TimeWindow& window) {
   cuts_ = 0;
   book_work();
   readiness_before_ = readiness_;
-  const bool has_grown = grow(readiness_);
-  // With fluid one event does a window.
-  if (nucleation_ && !(has_grown && wet())) begin_cracks(has_grown);
-  nucleus_before_ = nucleus_readiness_;
+  const std::size_t facets = cracked_.facets().size();
+  try {
+    const bool has_grown = grow(readiness_);
+    // With fluid one event does a window.
+    if (nucleation_ && !(has_grown && wet())) begin_cracks(has_grown);
+  } catch (const NotPositiveDefinite& error) {
+    throw NumericalError("displacement", place_of(error.row()), tried.end,
+                         "the cracks have left a piece that nothing holds;");
+  }
+  // Beside fluid, readiness after an event is known only at the next window's end.
+  const bool is_known = !wet() || cracked_.facets().size() == facets;
+  nucleus_before_ = is_known ? nucleus_readiness_ : 0.0;
   return tried.end;
 }
 
@@ -111,6 +126,7 @@ bool FracturingSolid<D>::begin_crack() {
   if constexpr (D == 2) {
     const auto released = [this] {
       double sum = external_work_ - elastic_energy_now();
+      if (friction_) sum -= friction_->dissipation();
       for (std::size_t i = 0; i < pore_stress_.size(); ++i) {
         sum += pore_stress_[i] * dilatation_[i] * body_->points().volume[i];
       }

@@ -138,7 +138,7 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
   const Cracks<2> cracks = read_cracks(section, *body);
   if (cracks.tensile_strength) {
     section.scene().fail("damage.tensile_strength", "in a dynamic solid",
-                         "solid.type: quasi_static, or damage.type: critical_stretch");
+                         "solid.type: quasi_static, or none");
   }
   const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));

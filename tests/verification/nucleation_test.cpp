@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -31,6 +32,28 @@ TEST(Nucleation, OfAUniformStressIsAtTheStrength) {
   EXPECT_NEAR(run.column("energy_gained [J/m]").back(), work, 1e-6 * work);
   EXPECT_NEAR(run.column("crack_length [m]").back(), 0.1, 1e-9);
   EXPECT_LE(run.column("energy_stored [J/m]").back(), 1e-9 * work);
+}
+
+/// Of a rock whose strength scatters the weakest part breaks first.
+TEST(Nucleation, OfAnUnevenRockIsBelowItsMeanStrength) {
+  const SceneRun run = pull("0.3 mm", "1 MPa",
+                            {"damage.scatter={coefficient_of_variation: 0.3, correlation_length: "
+                             "20 mm, seed: 1}"});
+  ASSERT_EQ(run.exit_code, 0);
+  const std::vector<double> length = run.column("crack_length [m]");
+  const auto begun = std::ranges::find_if(length, [](double l) { return l > 0.0; });
+  ASSERT_NE(begun, length.end());
+  const double work = 0.5 * 1e6 * 1e6 / modulus * plate_area;
+  EXPECT_LT(run.column("energy_gained [J/m]")[begun - length.begin()], 0.95 * work);
+}
+
+/// Loads go on to pull at the piece: no equilibrium is left.
+TEST(Nucleation, EndsTheRunWhereACrackLeavesAPieceThatNothingHolds) {
+  const SceneRun run = pull("0 mm", "0.8 MPa",
+                            {"solid.boundary={bottom: {type: fixed}, top: {type: traction, "
+                             "traction: [0 MPa, 2 MPa], schedule: {ramp: 1 s}}}"});
+  EXPECT_EQ(run.exit_code, 1);
+  for (const double energy : run.column("energy_gained [J/m]")) EXPECT_LT(energy, 1e3);
 }
 
 /// At the corner of a hole, where the stress at a point has no limit: half the spacing would raise

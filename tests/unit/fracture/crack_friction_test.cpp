@@ -156,6 +156,7 @@ TEST(CrackFriction, TakesWhatACycleOfSlipDissipates) {
   const int steps = 10;
   ShearedPlate sheared(0.0, 20);
   sheared.friction = CrackFriction(coefficient);
+  sheared.friction.start(*sheared.plate.cracked);
   const auto book = [&] {
     sheared.friction.book(*sheared.plate.cracked, sheared.faces, sheared.plate.pressure);
   };
@@ -178,6 +179,31 @@ TEST(CrackFriction, TakesWhatACycleOfSlipDissipates) {
   EXPECT_NEAR(first, exact, 0.09 * exact);
   EXPECT_NEAR(cycle, 4.0 * first, 1e-3 * cycle);
   EXPECT_NEAR(sheared.friction.dissipation(), borne * slipped, 1e-9 * borne * slipped);
+}
+
+/// It has borne nothing: seeds alone begin under what presses on them at rest.
+TEST(CrackFriction, TakesNothingWhereAFacetThatWasCutSlidesOpen) {
+  ShearedPlate sheared(0.0, 10);
+  CrackedBody<2>& cracked = *sheared.plate.cracked;
+  CrackFriction friction(1.0);
+  friction.start(cracked);
+  const Vector<2> tip = cracked.facets().back()[1];
+  ASSERT_TRUE(cracked.cut({tip, {tip[0] + 1.0, tip[1]}}));
+  const std::size_t count = cracked.facets().size();
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
+  CrackedBody<2>::Faces open{none, none, std::vector<bool>(count), std::vector<double>(count),
+                             std::vector<double>(count)};
+  friction.faces(cracked, none, 0.0);
+  open.slip.back() = 1e-3;
+  friction.book(cracked, open, none);
+  EXPECT_EQ(friction.dissipation(), 0.0);
+  open.slip.front() = 1e-3;  // a seed does, up to where it opens; it has opened before
+  friction.book(cracked, open, none);
+  EXPECT_EQ(friction.dissipation(), 0.0);
+  friction.start(cracked);
+  friction.faces(cracked, none, 0.0);
+  friction.book(cracked, open, none);
+  EXPECT_GT(friction.dissipation(), 0.0);
 }
 
 /// A closed tip goes on by the shear that its faces do not bear, and turns by 70 degrees to where

@@ -64,5 +64,23 @@ TEST(CondensedInverse, IsABlockOfTheInverseOfTheChangedMatrix) {
   EXPECT_EQ(inverse.place(1), -1);
 }
 
+/// What is taken away may be all that there is of an unknown.
+TEST(CondensedInverse, SaysWhereNothingIsLeft) {
+  const Eigen::SparseMatrix<double> start = Eigen::MatrixXd::Identity(size, size).sparseView();
+  SparseCholesky factor;
+  factor.factor(start);
+  CondensedInverse inverse(factor, size);
+  const std::vector<int> unknowns = {17};
+  inverse.add(unknowns);
+  inverse.change(std::vector<int>{0}, -Eigen::MatrixXd::Identity(1, 1) * (1.0 - 1e-2));
+  EXPECT_NEAR(inverse.block()(0, 0), 1e2, 1e-9);
+  try {
+    inverse.change(std::vector<int>{0}, -Eigen::MatrixXd::Identity(1, 1) * 1e-2);
+    FAIL() << "what is singular has an inverse";
+  } catch (const NotPositiveDefinite& error) {
+    EXPECT_EQ(error.row(), 17);
+  }
+}
+
 }  // namespace
 }  // namespace perifrac
