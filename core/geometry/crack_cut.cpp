@@ -8,7 +8,7 @@ namespace perifrac {
 namespace {
 
 /// Of a facet's size: how far beyond its edge a bond still counts as cut, against rounding.
-constexpr double edge_tolerance = 1e-9;
+constexpr double edge_tolerance = 1e-7;
 
 template <int D>
 Vector<D> minus(const Vector<D>& a, const Vector<D>& b) {

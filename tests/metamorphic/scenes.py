@@ -100,7 +100,8 @@ def fluid_driven():
         "damage": {"type": "energy_release", "fracture_energy": 5.0},
         "crack_fluid": {
             "type": "network", "viscosity": 1e-3, "bulk_modulus": 2.2e9,
-            "inlets": [{"name": "notch", "at": [0.06, 0.15], "rate": 1.6e-4}]},
+            "inlets": [{"name": "notch", "at": [0.06, 0.15], "rate": 1.6e-4,
+                        "schedule": {"ramp": 2e-3}}]},
         "coupling": {"window": {"first": 1e-4, "largest": 1e-3}, "iterations": {"max": 20}},
         "time": {"end": 0.02},
         "output": {"times": [0.01], "probes": probes((0.041, 0.117), (0.1, 0.051))},
@@ -111,13 +112,14 @@ def torn():
     """An edge crack that a plate under tension and shear turns aside."""
     return {
         "dimension": 2,
-        "body": {"shape": "box", "size": [0.1, 0.1], "spacing": 0.005},
+        "body": {"shape": "box", "size": [0.1, 0.1], "spacing": 0.005,
+                 "regions": {"tough": {"from": [0.065, -1.0], "to": [1.0, 1.0]}}},
         "cracks": [{"name": "edge", "path": [0.0, 0.045, 0.03, 0.045]}],
         "solid": {
             "type": "quasi_static", "material": {"youngs_modulus": 1e9, "poisson_ratio": 0.25},
             "boundary": {"bottom": {"type": "fixed"},
                          "top": {"type": "fixed", "displacement": [5e-5, 2e-4], "schedule": {"ramp": 1.0}}}},
-        "damage": {"type": "energy_release", "fracture_energy": 50.0},
+        "damage": {"type": "energy_release", "fracture_energy": 50.0, "regions": {"tough": {"fracture_energy": 5e4}}},
         "coupling": {"window": {"first": 0.02, "largest": 0.02}},
         "time": {"end": 1.0},
         "output": {"times": [0.5], "probes": probes((0.041, 0.061), (0.09, 0.012))},
@@ -141,18 +143,18 @@ def stretched():
     }
 
 
-def seeping():
-    """Fluid in a crack whose walls it leaks through."""
+def leaking():
+    """A crack in the middle of a plate, whose fluid goes into the rock by Carter's law."""
     scene = fluid_driven()
-    scene["pore_flow"] = {"type": "darcy", "permeability": 1e-14, "porosity": 0.1,
-                          "fluid": {"bulk_modulus": 2.2e9, "viscosity": 1e-3}}
-    scene["crack_fluid"]["leak_off"] = "pores"
-    scene["body"]["spacing"] = 0.01
-    scene["time"] = {"end": 0.01}
-    scene["output"]["times"] = [0.005]
+    scene["cracks"] = [{"name": "wing", "path": [0.0, 0.08, 0.03, 0.08]}]
+    scene["solid"]["confining_stress"] = [3e5, 3e5]
+    scene["solid"]["boundary"] = {"left": {"type": "roller"}, "bottom": {"type": "roller"}}
+    scene["solid"].pop("pins")
+    scene["crack_fluid"].update(leak_off="carter", leak_off_coefficient=3e-5)
+    scene["crack_fluid"]["inlets"][0]["at"] = [0.0, 0.08]
     return scene
 
 
 LINEAR = {"mandel": mandel, "plate": plate, "dynamic": dynamic}
-GROWING = {"fluid_driven": fluid_driven, "torn": torn, "stretched": stretched, "seeping": seeping}
+GROWING = {"fluid_driven": fluid_driven, "torn": torn, "stretched": stretched, "leaking": leaking}
 SCENES = {**LINEAR, "aquifer": aquifer, "water": water, **GROWING}
