@@ -73,6 +73,16 @@ def aquifer():
     }
 
 
+def well():
+    """From no pressure at all."""
+    scene = aquifer()
+    del scene["gravity"]
+    flow = scene["pore_flow"]
+    flow["initial_pressure"] = 0.0
+    flow["boundary"]["left"] = {"type": "pressure", "pressure": 0.0}
+    return scene
+
+
 def water():
     return {
         "dimension": 2, "gravity": [0.0, -9.81],
@@ -157,4 +167,4 @@ def leaking():
 
 LINEAR = {"mandel": mandel, "plate": plate, "dynamic": dynamic}
 GROWING = {"fluid_driven": fluid_driven, "torn": torn, "stretched": stretched, "leaking": leaking}
-SCENES = {**LINEAR, "aquifer": aquifer, "water": water, **GROWING}
+SCENES = {**LINEAR, "aquifer": aquifer, "well": well, "water": water, **GROWING}
