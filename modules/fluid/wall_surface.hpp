@@ -14,9 +14,9 @@ struct WallSurface {
   double depth;      ///< of the point below it [m]
 };
 
-/// Picks the surface with the least, or the largest, depth from those that are offered. Where two or
-/// three faces tie, as on the diagonal of a corner, it is the plane through the corner across their
-/// bisector: neither the order of axes nor rounding decides.
+/// Picks the surface with the least, or the largest, depth from those that are offered. Where two
+/// or three faces tie, as on the diagonal of a corner, it is the plane through the corner across
+/// their bisector: neither the order of axes nor rounding decides.
 template <int D, class Compare>
 class BestSurface {
  public:

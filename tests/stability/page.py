@@ -2,7 +2,7 @@
 
 HEAD = """# Hard cases
 
-`make stability` writes this page: tests/stability runs {count} hard cases, in the combinations of modules that the rows name, and holds each to bounds and to an accuracy, against an analytic solution or a finer run. {failed}
+`make stability` writes this page: tests/stability runs {count} hard cases, in the combinations of modules that the rows name, and holds each to bounds and to an accuracy, against an analytic solution or a finer run. {distinct} of them differ by more than units: two runs of which one follows from the other by other units of mass, length, time or, where all is linear, load are counted once (tests/stability/distinct.py). Rows of a fixed time change one property and nothing else, as a user would. {failed}
 
 ## Known limits
 
@@ -63,7 +63,7 @@ def walked(found):
     return table(("case", "runs", "modules", "bounds", "errors"), rows)
 
 
-def page(found):
+def page(found, distinct):
     wrong = [one for one in found if not one.as_expected]
     failed = "All did what is expected of them." if not wrong else \
         f"{len(wrong)} did not do what is expected: " + "; ".join(
@@ -71,7 +71,7 @@ def page(found):
     limits = [one for one in found if one.case.known and one.case.ours]
     comparison = [one for one in found if one.case.known and not one.case.ours]
     refused = [one for one in found if one.case.refused]
-    text = HEAD.format(count=len(found), failed=failed, limits=symptoms(limits),
+    text = HEAD.format(count=len(found), distinct=distinct, failed=failed, limits=symptoms(limits),
                        comparison=symptoms(comparison),
                        refused=table(("case", "modules", "what it is told"),
                                      [(one.case.name, one.case.modules, one.complaint) for one in refused]))
