@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/config/mistakes.hpp"
 #include "core/geometry/read_point.hpp"
 
 namespace perifrac {
@@ -25,6 +26,11 @@ bool has_place(const Field& field) { return field.points().dimension > 0; }
 /// The body's points never move.
 bool is_of_body(const Field& field, const Simulation& simulation) {
   return simulation.has_body() && field.points().name == simulation.points().name;
+}
+
+/// Cracks are where there is rock.
+bool is_in_rock(const Field& field, const Simulation& simulation) {
+  return is_of_body(field, simulation) || (simulation.has_body() && field.points().name == "crack");
 }
 
 /// Of points equally near the first; `count` where there are none.
@@ -51,9 +57,11 @@ Probes::Probes(const Section& output, const Simulation& simulation) {
   for (const Field& field : fields_of(*simulation.manager)) {
     if (!has_place(field)) add({field, {}}, "");
   }
+  Mistakes mistakes;
   for (std::size_t n = 0; n < output.count("probes"); ++n) {
-    read(output, fmt::format("probes[{}]", n), simulation);
+    mistakes.note([&] { read(output, fmt::format("probes[{}]", n), simulation); });
   }
+  mistakes.throw_if_any();
 }
 
 void Probes::read(const Section& output, const std::string& item, const Simulation& simulation) {
@@ -68,10 +76,11 @@ void Probes::read(const Section& output, const std::string& item, const Simulati
   }
   const auto of_body = [&](const Field& field) { return is_of_body(field, simulation); };
   const std::string at = item + ".at";
+  const auto in_rock = [&](const Field& field) { return is_in_rock(field, simulation); };
   std::size_t point = 0;
-  if (std::ranges::any_of(fields, of_body)) {
+  if (std::ranges::any_of(fields, in_rock)) {
     const auto find_point = [&](const auto& body) {
-      if (std::ranges::all_of(fields, of_body) || is_inside(output, at, *body)) {
+      if (std::ranges::all_of(fields, in_rock) || is_inside(output, at, *body)) {
         point = read_point(output, at, *body);
       } else {
         std::erase_if(fields, of_body);
