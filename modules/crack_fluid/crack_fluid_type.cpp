@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "core/config/mistakes.hpp"
 #include "modules/crack_fluid/carter_leak_off.hpp"
 #include "modules/crack_fluid/crack_network.hpp"
+#include "modules/crack_fluid/crack_places.hpp"
 
 namespace perifrac {
 
@@ -77,12 +79,22 @@ template <int D>
 std::unique_ptr<PhysicsModule> make_network(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
   const CrackLiquid liquid = read_liquid(section);
-  auto leak_off = read_leak_off(section, body, liquid);
-  auto outlets =
-      std::make_unique<CrackOutlets<D>>(body, read_behind_faces<D>(section.scene(), *body));
+  std::unique_ptr<LeakOff> leak_off;
+  std::vector<CrackInlet> inlets;
+  std::vector<CrackFilling<D>> fillings;
+  std::unique_ptr<CrackOutlets<D>> outlets;
+  Mistakes mistakes;
+  mistakes.note([&] { check_crack_places(section, *body); });
+  mistakes.note([&] { leak_off = read_leak_off(section, body, liquid); });
+  mistakes.note([&] { inlets = read_crack_inlets(section); });
+  mistakes.note([&] { fillings = read_fillings<D>(section, liquid); });
+  mistakes.note([&] {
+    outlets = std::make_unique<CrackOutlets<D>>(body, read_behind_faces<D>(section.scene(), *body));
+  });
+  mistakes.throw_if_any();
   return std::make_unique<CrackNetwork<D>>(
-      std::move(body), liquid, CrackInlets(read_crack_inlets(section), liquid),
-      read_fillings<D>(section, liquid), std::move(leak_off), std::move(outlets));
+      std::move(body), liquid, CrackInlets(std::move(inlets), liquid), std::move(fillings),
+      std::move(leak_off), std::move(outlets));
 }
 
 KeyTable network_keys() {
