@@ -23,6 +23,15 @@ std::string in_range(const Key& key, int dimension) {
   return key.range + (unit.empty() ? "" : " " + unit);
 }
 
+/// Permeabilities, which alone are areas, are at most some 1e-7 m^2, that of gravel. More without a
+/// unit is most likely meant in millidarcies.
+constexpr double largest_bare_area = 1e-6;
+
+bool is_implausible(const std::string& unit, double value, const std::string& text) {
+  return unit == "m^2" && value > largest_bare_area &&
+         text.find_first_not_of("0123456789.eE+- \t") == std::string::npos;
+}
+
 double read_number(const Key& key, const YamlNode& node, const std::string& path, int dimension) {
   if (node.kind != YamlNode::Kind::scalar) {
     refuse(node, path,
@@ -39,6 +48,12 @@ double read_number(const Key& key, const YamlNode& node, const std::string& path
     refuse(node, path,
            fmt::format("{} is out of range; expected a value in {}", in_quotes(node.text),
                        in_range(key, dimension)));
+  }
+  if (is_implausible(key.unit, value, node.text)) {
+    refuse(node, path,
+           fmt::format("{} without a unit is {:g} m^2, more than any rock has; expected a "
+                       "permeability with its unit, such as '1 mD' or '1e-15 m^2'",
+                       in_quotes(node.text), value));
   }
   return value;
 }

@@ -1,7 +1,9 @@
 #include "core/config/scene.hpp"
 
 #include <filesystem>
+#include <optional>
 
+#include "core/config/mistakes.hpp"
 #include "core/config/override.hpp"
 #include "core/config/scene_tree.hpp"
 #include "core/config/scene_validator.hpp"
@@ -11,8 +13,14 @@ namespace perifrac {
 Section read_scene(const std::string& path, const std::vector<std::string>& overrides,
                    const Catalogue& catalogue) {
   YamlNode written = parse_yaml_file(path);
-  for (const std::string& assignment : overrides) apply_override(written, assignment);
-  return check_tree(written, path, catalogue);
+  Mistakes mistakes;
+  for (const std::string& assignment : overrides) {
+    mistakes.note([&] { apply_override(written, assignment); });
+  }
+  std::optional<Section> scene;
+  mistakes.note([&] { scene = check_tree(written, path, catalogue); });
+  mistakes.throw_if_any();
+  return *scene;
 }
 
 Section check_tree(const YamlNode& written, const std::string& path, const Catalogue& catalogue) {

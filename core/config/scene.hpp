@@ -11,7 +11,7 @@ namespace perifrac {
 
 /// Reads the scene at `path`, puts the `key=value` assignments of `--set` into it and checks all of
 /// it against the catalogue. The section returned is the whole scene: `scene.at("solid")`.
-/// Throws InputError, which names `file:line:column` or `--set key=value`, for the first mistake.
+/// Throws InputError with a line a mistake, which names `file:line:column` or `--set key=value`.
 Section read_scene(const std::string& path, const std::vector<std::string>& overrides,
                    const Catalogue& catalogue);
 

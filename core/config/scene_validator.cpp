@@ -1,12 +1,14 @@
 #include "core/config/scene_validator.hpp"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "core/config/key_suggestion.hpp"
+#include "core/config/mistakes.hpp"
 #include "core/config/names.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 namespace {
@@ -44,13 +46,22 @@ class Validator {
     check_names(root);
     const KeyNode* dimension = scene_.keys.child("dimension");
     if (dimension != nullptr) {
-      read_child(root, *dimension);  // units and lengths of vectors follow it
+      note(root, *dimension);  // units and lengths of vectors follow it
+      if (!scene_.entries.contains("dimension")) mistakes_.throw_if_any();
       dimension_ = std::get<int>(scene_.entries.at("dimension").value);
     }
     read_map(root);
+    mistakes_.throw_if_any();
   }
 
  private:
+  /// What is wrong with one child keeps nobody from looking at the next.
+  void note(const Map& map, const KeyNode& keys) {
+    if (!mistakes_.note([&] { read_child(map, keys); })) {
+      broken_.insert(join_path(map.path, keys.name));
+    }
+  }
+
   void read_map(const Map& map) {
     SceneTree::Entry entry{.place = map.written != nullptr ? map.place : ""};
     if (map.written != nullptr) {
@@ -60,13 +71,15 @@ class Validator {
     }
     if (map.keys.takes_any_name()) {
       if (map.written == nullptr) return;
-      for (const YamlNode& child : map.written->children) read_named(map, child);
+      for (const YamlNode& child : map.written->children) {
+        mistakes_.note([&] { read_named(map, child); });
+      }
       return;
     }
     // Words that decide which other keys hold come before them.
     for (const bool conditional : {false, true}) {
       for (const KeyNode* child : in_order(map)) {
-        if (child->is_conditional() == conditional) read_child(map, *child);
+        if (child->is_conditional() == conditional) note(map, *child);
       }
     }
   }
@@ -76,7 +89,8 @@ class Validator {
     std::vector<const KeyNode*> ordered;
     if (map.written != nullptr) {
       for (const YamlNode& child : map.written->children) {
-        ordered.push_back(map.keys.child(child.key));
+        const KeyNode* known = map.keys.child(child.key);
+        if (known != nullptr) ordered.push_back(known);
       }
     }
     for (const KeyNode& child : map.keys.children) {
@@ -127,6 +141,7 @@ class Validator {
     }
     if (is_section && keys.has_types()) {
       type = section_type(keys, *written, path);
+      if (type.empty()) return;  // nobody knows which keys hold
     } else if (written == nullptr && !keys.holds_under(type)) {
       return;
     }
@@ -137,8 +152,11 @@ class Validator {
   std::string section_type(const KeyNode& keys, const YamlNode& written, const std::string& path) {
     const Map section{&written, keys, path, written.key_place, ""};
     scene_.entries[path].place = written.key_place;
-    if (written.child("type") == nullptr) check_names(section);
-    read_child(section, *keys.child("type"));
+    const KeyNode& choice = *keys.child("type");
+    const bool is_given = written.child("type") != nullptr;
+    if (!is_given || !mistakes_.note([&] { read_child(section, choice); })) check_names(section);
+    if (!is_given) read_child(section, choice);
+    if (!scene_.entries.contains(join_path(path, "type"))) return {};
     return std::get<std::string>(scene_.entries.at(join_path(path, "type")).value);
   }
 
@@ -154,20 +172,26 @@ class Validator {
       const YamlNode& item = written.children[i];
       entry.children.push_back(fmt::format("[{}]", i));
       const std::string item_path = join_path(path, entry.children.back());
-      require_map(item, keys.children.front(), item_path, parent.type);
-      read_map({&item, keys.children.front(), item_path, item.place, parent.type});
-      if (const YamlNode* name = item.child("name")) {
-        for (const YamlNode* other : names) {
-          if (other->text == name->text) {
-            refuse(name->place, join_path(item_path, "name"),
-                   fmt::format("a second {}", in_quotes(name->text)),
-                   fmt::format("expected names that differ; the first is at {}", other->place));
-          }
+      mistakes_.note([&] {
+        require_map(item, keys.children.front(), item_path, parent.type);
+        read_map({&item, keys.children.front(), item_path, item.place, parent.type});
+        if (const YamlNode* name = item.child("name")) {
+          require_other_name(*name, names, item_path);
+          names.push_back(name);
         }
-        names.push_back(name);
-      }
+      });
     }
     scene_.entries[path] = std::move(entry);
+  }
+
+  static void require_other_name(const YamlNode& name, const std::vector<const YamlNode*>& others,
+                                 const std::string& item_path) {
+    for (const YamlNode* other : others) {
+      if (other->text != name.text) continue;
+      refuse(name.place, join_path(item_path, "name"),
+             fmt::format("a second {}", in_quotes(name.text)),
+             fmt::format("expected names that differ; the first is at {}", other->place));
+    }
   }
 
   void read_leaf(const Map& map, const KeyNode& keys, const YamlNode* written,
@@ -179,6 +203,7 @@ class Validator {
     }
     if (key == nullptr) {
       const auto [name, word] = why_not(map, keys);
+      if (broken_.contains(join_path(map.path, name))) return;  // nobody knows whether it holds
       refuse_unused(map, *written, name, word);
     }
     scene_.entries[path] = {read_value(*key, *written, path, dimension_), written->place, {}};
@@ -190,7 +215,7 @@ class Validator {
       scene_.entries[path] = {default_value(key, path), "", {}};
       return;
     }
-    if (!key.required) return;
+    if (!key.required || misspelt_.contains(path)) return;
     // Parents that were left out too belong to what is missing.
     std::string missing = name;
     std::string parent = map.path;
@@ -258,15 +283,18 @@ class Validator {
            expected_one_of(holding, written.key));
   }
 
-  void check_names(const Map& map) const {
+  void check_names(const Map& map) {
     if (map.keys.takes_any_name()) return;
     for (const YamlNode& child : map.written->children) {
-      const bool known = std::any_of(map.keys.children.begin(), map.keys.children.end(),
-                                     [&](const KeyNode& key) { return key.name == child.key; });
-      if (!known) {
+      const bool known = std::ranges::any_of(
+          map.keys.children, [&](const KeyNode& key) { return key.name == child.key; });
+      if (known) continue;
+      const std::vector<std::string> names = declared_names(map);
+      misspelt_.insert(join_path(map.path, near_key(child.key, names)));
+      mistakes_.note([&] {
         refuse(child.key_place, map.path, fmt::format("unknown key {}", in_quotes(child.key)),
-               expected_one_of(declared_names(map), child.key));
-      }
+               expected_key(child.key, names, scene_.keys));
+      });
     }
   }
 
@@ -291,6 +319,9 @@ class Validator {
 
   SceneTree& scene_;
   int dimension_ = 0;
+  Mistakes mistakes_;
+  std::set<std::string> broken_;    ///< paths of what could not be read
+  std::set<std::string> misspelt_;  ///< paths of what somebody most likely meant to write
 };
 
 }  // namespace

@@ -6,8 +6,7 @@
 namespace perifrac {
 
 /// Checks a scene as written against the keys of `scene` and fills its entries. Throws InputError
-/// for the first thing that is wrong: in every map first the names, then the values, then what is
-/// missing.
+/// with a line for every thing that is wrong with its names and values, or missing.
 void validate_scene(const YamlNode& written, SceneTree& scene);
 
 }  // namespace perifrac

@@ -4,7 +4,8 @@
 Usage: check.py PERIFRAC CASE.yaml
 
 The case begins with comments:
-  # expect: MESSAGE     the one line that must come on stderr, with {file} for the scene's name
+  # expect: MESSAGE     the line that must come on stderr, with {file} for the scene's name; of a scene with several
+                        mistakes there are several, in their order
   # args: ARGUMENTS     further arguments, if any
   # scene: NAME         the scene to ask for, if not the case itself
 Files that cases name are in `clouds`. Exit code 2, nothing on stdout and no file written are expected of both verbs.
@@ -24,7 +25,8 @@ def read_header(case):
             name, colon, value = line.removeprefix("# ").partition(": ")
             if not line.startswith("# ") or not colon or name not in ("expect", "args", "scene"):
                 break
-            header[name] = value.rstrip("\n")
+            value = value.rstrip("\n")
+            header[name] = f"{header[name]}\n{value}" if name == "expect" and name in header else value
     return header
 
 

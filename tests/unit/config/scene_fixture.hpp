@@ -161,7 +161,9 @@ inline std::string refusal(const std::string& text,
     read_scene(file.path(), overrides, example_catalogue());
   } catch (const InputError& error) {
     std::string line = error.what();
-    if (line.starts_with(file.path())) line.replace(0, file.path().size(), "{file}");
+    for (auto at = line.find(file.path()); at != std::string::npos; at = line.find(file.path())) {
+      line.replace(at, file.path().size(), "{file}");
+    }
     return line;
   }
   return "accepted";

@@ -1,5 +1,8 @@
 #include "core/config/scene.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,7 +64,9 @@ TEST(scene, missing_keys_point_at_their_parent) {
             "{file}:1:1: missing key 'dimension'; expected a whole number in [2, 3]");
   EXPECT_EQ(refusal("dimension: 2"),
             "{file}:1:1: missing key 'body.spacing'; expected a length [m], such as '1 mm', in "
-            "(0, inf) m");
+            "(0, inf) m\n"
+            "{file}:1:1: missing key 'body.size'; expected a list of 2, each a length [m], such as "
+            "'1 mm' in (0, inf) m");
   EXPECT_EQ(refusal(changed(", at: [40 cm, 0]", "")),
             "{file}:21:7: output.probes[1]: missing key 'at'; expected a list of 2, each a length "
             "[m], such as '1 mm'");
@@ -70,6 +75,8 @@ TEST(scene, missing_keys_point_at_their_parent) {
 TEST(scene, keys_of_another_choice_are_refused) {
   EXPECT_EQ(refusal(changed("type: quasi_static", "type: rigid")),
             "{file}:8:3: solid: key 'material' is not used where type is 'rigid'; expected one of: "
+            "type\n"
+            "{file}:9:3: solid: key 'boundary' is not used where type is 'rigid'; expected one of: "
             "type");
   EXPECT_EQ(refusal(changed("{type: roller}", "{force: 3, type: roller}")),
             "{file}:11:12: solid.boundary.left: key 'force' is not used where type is 'roller'; "
@@ -172,8 +179,39 @@ TEST(scene, names_of_the_users_choice_are_plain) {
 
 TEST(scene, messages_stay_on_one_line) {
   for (const char* text : {"\"a\\nb\": 1", "dimension: \"2\\n3\"", "title: \"a\n"}) {
-    EXPECT_EQ(refusal(text).find('\n'), std::string::npos) << text;
+    std::istringstream lines(refusal(text));
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_THAT(line, StartsWith("{file}:1:")) << text;
+    }
   }
+}
+
+TEST(scene, tells_all_mistakes_at_once) {
+  std::string scene = changed("youngs_modulus: 1 GPa", "youngs_modulus: 1 m");
+  scene.replace(scene.find("porosity: 0.3"), 13, "porosty: 0.3");
+  scene.replace(scene.find("left:"), 5, "lef.t:");
+  EXPECT_EQ(refusal(scene),
+            "{file}:8:30: solid.material.youngs_modulus: '1 m' is a length [m]; expected a "
+            "pressure [Pa], such as '1 MPa'\n"
+            "{file}:11:5: solid.boundary: the name 'lef.t'; expected letters, digits, '_' and "
+            "'-'\n"
+            "{file}:14:3: pore_flow: unknown key 'porosty'; expected one of: type, porosity, "
+            "adaptive, iterations, boundary; did you mean 'porosity'?")
+      << "a misspelt key is not missing besides";
+}
+
+TEST(scene, tells_no_more_mistakes_than_anybody_reads) {
+  std::string scene = example_scene;
+  for (int k = 0; k < 1000; ++k) scene += "key_" + std::to_string(k) + ": 1\n";
+  const std::string said = refusal(scene);
+  EXPECT_EQ(std::ranges::count(said, '\n'), 50);
+  EXPECT_THAT(said, HasSubstr("only the first 50 mistakes are shown"));
+}
+
+TEST(scene, knows_what_others_call_a_key) {
+  EXPECT_THAT(refusal(changed("youngs_modulus", "E")), HasSubstr("did you mean 'youngs_modulus'?"));
+  EXPECT_THAT(refusal(changed("dimension: 2\n", "dimension: 2\nmesh_size: 1 m\n")),
+              HasSubstr("did you mean 'body.spacing'?"));
 }
 
 TEST(scene, files_that_cannot_be_read) {
