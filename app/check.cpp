@@ -11,10 +11,12 @@
 #include "app/nucleus_warning.hpp"
 #include "app/output_times.hpp"
 #include "app/recorder.hpp"
+#include "app/scene_echo.hpp"
 #include "app/scene_keys.hpp"
 #include "app/scene_regime.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
+#include "core/config/mistakes.hpp"
 #include "core/config/scene.hpp"
 
 namespace perifrac {
@@ -119,6 +121,7 @@ void print(const nlohmann::json& result) {
   const auto& counts = result["counts"];
   fmt::print("{}: fine\n", result["scene"].get<std::string>());
   for (const auto& effect : result["effects"]) fmt::print("  {}\n", effect.get<std::string>());
+  for (const auto& line : result["read"]) fmt::print("  {}\n", line.get<std::string>());
   for (const auto& link : result["links"]) fmt::print("  link {}\n", link.get<std::string>());
   fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
              counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
@@ -143,18 +146,28 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
                 double trial_seconds) {
   const auto begin = std::chrono::steady_clock::now();
   const Section scene = read_scene(scene_file, overrides, scene_catalogue());
-  Simulation simulation = make_simulation(scene);
+  Simulation simulation;
+  std::vector<double> outputs;
+  Mistakes mistakes;
+  mistakes.note([&] {
+    simulation = make_simulation(scene);
+    initialize(scene, simulation);
+  });
+  mistakes.note([&] { outputs = read_output_times(scene.at("output"), scene.number("time.end")); });
+  mistakes.throw_if_any();
   CouplingManager& manager = *simulation.manager;
-  initialize(scene, simulation);
-  const std::vector<double> outputs = read_output_times(scene.at("output"), simulation.end);
   const Recorder recorder(scene, "", simulation);
   ArrayList list;
   manager.visit_state(list);
-  nlohmann::json result = {
-      {"scene", scene_file},          {"modules", modules_of(manager)},
-      {"effects", effects(scene)},    {"links", links_of(manager)},
-      {"counts", counts(simulation)}, {"family_bytes", family_bytes(simulation.body)},
-      {"arrays", list.arrays},        {"warnings", manager.warnings()}};
+  nlohmann::json result = {{"scene", scene_file},
+                           {"modules", modules_of(manager)},
+                           {"effects", effects(scene)},
+                           {"read", what_was_read(scene, simulation)},
+                           {"links", links_of(manager)},
+                           {"counts", counts(simulation)},
+                           {"family_bytes", family_bytes(simulation.body)},
+                           {"arrays", list.arrays},
+                           {"warnings", manager.warnings()}};
   const std::optional<SceneRegime> regime = regime_of(scene, simulation);
   if (regime) {
     result["regime"] = regime_json(*regime);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "modules/solid/crack_nucleation.hpp"
+#include "modules/solid/damage_keys.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -14,7 +15,7 @@ std::optional<std::string> nucleus_warning(const Section& scene) {
   const double strength = scene.number("damage.tensile_strength");
   const double modulus =
       read_isotropic_elasticity<2>(scene.at("solid"), "material").plane_strain_modulus();
-  const double length = modulus * scene.number("damage.fracture_energy") / (strength * strength);
+  const double length = modulus * read_fracture_energy(scene) / (strength * strength);
   const double longest =
       length * std::min(edge_nucleus / least_edge_facets, inner_nucleus / least_inner_facets);
   if (scene.number("body.spacing") <= 1.0001 * longest) return {};

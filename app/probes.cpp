@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/config/mistakes.hpp"
 #include "core/geometry/read_point.hpp"
 
 namespace perifrac {
@@ -26,6 +27,11 @@ bool is_of_body(const Field& field, const Simulation& simulation) {
   return simulation.has_body() && field.points().name == simulation.points().name;
 }
 
+/// Cracks are where there is rock.
+bool is_in_rock(const Field& field, const Simulation& simulation) {
+  return is_of_body(field, simulation) || (simulation.has_body() && field.points().name == "crack");
+}
+
 }  // namespace
 
 Probes::Probes(const Section& output, const Simulation& simulation, double fluid_spacing) {
@@ -34,9 +40,11 @@ Probes::Probes(const Section& output, const Simulation& simulation, double fluid
     add_columns(field.port, "");
     probes_.push_back({{field}, {}});
   }
+  Mistakes mistakes;
   for (std::size_t n = 0; n < output.count("probes"); ++n) {
-    read(output, fmt::format("probes[{}]", n), simulation, fluid_spacing);
+    mistakes.note([&] { read(output, fmt::format("probes[{}]", n), simulation, fluid_spacing); });
   }
+  mistakes.throw_if_any();
 }
 
 void Probes::read(const Section& output, const std::string& item, const Simulation& simulation,
@@ -52,9 +60,10 @@ void Probes::read(const Section& output, const std::string& item, const Simulati
   }
   const auto of_body = [&](const Field& field) { return is_of_body(field, simulation); };
   const std::string at = item + ".at";
-  if (std::ranges::any_of(fields, of_body)) {
+  const auto in_rock = [&](const Field& field) { return is_in_rock(field, simulation); };
+  if (std::ranges::any_of(fields, in_rock)) {
     const auto check_place = [&](const auto& body) {
-      if (std::ranges::all_of(fields, of_body)) {
+      if (std::ranges::all_of(fields, in_rock)) {
         read_point(output, at, *body);  // refuses a place outside
       } else if (!is_inside(output, at, *body)) {
         std::erase_if(fields, of_body);

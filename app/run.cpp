@@ -14,10 +14,12 @@
 #include "app/profile_report.hpp"
 #include "app/recorder.hpp"
 #include "app/report.hpp"
+#include "app/scene_echo.hpp"
 #include "app/scene_keys.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
 #include "app/version.hpp"
+#include "core/config/mistakes.hpp"
 #include "core/config/scene.hpp"
 #include "core/config/units.hpp"
 #include "core/errors.hpp"
@@ -171,10 +173,17 @@ int run_scene(const RunRequest& request) {
   hold_back_signals();
   const Section scene = read(request);
   const std::string text = scene_text(request);
-  Simulation simulation = set_up(scene);
+  Simulation simulation;
+  std::vector<double> outputs;
+  Mistakes mistakes;
+  mistakes.note([&] { simulation = set_up(scene); });
+  mistakes.note([&] {
+    outputs =
+        read_output_times(scene.at("output"), scene.number("time.end"), read_until(request.until));
+  });
+  mistakes.throw_if_any();
+  for (const std::string& line : what_was_read(scene, simulation)) log_info(line);
   if (const auto warning = nucleus_warning(scene)) log_warning(*warning);
-  const std::vector<double> outputs =
-      read_output_times(scene.at("output"), simulation.end, read_until(request.until));
   simulation.end = outputs.back();
   Recorder recorder(scene, text, simulation);
   const std::optional<Checkpoint> restart = read_restart(request, text, simulation.end);

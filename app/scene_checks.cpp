@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/config/mistakes.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -85,14 +87,19 @@ void check_exchange(const Section& scene) {
 }  // namespace
 
 void check_sections_together(const Section& scene) {
-  if (scene.count("cracks") > 0 && !names(scene, "solid")) {
+  Mistakes mistakes;
+  mistakes.note([&] {
+    if (scene.count("cracks") == 0 || names(scene, "solid")) return;
     scene.fail("cracks", "the scene has no section 'solid', whose bonds they cut",
                "a solid, of type: rigid where nothing is to deform");
-  }
-  refuse_unreachable_tolerance(scene);
-  check_interface(scene);
-  check_exchange(scene);
-  if (names(scene, "crack_fluid")) check_mouths(scene);
+  });
+  mistakes.note([&] { refuse_unreachable_tolerance(scene); });
+  mistakes.note([&] { check_interface(scene); });
+  mistakes.note([&] { check_exchange(scene); });
+  mistakes.note([&] {
+    if (names(scene, "crack_fluid")) check_mouths(scene);
+  });
+  mistakes.throw_if_any();
 }
 
 }  // namespace perifrac

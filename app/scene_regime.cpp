@@ -11,6 +11,8 @@
 #include "core/time/schedule.hpp"
 #include "modules/pore_flow/mobility.hpp"
 #include "modules/pore_flow/pore_material.hpp"
+#include "modules/solid/damage_keys.hpp"
+#include "modules/solid/stress_at_rest.hpp"
 
 namespace perifrac {
 
@@ -139,7 +141,7 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
   // A rate into one wing is half of that into two.
   const bool feeds_both = scene.word("crack_fluid.counts") == "both" || !mouth.at_end;
   SceneRegime regime{
-      .fracture = {.driven = {rock.plane_strain_modulus(), scene.number("damage.fracture_energy"),
+      .fracture = {.driven = {rock.plane_strain_modulus(), read_fracture_energy(scene),
                               scene.number("crack_fluid.viscosity"),
                               (feeds_both ? 1.0 : 2.0) *
                                   scene.number("crack_fluid.inlets[0].rate")}},
@@ -149,10 +151,9 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
       .warnings = {}};
   if (!(regime.time > 0.0)) return std::nullopt;
   HydraulicFracture& fracture = regime.fracture;
-  if (writes(scene, "solid.confining_stress")) {
-    const std::vector<double> stress = scene.numbers("solid.confining_stress");
+  if (const auto stated = read_stated_stress(scene)) {
     for (int a = 0; a < 2; ++a) {
-      fracture.closing_stress += mouth.normal[a] * mouth.normal[a] * stress[a];
+      fracture.closing_stress += mouth.normal[a] * mouth.normal[a] * stated->total[a];
     }
   }
   const std::string leak_off = scene.word("crack_fluid.leak_off");

@@ -8,6 +8,7 @@
 
 #include "app/register_modules.hpp"
 #include "app/scene_checks.hpp"
+#include "core/config/mistakes.hpp"
 #include "core/errors.hpp"
 #include "core/profile/profile.hpp"
 #include "coupling/coupling_keys.hpp"
@@ -57,18 +58,25 @@ const PointSet& Simulation::points() const {
 }
 
 Simulation make_simulation(const Section& scene) {
-  check_sections_together(scene);
   Simulation simulation;
-  simulation.body = make_body_if_any(scene);
   simulation.end = scene.number("time.end");
+  Mistakes mistakes;
+  const bool fits = mistakes.note([&] { check_sections_together(scene); });
+  const bool has_body = mistakes.note([&] { simulation.body = make_body_if_any(scene); });
   std::vector<ModuleSlot> modules;
   for (const std::string& physics : physics_of(scene)) {
-    modules.push_back({physics, make_module(scene, physics, simulation.body)});
+    if (!fits || !has_body) break;  // modules take for granted what they could not see anyway
+    mistakes.note([&] {
+      modules.push_back({physics, make_module(scene, physics, simulation.body)});
+    });
   }
-  if (modules.empty()) {
-    scene.fail("", "no physics is named",
-               fmt::format("at least one of the sections {}", fmt::join(physics_order(), ", ")));
+  if (physics_of(scene).empty()) {
+    mistakes.note([&] {
+      scene.fail("", "no physics is named",
+                 fmt::format("at least one of the sections {}", fmt::join(physics_order(), ", ")));
+    });
   }
+  mistakes.throw_if_any();
   simulation.manager = std::make_unique<CouplingManager>(
       std::move(modules), read_coupling_options(scene.at("coupling"), simulation.end));
   return simulation;

@@ -19,9 +19,9 @@ std::array<double, 3> read_strain(const Section& scene) {
   const int dimension = scene.integer("dimension");
   require_word(scene, problem, "body.shape", {"box"});
   require_word(scene, problem, "solid.type", {"quasi_static"});
-  require_absent(
-      scene, problem,
-      {"pore_flow", "solid.regions", "solid.body_force", "solid.confining_stress", "gravity"});
+  require_absent(scene, problem,
+                 {"pore_flow", "solid.regions", "solid.body_force", "solid.confining_stress",
+                  "solid.total_stress", "gravity"});
   const auto names = dimension == 2 ? face_names<2>() : face_names<3>();
   std::array<double, 3> stress{};
   for (int axis = 0; axis < dimension; ++axis) {

@@ -9,6 +9,8 @@
 #include "app/references/growth_step.hpp"
 #include "app/references/kgd_solution.hpp"
 #include "app/references/rock.hpp"
+#include "modules/solid/damage_keys.hpp"
+#include "modules/solid/stress_at_rest.hpp"
 
 namespace perifrac {
 
@@ -27,7 +29,7 @@ KgdProblem read_problem(const Section& scene) {
     scene.fail("reference.type", "this scene is not " + problem,
                "damage, and one inlet with a rate");
   }
-  return {read_elastic_rock(scene).plane_strain_modulus(), scene.number("damage.fracture_energy"),
+  return {read_elastic_rock(scene).plane_strain_modulus(), read_fracture_energy(scene),
           scene.number("crack_fluid.viscosity"), scene.number("crack_fluid.inlets[0].rate")};
 }
 
@@ -47,8 +49,8 @@ std::unique_ptr<Reference> make_kgd_reference(const Section& scene, const Simula
   const auto& manager = *simulation.manager;
   const double spacing = scene.number("body.spacing");
   const double end = scene.number("time.end");
-  const double stress =
-      writes(scene, "solid.confining_stress") ? scene.numbers("solid.confining_stress")[1] : 0.0;
+  const auto stated = read_stated_stress(scene);
+  const double stress = stated ? stated->total[1] : 0.0;
   const std::string inlet = scene.text("crack_fluid.inlets[0].name");
   const Field length = field_named(manager, "crack_length");
   const Field pressure = field_named(manager, fmt::format("inlet_{}_pressure", inlet));

@@ -9,6 +9,8 @@
 #include "app/references/growth_step.hpp"
 #include "app/references/radial_solution.hpp"
 #include "app/references/rock.hpp"
+#include "modules/solid/damage_keys.hpp"
+#include "modules/solid/stress_at_rest.hpp"
 
 namespace perifrac {
 
@@ -64,7 +66,7 @@ RadialProblem read_problem(const Section& scene) {
     scene.fail("reference.type", "this scene is not " + problem,
                "damage, and one inlet with a volume_rate");
   }
-  return {read_elastic_rock(scene).plane_strain_modulus(), scene.number("damage.fracture_energy"),
+  return {read_elastic_rock(scene).plane_strain_modulus(), read_fracture_energy(scene),
           scene.number("crack_fluid.viscosity"),
           scene.number("crack_fluid.inlets[0].volume_rate") / share};
 }
@@ -79,9 +81,8 @@ std::unique_ptr<Reference> make_radial_reference(const Section& scene,
   const auto& manager = *simulation.manager;
   const double spacing = scene.number("body.spacing");
   const double end = scene.number("time.end");
-  const double stress = writes(scene, "solid.confining_stress")
-                            ? scene.numbers("solid.confining_stress")[normal]
-                            : 0.0;
+  const auto stated = read_stated_stress(scene);
+  const double stress = stated ? stated->total[normal] : 0.0;
   const std::string inlet = scene.text("crack_fluid.inlets[0].name");
   const Field area = field_named(manager, "crack_area");
   const Field pressure = field_named(manager, fmt::format("inlet_{}_pressure", inlet));

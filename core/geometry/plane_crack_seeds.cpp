@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "core/geometry/region.hpp"
+#include "core/geometry/outside.hpp"
 
 namespace perifrac {
 
@@ -76,6 +77,14 @@ Region<3> box_of(const Body<3>& body) {
   return box;
 }
 
+/// What lies beyond a face is no part of the crack, where its centre is on that face: a plane of
+/// symmetry, or one that it begins at.
+bool begins_at(const Body<3>& body, int face, const std::vector<double>& centre) {
+  const Face& plane = body.faces()[face];
+  return !plane.curved() &&
+         std::abs(centre[plane.axis] - plane.coordinate) <= 0.51 * body.spacing();
+}
+
 }  // namespace
 
 std::vector<CrackFacet<3>> read_plane_crack(const Section& scene, std::size_t k,
@@ -94,6 +103,12 @@ std::vector<CrackFacet<3>> read_plane_crack(const Section& scene, std::size_t k,
   const auto along = directions(scene, crack + ".normal");
   const Outline outline = read_outline(scene, crack, spacing);
   const Region<3> box = box_of(body);
+  if (const int face = face_before<3>(body, {centre[0], centre[1], centre[2]}); face >= 0) {
+    scene.fail(crack + ".centre",
+               fmt::format("({:.6g}) m lies outside the body, beyond face '{}'",
+                           fmt::join(centre, ", "), body.faces()[face].name),
+               "a place in the body or on its faces");
+  }
   const auto corner = [&](int i, int j) {
     Vector<3> x;
     for (std::size_t a = 0; a < 3; ++a)
@@ -107,7 +122,14 @@ std::vector<CrackFacet<3>> read_plane_crack(const Section& scene, std::size_t k,
       if (!outline.contains((i + 0.5) * spacing, (j + 0.5) * spacing)) continue;
       const CrackFacet<3> facet = {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1),
                                    corner(i, j + 1)};
-      if (box.contains(middle<3>(facet))) facets.push_back(facet);
+      const Vector<3> x = middle<3>(facet);
+      const int face = face_before<3>(body, x);
+      if (face < 0 && box.contains(x)) facets.push_back(facet);
+      if (face < 0 || begins_at(body, face, centre)) continue;
+      scene.fail(crack,
+                 fmt::format("sticks out of the body at ({:.6g}) m, beyond face '{}'",
+                             fmt::join(x, ", "), body.faces()[face].name),
+                 "a crack in the body, which may begin at a face with its centre there");
     }
   }
   if (facets.empty()) scene.fail(crack, "a crack outside the body", "one that cuts it");

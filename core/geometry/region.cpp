@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace perifrac {
 
@@ -38,6 +39,42 @@ std::vector<Region<D>> read_regions(const Section& body) {
   return regions;
 }
 
+namespace {
+
+/// A point of the body that lies within both, and not where they touch; -1: none.
+template <int D>
+Index point_in_both(const Region<D>& one, const Region<D>& other, const Points<D>& points) {
+  for (int a = 0; a < D; ++a) {
+    if (std::max(one.from[a], other.from[a]) >= std::min(one.to[a], other.to[a])) return -1;
+  }
+  for (Index i = 0; i < points.size(); ++i) {
+    if (one.contains(points.at(i)) && other.contains(points.at(i))) return i;
+  }
+  return -1;
+}
+
+/// A point has one rock: which of two it would be nobody should have to know.
+template <int D>
+void refuse_overlaps(const Section& physics, const std::vector<Region<D>>& regions,
+                     const std::vector<std::string>& named, const Points<D>& points) {
+  std::vector<const Region<D>*> used;
+  for (const std::string& name : named) {
+    const auto found = std::ranges::find(regions, name, &Region<D>::name);
+    if (found == regions.end()) continue;
+    for (const Region<D>* other : used) {
+      const Index point = point_in_both<D>(*other, *found, points);
+      if (point < 0) continue;
+      physics.fail("regions." + name,
+                   fmt::format("overlaps region '{}', as at ({:.6g}) m", other->name,
+                               fmt::join(points.at(point), ", ")),
+                   "regions that have no point in common");
+    }
+    used.push_back(&*found);
+  }
+}
+
+}  // namespace
+
 template <int D>
 std::vector<std::uint8_t> region_of_points(const Section& physics,
                                            const std::vector<Region<D>>& regions,
@@ -47,6 +84,7 @@ std::vector<std::uint8_t> region_of_points(const Section& physics,
   std::vector<std::string> known;
   for (const Region<D>& region : regions) known.push_back(region.name);
   const std::vector<std::string> named = physics.names("regions");
+  refuse_overlaps<D>(physics, regions, named, points);
   for (std::size_t n = 0; n < named.size(); ++n) {
     const std::string path = "regions." + named[n];
     const auto found = std::ranges::find(known, named[n]);

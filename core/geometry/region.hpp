@@ -34,8 +34,8 @@ template <int D>
 std::vector<Region<D>> read_regions(const Section& body);
 
 /// For every point the number of the region, among those that the physics' own `regions` names,
-/// that it lies in, plus 1; 0: in none. Where regions overlap, the last that the physics names
-/// holds. Throws InputError for a region that the body does not have or that holds no point.
+/// that it lies in, plus 1; 0: in none. Throws InputError for a region that the body does not have
+/// or that holds no point, and where two have a point in common.
 template <int D>
 std::vector<std::uint8_t> region_of_points(const Section& physics,
                                            const std::vector<Region<D>>& regions,

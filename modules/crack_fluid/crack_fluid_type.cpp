@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "core/config/mistakes.hpp"
 #include "modules/crack_fluid/carter_leak_off.hpp"
 #include "modules/crack_fluid/crack_network.hpp"
+#include "modules/crack_fluid/crack_places.hpp"
 
 namespace perifrac {
 
@@ -77,10 +79,18 @@ template <int D>
 std::unique_ptr<PhysicsModule> make_network(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
   const CrackLiquid liquid = read_liquid(section);
-  auto leak_off = read_leak_off(section, body, liquid);
+  std::unique_ptr<LeakOff> leak_off;
+  std::vector<CrackInlet> inlets;
+  std::vector<CrackFilling<D>> fillings;
+  Mistakes mistakes;
+  mistakes.note([&] { check_crack_places(section, *body); });
+  mistakes.note([&] { leak_off = read_leak_off(section, body, liquid); });
+  mistakes.note([&] { inlets = read_crack_inlets(section); });
+  mistakes.note([&] { fillings = read_fillings<D>(section, liquid); });
+  mistakes.throw_if_any();
   return std::make_unique<CrackNetwork<D>>(std::move(body), liquid,
-                                           CrackInlets(read_crack_inlets(section), liquid),
-                                           read_fillings<D>(section, liquid), std::move(leak_off));
+                                           CrackInlets(std::move(inlets), liquid),
+                                           std::move(fillings), std::move(leak_off));
 }
 
 KeyTable network_keys() {

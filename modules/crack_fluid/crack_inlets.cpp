@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/config/mistakes.hpp"
 #include "core/errors.hpp"
 
 namespace perifrac {
@@ -138,6 +139,26 @@ double read_rate(const Section& section, const std::string& inlet) {
   return section.number(own);
 }
 
+CrackInlet read_inlet(const Section& section, const std::string& path, double part) {
+  CrackInlet inlet{.name = section.text(path + ".name"),
+                   .at = {},
+                   .holds_pressure = section.word(path + ".holds") == "pressure",
+                   .amount = 0.0,
+                   .schedule = read_schedule(section, path),
+                   .from_fluid = section.word(path + ".holds") == "fluid"};
+  if (inlet.holds_pressure) {
+    inlet.amount = section.number(path + ".pressure");
+  } else if (!inlet.from_fluid) {
+    inlet.amount = part * read_rate(section, path);
+  } else if (!section.scene().has("fluid")) {
+    section.fail(path + ".holds", "the scene has no section 'fluid'", "rate or pressure");
+  } else if (section.scene().integer("dimension") == 3) {
+    section.fail(path + ".holds", "'fluid' in 3D", "rate or pressure");
+  }
+  std::ranges::copy(section.numbers(path + ".at"), inlet.at.begin());
+  return inlet;
+}
+
 }  // namespace
 
 std::vector<CrackInlet> read_crack_inlets(const Section& section) {
@@ -146,26 +167,12 @@ std::vector<CrackInlet> read_crack_inlets(const Section& section) {
   }
   const double part = section.word("counts") == "both" ? 0.5 : 1.0;
   std::vector<CrackInlet> inlets;
+  Mistakes mistakes;
   for (std::size_t k = 0; k < section.count("inlets"); ++k) {
-    const std::string path = fmt::format("inlets[{}]", k);
-    CrackInlet inlet{.name = section.text(path + ".name"),
-                     .at = {},
-                     .holds_pressure = section.word(path + ".holds") == "pressure",
-                     .amount = 0.0,
-                     .schedule = read_schedule(section, path),
-                     .from_fluid = section.word(path + ".holds") == "fluid"};
-    if (inlet.holds_pressure) {
-      inlet.amount = section.number(path + ".pressure");
-    } else if (!inlet.from_fluid) {
-      inlet.amount = part * read_rate(section, path);
-    } else if (!section.scene().has("fluid")) {
-      section.fail(path + ".holds", "the scene has no section 'fluid'", "rate or pressure");
-    } else if (section.scene().integer("dimension") == 3) {
-      section.fail(path + ".holds", "'fluid' in 3D", "rate or pressure");
-    }
-    std::ranges::copy(section.numbers(path + ".at"), inlet.at.begin());
-    inlets.push_back(std::move(inlet));
+    mistakes.note(
+        [&] { inlets.push_back(read_inlet(section, fmt::format("inlets[{}]", k), part)); });
   }
+  mistakes.throw_if_any();
   return inlets;
 }
 

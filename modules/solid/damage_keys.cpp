@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/geometry/region.hpp"
 #include "modules/solid/stretch_limit.hpp"
 
 namespace perifrac {
@@ -21,6 +22,11 @@ KeyTable damage_keys() {
        .unit = "J/m^2",
        .range = "(0, inf)",
        .meaning = "Energy that new crack takes per area of it, both faces together."},
+      {.path = "fracture_toughness",
+       .unit = "Pa*sqrt(m)",
+       .range = "(0, inf)",
+       .meaning = "In place of fracture_energy: K_IC of mode I in plane strain, which makes it "
+                  "K_IC^2 (1 - nu^2) / E of the rock at that place."},
       {.path = "tensile_strength",
        .unit = "Pa",
        .range = "(0, inf)",
@@ -34,6 +40,10 @@ KeyTable damage_keys() {
        .unit = "J/m^2",
        .range = "(0, inf)",
        .meaning = "energy_release: the same in a region of the body (body.regions)."},
+      {.path = "regions.*.fracture_toughness",
+       .unit = "Pa*sqrt(m)",
+       .range = "(0, inf)",
+       .meaning = "In place of its fracture_energy."},
       {.path = "critical_stretch",
        .type = KeyType::word,
        .fallback = "corrected",
@@ -53,33 +63,62 @@ KeyTable damage_keys() {
 
 namespace {
 
-double required_fracture_energy(const Section& scene) {
-  if (!scene.has("damage.fracture_energy")) {
-    scene.fail("damage", "missing key 'fracture_energy'", "a number in J/m^2");
+/// The energy of a place, `prefix` as in `damage.` or `damage.regions.rock.`, where the rock has
+/// this E'; nothing where the scene says neither energy nor toughness.
+std::optional<double> energy_at(const Section& scene, const std::string& prefix, double modulus) {
+  const std::string energy = prefix + "fracture_energy", toughness = prefix + "fracture_toughness";
+  if (!scene.has(toughness)) {
+    return scene.has(energy) ? std::optional(scene.number(energy)) : std::nullopt;
   }
-  return scene.number("damage.fracture_energy");
+  if (scene.has(energy)) {
+    scene.fail(toughness, "beside fracture_energy", "one of the two: Gc = K_IC^2 (1 - nu^2) / E");
+  }
+  return scene.number(toughness) * scene.number(toughness) / modulus;
 }
 
-/// What regions of the body have of `key`; each has something of its own.
+double modulus_at(const Section& scene, const std::string& material) {
+  return read_isotropic_elasticity<3>(scene.at("solid"), material).plane_strain_modulus();
+}
+
 template <int D>
-void read_by_region(const Section& scene, const Body<D>& body, const std::string& key,
-                    ByRegion<D, double>& values) {
-  if (!scene.has("damage.regions")) return;
+Region<D> common_part(const Region<D>& one, const Region<D>& other) {
+  Region<D> both = one;
+  for (int a = 0; a < D; ++a) {
+    both.from[a] = std::max(one.from[a], other.from[a]);
+    both.to[a] = std::min(one.to[a], other.to[a]);
+  }
+  return both;
+}
+
+/// Within a part of the body, null for all of it, energy follows toughness from rock to rock.
+template <int D>
+void add_rocks(const Section& scene, const Body<D>& body, const std::string& prefix,
+               const Region<D>* part, ByRegion<D, double>& energy) {
+  if (!scene.has(prefix + "fracture_toughness")) return;
+  for (const std::string& name : scene.names("solid.regions")) {
+    const std::string material = "regions." + name + ".material";
+    const auto rock = std::ranges::find(body.regions(), name, &Region<D>::name);
+    if (!scene.has("solid." + material) || rock == body.regions().end()) continue;
+    energy.inside.emplace_back(part == nullptr ? *rock : common_part<D>(*rock, *part),
+                               *energy_at(scene, prefix, modulus_at(scene, material)));
+  }
+}
+
+/// The regions of the body that `damage` names; each has something of its own.
+template <int D>
+std::vector<Region<D>> read_damage_regions(const Section& scene, const Body<D>& body) {
+  std::vector<Region<D>> regions;
+  if (!scene.has("damage.regions")) return regions;
+  region_of_points<D>(scene.at("damage"), body.regions(), body.points());  // says what is wrong
   for (const std::string& name : scene.names("damage.regions")) {
     const std::string path = "damage.regions." + name;
-    const auto found = std::ranges::find(body.regions(), name, &Region<D>::name);
-    if (found == body.regions().end()) {
-      std::vector<std::string> known;
-      for (const Region<D>& region : body.regions()) known.push_back(region.name);
-      scene.fail_unknown(path, name, known);
-    }
-    if (!scene.has(path + ".fracture_energy") && !scene.has(path + ".tensile_strength")) {
+    if (!scene.has(path + ".fracture_energy") && !scene.has(path + ".fracture_toughness") &&
+        !scene.has(path + ".tensile_strength")) {
       scene.fail(path, "missing key 'fracture_energy'", "a number in J/m^2");
     }
-    if (scene.has(path + "." + key)) {
-      values.inside.emplace_back(*found, scene.number(path + "." + key));
-    }
+    regions.push_back(*std::ranges::find(body.regions(), name, &Region<D>::name));
   }
+  return regions;
 }
 
 }  // namespace
@@ -88,25 +127,45 @@ bool names_critical_stretch(const Section& scene) {
   return scene.has("damage") && scene.word("damage.type") == "critical_stretch";
 }
 
+double read_fracture_energy(const Section& scene) {
+  const auto energy = energy_at(scene, "damage.", modulus_at(scene, "material"));
+  if (!energy) {
+    scene.fail("damage", "missing key 'fracture_energy'",
+               "a number in J/m^2, or fracture_toughness in Pa*sqrt(m)");
+  }
+  return *energy;
+}
+
 template <int D>
 FractureEnergy<D> read_fracture_energy(const Section& scene, const Body<D>& body) {
   if (!scene.has("damage")) return {{std::numeric_limits<double>::infinity()}};
   if (names_critical_stretch(scene)) {
     scene.fail("damage.type", "'critical_stretch' in a quasi_static solid", "energy_release");
   }
-  FractureEnergy<D> energy{{required_fracture_energy(scene)}};
+  FractureEnergy<D> energy{{read_fracture_energy(scene)}};
   energy.scatter = read_scatter<D>(scene, "damage.scatter");
-  read_by_region(scene, body, "fracture_energy", energy.by_region);
+  add_rocks<D>(scene, body, "damage.", nullptr, energy.by_region);
+  for (const Region<D>& region : read_damage_regions(scene, body)) {
+    const std::string prefix = "damage.regions." + region.name + ".";
+    const auto inside = energy_at(scene, prefix, modulus_at(scene, "material"));
+    if (!inside) continue;
+    energy.by_region.inside.emplace_back(region, *inside);
+    add_rocks<D>(scene, body, prefix, &region, energy.by_region);
+  }
   return energy;
 }
 
 template <int D>
 std::optional<TensileStrength<D>> read_tensile_strength(const Section& scene, const Body<D>& body) {
   if (!scene.has("damage")) return {};
+  const auto in_region = [&](const Region<D>& region) {
+    return "damage.regions." + region.name + ".tensile_strength";
+  };
+  const std::vector<Region<D>> regions = read_damage_regions(scene, body);
   if (!scene.has("damage.tensile_strength")) {
-    ByRegion<D, double> none{};
-    read_by_region(scene, body, "tensile_strength", none);
-    if (none.inside.empty()) return {};
+    if (std::ranges::none_of(regions, [&](const auto& r) { return scene.has(in_region(r)); })) {
+      return {};
+    }
     scene.fail("damage", "missing key 'tensile_strength'", "a number in Pa");
   }
   if constexpr (D == 3) {
@@ -114,7 +173,10 @@ std::optional<TensileStrength<D>> read_tensile_strength(const Section& scene, co
   }
   TensileStrength<D> strength{{scene.number("damage.tensile_strength")}};
   strength.scatter = read_scatter<D>(scene, "damage.scatter");
-  read_by_region(scene, body, "tensile_strength", strength.by_region);
+  for (const Region<D>& region : regions) {
+    if (!scene.has(in_region(region))) continue;
+    strength.by_region.inside.emplace_back(region, scene.number(in_region(region)));
+  }
   return strength;
 }
 
@@ -125,12 +187,13 @@ double read_stretch_limit(const Section& scene, const Body<D>& body, const Famil
     if (scene.has(key)) scene.fail(key, "with critical_stretch", "energy_release");
   }
   if (scene.has("damage.stretch")) {
-    if (scene.has("damage.fracture_energy")) {
-      scene.fail("damage.stretch", "beside fracture_energy", "one of the two");
+    for (const std::string other : {"fracture_energy", "fracture_toughness"}) {
+      if (!scene.has("damage." + other)) continue;
+      scene.fail("damage.stretch", "beside " + other, "one of the two");
     }
     return scene.number("damage.stretch");
   }
-  const double energy = required_fracture_energy(scene);
+  const double energy = read_fracture_energy(scene);
   const std::string word = scene.word("damage.critical_stretch");
   if (word == "calibrated") return calibrated_stretch(law, energy, body.spacing());
   if (word == "corrected") {

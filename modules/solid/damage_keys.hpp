@@ -17,6 +17,10 @@ KeyTable damage_keys();
 /// The scene's bonds break by critical_stretch.
 bool names_critical_stretch(const Section& scene);
 
+/// What new crack takes outside `damage.regions` [J/m^2], whichever way the scene says it. Throws
+/// InputError where it does not, or twice.
+double read_fracture_energy(const Section& scene);
+
 /// What the scene's cracks grow at; infinite without a section `damage`. Throws InputError for
 /// another criterion than energy_release.
 template <int D>

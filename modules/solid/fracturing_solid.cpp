@@ -92,6 +92,15 @@ double FracturingSolid<D>::advance(const TimeWindow& window) {
   return window.end;
 }
 
+/// The pore stress that loads the rock: what is beyond that of the body at rest.
+template <int D>
+std::span<const double> FracturingSolid<D>::added_pore_stress() {
+  if (pore_stress_.empty() || pore_stress_at_rest_.empty()) return pore_stress_;
+  added_pore_stress_.resize(pore_stress_.size());
+  view(added_pore_stress_) = view(pore_stress_) - view(pore_stress_at_rest_);
+  return added_pore_stress_;
+}
+
 /// What presses and pulls at the window's end on all that is solved for, the cracks' faces apart.
 template <int D>
 Eigen::VectorXd FracturingSolid<D>::find_load() {
@@ -110,7 +119,7 @@ Eigen::VectorXd FracturingSolid<D>::find_load() {
   if (!pore_stress_.empty()) {
     const std::vector<double> rest(all.size(), 0.0);
     std::vector<double> force(all.size()), scratch(body_->points().size());
-    cracked_.elastic().apply(rest, {pore_stress_}, force, scratch);
+    cracked_.elastic().apply(rest, {added_pore_stress()}, force, scratch);
     all -= view(force);
   }
   return free_unknowns_.transpose() * all;
@@ -198,7 +207,7 @@ void FracturingSolid<D>::book_work() {
   }
   find_unknowns();
   std::vector<double> force(unknowns_.size()), scratch(body_->points().size());
-  cracked_.elastic().apply(unknowns_, {pore_stress_}, force, scratch);
+  cracked_.elastic().apply(unknowns_, {added_pore_stress()}, force, scratch);
   view(force) -= cracked_.face_force(faces_.pressure, true, faces_.shear);
   double relief = 0.0;
   for (Index f = 0; f < static_cast<Index>(cracked_.jumps().size()); ++f) {
@@ -206,6 +215,10 @@ void FracturingSolid<D>::book_work() {
     double sum = 0.0;
     for (int a = 0; a < D; ++a) sum += stress[a] * jump[a];
     relief += cracked_.jumps()[f].area * sum;
+  }
+  // Likewise, what bears the pore stress at rest from outside.
+  for (std::size_t i = 0; i < pore_stress_at_rest_.size(); ++i) {
+    relief -= pore_stress_at_rest_[i] * scratch[i] * body_->points().volume[i];
   }
   external_work_ +=
       0.5 * (view(force_) + view(force)).dot(view(unknowns_) - view(unknowns_before_)) + relief -
@@ -222,7 +235,7 @@ CrackState<D> FracturingSolid<D>::crack_state() {
           .pressure = faces_.pressure,
           .viscosity = crack_viscosity_,
           .leak_off = crack_leak_off_,
-          .pore_stress = pore_stress_,
+          .pore_stress = added_pore_stress(),
           .unknowns = [this](const UnknownNames& named) { return find_unknowns(named); },
           .jumps = [this] { return cracked_.jumps_under(faces_.pressure, faces_.shear); },
           .shear = faces_.shear};

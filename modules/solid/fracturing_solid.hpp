@@ -55,6 +55,11 @@ class FracturingSolid final : public PhysicsModule {
 
   std::span<const Port> ports() const override { return ports_; }
   PortView port(PortId id) override;
+  /// As QuasiStaticSolid's.
+  void set_pore_stress_at_rest(std::vector<double> stress) {
+    pore_stress_at_rest_ = std::move(stress);
+  }
+
   void initialize(double t) override;
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
@@ -95,6 +100,7 @@ class FracturingSolid final : public PhysicsModule {
     return loads_are_steady_ && pore_stress_.empty() && !interface_.is_linked();
   }
   CrackState<D> crack_state();
+  std::span<const double> added_pore_stress();
   Eigen::VectorXd find_load();
   Eigen::VectorXd in_cracks();
   void take_load();
@@ -152,6 +158,8 @@ class FracturingSolid final : public PhysicsModule {
   int cuts_ = 0;                    ///< of the window at hand
 
   std::vector<double> pore_stress_;
+  std::vector<double> pore_stress_at_rest_;  ///< empty: none
+  std::vector<double> added_pore_stress_;    ///< beyond that at rest, where there is any
   std::vector<double> crack_pressure_;
   std::vector<double> crack_viscosity_;
   std::vector<double> crack_leak_off_;

@@ -167,7 +167,9 @@ void FracturingSolid<D>::find_effective_stress() {
   for (Index i = 0; i < body_->points().size() && initial_stress_; ++i) {
     const Vector<D> there = initial_stress_->at(body_->points().at(i));
     for (std::size_t a = 0; a < D; ++a) {
-      effective_stress_[(a * D + a) * body_->points().volume.size() + i] += there[a];
+      double& stress = effective_stress_[(a * D + a) * body_->points().volume.size() + i];
+      stress += there[a];
+      if (!pore_stress_at_rest_.empty()) stress += pore_stress_at_rest_[i];
     }
   }
 }

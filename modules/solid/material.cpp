@@ -11,6 +11,7 @@
 #include "modules/solid/isotropic_elasticity.hpp"
 #include "modules/solid/linear_exact_elasticity.hpp"
 #include "modules/solid/lps_elasticity.hpp"
+#include "modules/solid/stress_at_rest.hpp"
 
 namespace perifrac {
 
@@ -28,18 +29,8 @@ KeyTable material_keys() {
        .words = {"linear_exact", "lps", "lps_printed"},
        .meaning = "linear_exact: isotropic, exact for linear fields on any points; lps: the linear "
                   "peridynamic solid, whose moduli on a lattice are off (docs/materials.md); "
-                  "lps_printed: the same with the paper's misprints, 2D, for comparison only."},
-      {.path = "confining_stress",
-       .type = KeyType::vector,
-       .unit = "Pa",
-       .meaning = "Normal stress of the body at rest along every axis, compressive positive, "
-                  "without pore pressure; what lies behind the faces bears it."}};
-  keys.push_back({.path = "regions.*.confining_stress",
-                  .type = KeyType::vector,
-                  .unit = "Pa",
-                  .meaning = "The same in a region of the body, beside cracks that grow by "
-                             "energy_release. What a layer bears across its faces is to be what "
-                             "the rest bears there."});
+                  "lps_printed: the same with the paper's misprints, 2D, for comparison only."}};
+  for (Key& key : stress_at_rest_keys()) keys.push_back(std::move(key));
   for (Key key : elastic_constant_keys()) {
     keys.push_back(key);
     key.path = "regions.*." + key.path;
@@ -104,76 +95,10 @@ std::unique_ptr<BreakableElasticity<D>> make_linear_exact(std::shared_ptr<const 
   return law.laws.size() == 1 ? make(law.laws.front()) : make(std::move(law));
 }
 
-template <int D>
-Vector<D> read_confining_stress(const Section& section, const std::string& path) {
-  Vector<D> stress;
-  std::ranges::transform(section.numbers(path), stress.begin(), std::negate());
-  return stress;
-}
-
-/// A region whose faces lie within the body bears what the rest bears across them.
-template <int D>
-void require_rest(const Section& section, const std::string& path, const Region<D>& region,
-                  const Vector<D>& inside, const Vector<D>& elsewhere, const Points<D>& points) {
-  for (int a = 0; a < D; ++a) {
-    const auto [least, largest] = std::ranges::minmax(points.position[a]);
-    const bool ends = region.from[a] > least || region.to[a] < largest;
-    if (!ends || inside[a] == elsewhere[a]) continue;
-    section.fail(path,
-                 fmt::format("a stress along {} that jumps across a face of the region",
-                             std::string(1, "xyz"[a])),
-                 fmt::format("{:g} Pa along it, as elsewhere", -elsewhere[a]));
-  }
-}
-
-/// The first region that has a stress of its own.
-std::optional<std::string> stressed_region(const Section& section) {
-  if (!section.has("regions")) return {};
-  for (const std::string& name : section.names("regions")) {
-    std::string path = "regions." + name + ".confining_stress";
-    if (section.has(path)) return path;
-  }
-  return {};
-}
-
-/// Of a body that is the same everywhere.
-template <int D>
-std::optional<Vector<D>> read_uniform_stress(const Section& section) {
-  if (const auto path = stressed_region(section)) {
-    section.fail(*path, "without cracks that grow by energy_release", "solid.confining_stress");
-  }
-  if (!section.has("confining_stress")) return {};
-  return read_confining_stress<D>(section, "confining_stress");
-}
-
 }  // namespace
 
 bool is_corotational(const Section& section) {
   return section.word("kinematics") == "corotational";
-}
-
-template <int D>
-std::optional<InitialStress<D>> read_initial_stress(const Section& section, const Body<D>& body) {
-  const auto stressed = stressed_region(section);
-  if (!section.has("confining_stress")) {
-    if (stressed) section.fail(*stressed, "beside no stress elsewhere", "solid.confining_stress");
-    return {};
-  }
-  if (stressed && !body.cutouts().empty()) {
-    section.fail(*stressed, "in a body with cutouts", "one solid.confining_stress");
-  }
-  InitialStress<D> stress{read_confining_stress<D>(section, "confining_stress")};
-  if (!stressed) return stress;
-  region_of_points<D>(section, body.regions(), body.points());  // says which do not exist
-  for (const std::string& name : section.names("regions")) {
-    const std::string path = "regions." + name + ".confining_stress";
-    if (!section.has(path)) continue;
-    const Region<D>& region = *std::ranges::find(body.regions(), name, &Region<D>::name);
-    stress.inside.emplace_back(region, read_confining_stress<D>(section, path));
-    require_rest<D>(section, path, region, stress.inside.back().second, stress.elsewhere,
-                    body.points());
-  }
-  return stress;
 }
 
 template <int D>
@@ -211,8 +136,6 @@ std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
                               is_corotational(section));
 }
 
-template std::optional<InitialStress<2>> read_initial_stress<2>(const Section&, const Body<2>&);
-template std::optional<InitialStress<3>> read_initial_stress<3>(const Section&, const Body<3>&);
 template std::unique_ptr<BreakableElasticity<2>> read_breakable_material<2>(
     const Section&, const Body<2>&, std::shared_ptr<const Family<2>>, const MirrorCondition<2, 2>&);
 template std::unique_ptr<BreakableElasticity<3>> read_breakable_material<3>(

@@ -8,13 +8,12 @@
 #include "core/geometry/body.hpp"
 #include "modules/solid/breakable_elasticity.hpp"
 #include "modules/solid/elastic_operator.hpp"
-#include "modules/solid/initial_stress.hpp"
 #include "modules/solid/solid_boundary.hpp"
 
 namespace perifrac {
 
-/// The keys of `kinematics`, of `material`, of what differs in `regions`, and of
-/// `confining_stress`.
+/// The keys of `kinematics`, of `material`, of what differs in `regions`, and of the stress at
+/// rest.
 KeyTable material_keys();
 
 /// The material that a solid's section describes, on the families that the boundary asks for;
@@ -32,10 +31,5 @@ std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
 
 /// Rotations may be large.
 bool is_corotational(const Section& section);
-
-/// Nothing where the scene has none; throws InputError, also where regions have another and the
-/// body would not be at rest.
-template <int D>
-std::optional<InitialStress<D>> read_initial_stress(const Section& section, const Body<D>& body);
 
 }  // namespace perifrac

@@ -97,6 +97,12 @@ PortView QuasiStaticSolid<D>::port(PortId id) {
     case effective_stress:
       effective_stress_.resize(D * D * body_->points().volume.size());
       elastic_->stress(unknowns_, effective_stress_);
+      for (std::size_t i = 0; i < pore_stress_at_rest_.size(); ++i) {
+        for (std::size_t a = 0; a < D; ++a) {
+          effective_stress_[(a * D + a) * pore_stress_at_rest_.size() + i] +=
+              pore_stress_at_rest_[i];
+        }
+      }
       return {points, effective_stress_};
     case elastic_energy:
       return {&whole_body, {&elastic_energy_, 1}};
@@ -137,16 +143,30 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
   view(unknowns_) = prescribed + free_unknowns_ * solution;
   view(force_) = stiffness_ * view(unknowns_) - pore;
   external_work_ += 0.5 * (force_before + view(force_)).dot(view(unknowns_) - before);
+  external_work_ -= work_at_rest();
   derive_from_unknowns();
+  external_work_ += work_at_rest();
   return window.end;
 }
 
-/// What the pore stress does to all unknowns: the transpose of what makes dilatation of them.
+/// What the pore stress beyond that at rest does to all unknowns: the transpose of what makes
+/// dilatation of them.
 template <int D>
 Eigen::VectorXd QuasiStaticSolid<D>::pore_force() const {
   if (pore_stress_.empty()) return Eigen::VectorXd::Zero(stiffness_.rows());
+  Eigen::VectorXd stress = view(pore_stress_);
+  if (!pore_stress_at_rest_.empty()) stress -= view(pore_stress_at_rest_);
   return elastic_->pore_sign() * dilatation_of_.transpose() *
-         view(body_->points().volume).cwiseProduct(view(pore_stress_));
+         view(body_->points().volume).cwiseProduct(stress);
+}
+
+/// What bears the pore stress at rest from outside has done since the start, as the pores swelled.
+template <int D>
+double QuasiStaticSolid<D>::work_at_rest() const {
+  if (pore_stress_at_rest_.empty()) return 0.0;
+  return -view(pore_stress_at_rest_)
+              .cwiseProduct(view(body_->points().volume))
+              .dot(view(dilatation_));
 }
 
 template <int D>

@@ -39,6 +39,12 @@ class QuasiStaticSolid final : public PhysicsModule {
 
   std::span<const Port> ports() const override;
   PortView port(PortId id) override;
+  /// Of every point, what of the pore stress does not load the rock: that of a body at rest under a
+  /// total stress (stress_at_rest.hpp). Empty: nothing.
+  void set_pore_stress_at_rest(std::vector<double> stress) {
+    pore_stress_at_rest_ = std::move(stress);
+  }
+
   void initialize(double t) override;
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
@@ -59,6 +65,7 @@ class QuasiStaticSolid final : public PhysicsModule {
 
   Eigen::SparseMatrix<double> free_stiffness() const;
   Eigen::VectorXd pore_force() const;
+  double work_at_rest() const;
   Eigen::VectorXd interface_force() const;
   void derive_from_unknowns();
 
@@ -77,7 +84,8 @@ class QuasiStaticSolid final : public PhysicsModule {
   std::vector<double> force_;     ///< external force on every unknown, reactions included [N]
   double external_work_ = 0.0;
 
-  std::vector<double> pore_stress_;  ///< input; empty until somebody links it
+  std::vector<double> pore_stress_;          ///< input; empty until somebody links it
+  std::vector<double> pore_stress_at_rest_;  ///< empty: none
   InterfaceForce interface_;
   std::vector<double> dilatation_;
   std::vector<double> slope_;

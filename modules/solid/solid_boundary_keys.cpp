@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "core/config/mistakes.hpp"
 #include "core/geometry/face_conditions.hpp"
+#include "core/geometry/read_point.hpp"
 #include "core/time/schedule.hpp"
 
 namespace perifrac {
@@ -165,13 +167,35 @@ void check_sphere_pressure(const Section& section, const FaceCondition& conditio
   }
 }
 
+/// A pin is to hold what would float: beside a face that holds the same displacement it strains the
+/// rock in between. A plate goes where its force takes it.
+void refuse_what_faces_hold(const Section& section, const std::string& pin, int axis,
+                            const std::vector<FaceCondition>& conditions,
+                            const std::vector<Face>& faces) {
+  for (const FaceCondition& condition : conditions) {
+    const Face& face = faces[condition.face];
+    const bool holds =
+        condition.type == "fixed" || (condition.type == "roller" && face.axis == axis);
+    if (!holds) continue;
+    section.fail(pin,
+                 fmt::format("holds the displacement along {}, which face '{}' of type {} holds",
+                             "xyz"[axis], face.name, condition.type),
+                 "pins only along axes that no face holds");
+  }
+}
+
 template <int D>
-void read_pins(const Section& section, const Body<D>& body, SolidBoundary<D>& boundary) {
+void read_pins(const Section& section, const Body<D>& body,
+               const std::vector<FaceCondition>& conditions, SolidBoundary<D>& boundary,
+               Mistakes& mistakes) {
   for (std::size_t k = 0; k < section.count("pins"); ++k) {
     const std::string path = fmt::format("pins[{}]", k);
-    const int axis = section.word(path + ".axis")[0] - 'x';
-    if (axis >= D) section.fail(path + ".axis", "'z' in 2D", "x or y");
-    boundary.pin(body.nearest_point(read_vector<D>(section, path + ".at")), axis);
+    mistakes.note([&] {
+      const int axis = section.word(path + ".axis")[0] - 'x';
+      if (axis >= D) section.fail(path + ".axis", "'z' in 2D", "x or y");
+      refuse_what_faces_hold(section, path, axis, conditions, body.faces());
+      boundary.pin(read_point(section, path + ".at", body), axis);
+    });
   }
 }
 
@@ -196,19 +220,28 @@ void read_gravity(const Section& section, SolidBoundary<D>& boundary) {
 template <int D>
 SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body) {
   SolidBoundary<D> boundary(body);
-  const auto conditions = read_face_conditions(section, body.faces(), {"free", "pressure"});
+  Mistakes mistakes;
+  std::vector<FaceCondition> conditions;
+  mistakes.note([&] {
+    conditions = read_face_conditions(section, body.faces(), {"free", "pressure"});
+  });
   for (const FaceCondition& condition : conditions) {
-    read_face(section, condition, boundary);
-    read_held_region(section, body, condition, boundary);
+    mistakes.note([&] {
+      read_face(section, condition, boundary);
+      read_held_region(section, body, condition, boundary);
+    });
   }
   for (const FaceCondition& condition : conditions) {
-    check_sphere_pressure(section, condition, body.faces(), boundary.mirrored());
+    mistakes.note(
+        [&] { check_sphere_pressure(section, condition, body.faces(), boundary.mirrored()); });
   }
-  read_pins(section, body, boundary);
-  read_body_force(section, boundary);
-  read_gravity(section, boundary);
-  if (!body.cutouts().empty() && section.has("confining_stress")) {
-    boundary.relieve_cutouts(read_vector<D>(section, "confining_stress"));
+  read_pins(section, body, conditions, boundary, mistakes);
+  mistakes.note([&] { read_body_force(section, boundary); });
+  mistakes.note([&] { read_gravity(section, boundary); });
+  mistakes.throw_if_any();
+  for (const char* stress : {"confining_stress", "total_stress"}) {
+    if (body.cutouts().empty() || !section.has(stress)) continue;
+    boundary.relieve_cutouts(read_vector<D>(section, stress));
   }
   return boundary;
 }

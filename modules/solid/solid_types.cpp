@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/geometry/crack_seeds.hpp"
-#include "core/geometry/plane_crack_seeds.hpp"
+#include "core/config/mistakes.hpp"
+#include "core/geometry/crack_list.hpp"
 #include "modules/solid/crack_friction_keys.hpp"
 #include "modules/solid/damage_keys.hpp"
 #include "modules/solid/dynamic_fracture.hpp"
@@ -16,6 +16,7 @@
 #include "modules/solid/rigid_slits.hpp"
 #include "modules/solid/rigid_solid.hpp"
 #include "modules/solid/solid_boundary_keys.hpp"
+#include "modules/solid/stress_at_rest.hpp"
 
 namespace perifrac {
 
@@ -23,24 +24,6 @@ namespace {
 
 bool has_cracks(const Section& section) {
   return section.scene().has("damage") || section.scene().count("cracks") > 0;
-}
-
-std::vector<CrackFacet<2>> read_crack(const Section& scene, std::size_t k, const Body<2>& body) {
-  return read_crack(scene, k, body.spacing());
-}
-std::vector<CrackFacet<3>> read_crack(const Section& scene, std::size_t k, const Body<3>& body) {
-  return read_plane_crack(scene, k, body);
-}
-
-/// The facets of all cracks that the scene has from the start.
-template <int D>
-std::vector<CrackFacet<D>> read_seeds(const Section& scene, const Body<D>& body) {
-  std::vector<CrackFacet<D>> facets;
-  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
-    const std::vector<CrackFacet<D>> crack = read_crack(scene, k, body);
-    facets.insert(facets.end(), crack.begin(), crack.end());
-  }
-  return facets;
 }
 
 /// What a scene's cracks that facets make are.
@@ -52,9 +35,9 @@ struct Cracks {
 };
 
 template <int D>
-Cracks<D> read_cracks(const Section& section, const Body<D>& body) {
+Cracks<D> read_growing_cracks(const Section& section, const Body<D>& body) {
   const Section scene = section.scene();
-  Cracks<D> cracks{.seeds = read_seeds(scene, body),
+  Cracks<D> cracks{.seeds = all_facets<D>(read_cracks(scene, body)),
                    .fracture_energy = read_fracture_energy(scene, body),
                    .tensile_strength = read_tensile_strength(scene, body)};
   if (cracks.seeds.empty() && scene.has("crack_fluid")) {
@@ -67,6 +50,22 @@ Cracks<D> read_cracks(const Section& section, const Body<D>& body) {
   }
   return cracks;
 }
+
+/// What a solid with such cracks is made of. All of it is read, so that all mistakes are told.
+template <int D>
+struct CrackedParts {
+  CrackedParts(const Section& section, const Body<D>& body) : boundary(body) {
+    Mistakes mistakes;
+    mistakes.note([&] { cracks = read_growing_cracks(section, body); });
+    mistakes.note([&] { boundary = read_solid_boundary<D>(section, body); });
+    mistakes.note([&] { stress = read_initial_stress<D>(section, body); });
+    mistakes.throw_if_any();
+  }
+
+  Cracks<D> cracks;
+  SolidBoundary<D> boundary;
+  std::optional<InitialStress<D>> stress;
+};
 
 constexpr const char* kinematics_key = "kinematics";
 
@@ -91,8 +90,8 @@ void check_large_rotations(const Section& section, const Body<D>& body,
   if (section.word("material.type") != "linear_exact") {
     refuse("material.type", fmt::format("'{}'", section.word("material.type")), "linear_exact");
   }
-  if (section.has("confining_stress")) {
-    refuse("confining_stress", "a stress of the body at rest", "loads on the faces");
+  for (const char* stress : {"confining_stress", "total_stress"}) {
+    if (section.has(stress)) refuse(stress, "a stress of the body at rest", "loads on the faces");
   }
   const auto family = body.family(boundary.mirrored());
   if (family->curved) refuse("boundary", "a mirrored sphere", "a free sphere");
@@ -115,15 +114,14 @@ void check_large_rotations(const Section& section, const Body<D>& body,
 template <int D>
 std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
                                                std::shared_ptr<const Body<D>> body) {
-  const Cracks<D> cracks = read_cracks(section, *body);
-  const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
+  const auto& [cracks, boundary, stress] = CrackedParts<D>(section, *body);
   auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
   auto elastic =
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));
   auto solid = std::make_unique<FracturingSolid<D>>(
-      body, family, std::move(elastic), boundary, read_initial_stress<D>(section, *body),
-      cracks.seeds, cracks.fracture_energy, cracks.tensile_strength,
-      read_crack_friction<D>(section));
+      body, family, std::move(elastic), boundary, stress, cracks.seeds, cracks.fracture_energy,
+      cracks.tensile_strength, read_crack_friction<D>(section));
+  solid->set_pore_stress_at_rest(read_pore_stress_at_rest<D>(section, *body));
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -135,19 +133,18 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
                                                      std::shared_ptr<const Body<2>> body) {
   refuse_large_rotations(section, "beside cracks whose faces do not turn",
                          "damage.type: critical_stretch");
-  const Cracks<2> cracks = read_cracks(section, *body);
+  const auto& [cracks, boundary, stress] = CrackedParts<2>(section, *body);
   if (cracks.tensile_strength) {
     section.scene().fail("damage.tensile_strength", "in a dynamic solid",
                          "solid.type: quasi_static, or none");
   }
-  const SolidBoundary<2> boundary = read_solid_boundary<2>(section, *body);
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<2>> elastic =
       read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
-  return std::make_unique<DynamicFracture>(
-      body, family, std::move(elastic), boundary, section.number("density"),
-      section.number("damping"), section.number("integrator.safety"),
-      read_initial_stress<2>(section, *body), cracks.seeds, cracks.fracture_energy);
+  return std::make_unique<DynamicFracture>(body, family, std::move(elastic), boundary,
+                                           section.number("density"), section.number("damping"),
+                                           section.number("integrator.safety"), stress,
+                                           cracks.seeds, cracks.fracture_energy);
 }
 
 std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
@@ -166,6 +163,7 @@ std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
   auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary);
+  solid->set_pore_stress_at_rest(read_pore_stress_at_rest<D>(section, *body));
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
@@ -181,12 +179,13 @@ std::unique_ptr<CriticalStretch<D>> make_breaking(const Section& section, const 
   if (family->curved) {
     section.fail("boundary", "bonds that break beside a mirrored sphere", "a free sphere");
   }
-  if (section.has("confining_stress")) {
-    section.fail("confining_stress", "beside bonds that break in a dynamic solid",
+  for (const char* stress : {"confining_stress", "total_stress"}) {
+    if (!section.has(stress)) continue;
+    section.fail(stress, "beside bonds that break in a dynamic solid",
                  "loads on the faces, or type: quasi_static");
   }
   read_initial_stress<D>(section, body);  // says what regions may not have
-  std::vector<CrackFacet<D>> seeds = read_seeds(scene, body);
+  std::vector<CrackFacet<D>> seeds = all_facets<D>(read_cracks(scene, body));
   const double limit =
       read_stretch_limit<D>(scene, body, *family, read_isotropic_elasticity<D>(section));
   return std::make_unique<CriticalStretch<D>>(family, std::move(elastic), body.claim_bond_state(),
@@ -229,14 +228,14 @@ std::unique_ptr<PhysicsModule> make_rigid(const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
   const Section scene = section.scene();
   if (scene.count("cracks") == 0) return std::make_unique<RigidSolid>();
-  std::vector<CrackFacet<D>> facets;
+  const auto cracks = read_cracks(scene, *body);
   std::vector<double> opening;
-  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
-    const std::vector<CrackFacet<D>> crack = read_crack(scene, k, *body);
-    facets.insert(facets.end(), crack.begin(), crack.end());
-    opening.resize(facets.size(), scene.number(fmt::format("cracks[{}].opening", k)));
+  for (std::size_t k = 0; k < cracks.size(); ++k) {
+    opening.insert(opening.end(), cracks[k].size(),
+                   scene.number(fmt::format("cracks[{}].opening", k)));
   }
-  return std::make_unique<RigidSlits<D>>(std::move(body), facets, std::move(opening));
+  return std::make_unique<RigidSlits<D>>(std::move(body), all_facets<D>(cracks),
+                                         std::move(opening));
 }
 
 /// Keys of one elastic solid may stand beside another, so that one word swaps them.

@@ -206,6 +206,54 @@ TEST(Barriers, AskForMorePressureAsTheCrackGoesOn) {
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
 }
 
+/// The well's pressure in rock under a stress, with a pore pressure, from 4 to 8 ms in the mean
+/// [Pa].
+double well_pressure_under(const std::string& stress, const std::string& more,
+                           const std::string& pores, const std::string& in_crack,
+                           const std::string& top) {
+  const SceneRun run = run_config(
+      "hf_barriers",
+      {"body.size=[400 mm, 400 mm]", "body.spacing=10 mm",
+       "body.regions.barrier.from=[100 mm, 0 m]", "cracks[0].path=[0 mm, 200 mm, 50 mm, 200 mm]",
+       "crack_fluid.inlets[0].at=[0 mm, 200 mm]", "crack_fluid.inlets[0].rate=1e-3 m^2/s",
+       "crack_fluid.leak_off=pores",
+       "crack_fluid.filled=[{from: [0 mm, 190 mm], to: [60 mm, 210 mm], pressure: " + in_crack +
+           "}]",
+       "damage.fracture_energy=50 J/m^2", "time.end=8 ms", "output.history_interval=0 s",
+       "coupling.iterations={max: 100, tolerance: 1e-3}",
+       "solid={type: quasi_static, material: {youngs_modulus: 20 GPa, poisson_ratio: 0.25}, " +
+           stress + ", regions: {barrier: {" + more +
+           "}}, boundary: {left: {type: roller}, bottom: {type: roller}, top: {type: " + top +
+           "}}}",
+       "pore_flow={type: darcy, permeability: 1e-18 m^2, porosity: 0.1, initial_pressure: " +
+           pores +
+           ", fluid: {viscosity: 1 cP, bulk_modulus: 2.2 GPa}, integrator: {type: explicit}}"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+  const std::vector<double> time = run.column("time [s]"),
+                            pressure = run.column("inlet_well_pressure [Pa]");
+  double sum = 0.0, lasted = 0.0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    if (time[k - 1] < 4e-3) continue;
+    sum += 0.5 * (time[k] - time[k - 1]) * (pressure[k - 1] + pressure[k]);
+    lasted += time[k] - time[k - 1];
+  }
+  return sum / lasted;
+}
+
+/// Total stresses of 45 and 40 MPa (41 in a barrier) with 30 MPa in the pores are effective ones of
+/// 15 and 10: all pressures are 30 MPa more. Right and top are free to move, under what they bear.
+/// The fluid that is driven is denser by 1.4 %.
+TEST(TotalStress, IsTheEffectiveOneAndThePressureInThePores) {
+  const double total =
+      well_pressure_under("total_stress: [45 MPa, 40 MPa]", "total_stress: [45 MPa, 41 MPa]",
+                          "30 MPa", "40 MPa", "free");
+  const double effective =
+      well_pressure_under("confining_stress: [15 MPa, 10 MPa]",
+                          "confining_stress: [15 MPa, 11 MPa]", "0 MPa", "10 MPa", "free");
+  EXPECT_NEAR(total - 30e6, effective, 0.0045 * (effective - 10e6));
+}
+
 /// A round crack in 3D of three to five spacings, in a block of twelve; verification_radial has
 /// more.
 TEST(RoundCrack, GrowsAsAPennyShapedOne) {
