@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "app/nucleus_warning.hpp"
@@ -182,7 +183,8 @@ int run_scene(const RunRequest& request) {
         read_output_times(scene.at("output"), scene.number("time.end"), read_until(request.until));
   });
   mistakes.throw_if_any();
-  for (const std::string& line : what_was_read(scene, simulation)) log_info(line);
+  const std::vector<std::string> read = what_was_read(scene, simulation);
+  if (!request.json) fmt::print("{}\n", fmt::join(read, "\n"));
   if (const auto warning = nucleus_warning(scene)) log_warning(*warning);
   simulation.end = outputs.back();
   Recorder recorder(scene, text, simulation);
@@ -210,6 +212,7 @@ int run_scene(const RunRequest& request) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   nlohmann::json summary = summarize(scene, request.scene, text, simulation, recorder.reference(),
                                      outcome, {.whole = seconds, .output = recorder.seconds()});
+  summary["read"] = read;
   if (profile) summary["profile"] = profile_json(*profile, simulation);
   write_summary(folder.path(), summary);
   if (request.json) {

@@ -68,6 +68,20 @@ class CommandLine(RunTest):
         self.assertTrue(perifrac("check", MANDEL, cwd=self.folder).stdout)
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_check_and_run_say_what_was_read(self):
+        scene = CONFIGS / "hf_leakoff_pores.yaml"
+        sets = settings({"body.spacing": "10 mm", "pore_flow.initial_pressure": "1 MPa", "damage": "{type: "
+                         "energy_release, fracture_toughness: 0.1 MPa*sqrt(m)}"})
+        said = json.loads(perifrac("check", scene, *sets, "--trial", "0", "--json").stdout)["read"]
+        self.assertIn("crack 'notch' is closed by 1.9 MPa", said, "0.9 MPa of the rock, 1 of the pores")
+        self.assertIn("toughness: fracture energy 2.34375 J/m^2, with E' = 4.26667e+09 Pa a K_IC of 0.1 MPa*sqrt(m)",
+                      said)
+        stress = next(line for line in said if line.startswith("stress at rest"))
+        self.assertRegex(stress, r"effective \(0.9, 0.45\) MPa, with 1 of 1 MPa in the pores a total of \(1.9, 1.45\)")
+        self.assertIn("permeability 1.02e-14 m^2", next(line for line in said if line.startswith("read pore_flow")))
+        run = perifrac("run", scene, *sets, "--until", "1 us", "--no-report", "--output", self.folder / "run")
+        self.assertEqual(run.stdout.splitlines()[:len(said)], said)
+
     def test_check_foretells_what_a_run_takes(self):
         def foretold(*arguments):
             done = perifrac("check", *arguments, "--json", cwd=self.folder)

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "app/scene_keys.hpp"
+#include "core/config/scene.hpp"
+#include "modules/solid/damage_keys.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace perifrac::test {
@@ -204,6 +207,27 @@ TEST(Barriers, AskForMorePressureAsTheCrackGoesOn) {
   EXPECT_GE(in_barrier, 10);
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+}
+
+/// K_IC^2 (1 - nu^2) / E of the rock at each place, whichever section names its region.
+TEST(FractureToughness, IsTheEnergyOfTheRockAtThatPlace) {
+  const YamlNode written = parse_yaml_text(
+      "{dimension: 2, time: {end: 1 s}, body: {shape: box, size: [8 m, 8 m], spacing: 1 m, "
+      "regions: "
+      "{soft: {from: [4 m, 0 m]}, tough: {from: [0 m, 4 m]}}}, solid: {type: quasi_static, "
+      "material: {youngs_modulus: 15 GPa, poisson_ratio: 0.25}, regions: {soft: {material: "
+      "{youngs_modulus: 1.5 GPa, poisson_ratio: 0.25}}}}, damage: {type: energy_release, "
+      "fracture_toughness: 1 MPa*sqrt(m), regions: {tough: {fracture_toughness: 2 "
+      "MPa*sqrt(m)}}}}",
+      "test");
+  const Section scene = check_tree(written, "", scene_catalogue());
+  const auto body = std::get<0>(make_body(scene.at("body"), 2));
+  const FractureEnergy<2> energy = read_fracture_energy(scene, *body);
+  EXPECT_NEAR(energy.at({2.0, 2.0}), 62.5, 1e-9);
+  EXPECT_NEAR(energy.at({6.0, 2.0}), 625.0, 1e-9);
+  EXPECT_NEAR(energy.at({2.0, 6.0}), 250.0, 1e-9);
+  EXPECT_NEAR(energy.at({6.0, 6.0}), 2500.0, 1e-9);
+  EXPECT_NEAR(read_fracture_energy(scene), 62.5, 1e-9);
 }
 
 /// The well's pressure in rock under a stress, with a pore pressure, from 4 to 8 ms in the mean
