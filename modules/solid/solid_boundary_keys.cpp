@@ -167,6 +167,18 @@ void check_sphere_pressure(const Section& section, const FaceCondition& conditio
   }
 }
 
+/// The whole face stays where it is; one that is moved, or a part of one, is a load, which pins may
+/// bear.
+bool stays(const Section& section, const FaceCondition& condition) {
+  const auto moves = [&](const char* key) { return section.number(condition.path + key) != 0.0; };
+  if (section.has(condition.path + ".region")) return false;
+  if (condition.type == "fixed") {
+    return !section.has(condition.path + ".displacement") &&
+           !section.has(condition.path + ".velocity");
+  }
+  return !moves(".normal_displacement") && !moves(".normal_velocity");
+}
+
 /// A pin is to hold what would float: beside a face that holds the same displacement it strains the
 /// rock in between. A plate goes where its force takes it.
 void refuse_what_faces_hold(const Section& section, const std::string& pin, int axis,
@@ -176,7 +188,7 @@ void refuse_what_faces_hold(const Section& section, const std::string& pin, int 
     const Face& face = faces[condition.face];
     const bool holds =
         condition.type == "fixed" || (condition.type == "roller" && face.axis == axis);
-    if (!holds) continue;
+    if (!holds || !stays(section, condition)) continue;
     section.fail(pin,
                  fmt::format("holds the displacement along {}, which face '{}' of type {} holds",
                              "xyz"[axis], face.name, condition.type),
