@@ -94,8 +94,9 @@ void check_sections_together(const Section& scene) {
                "a solid, of type: rigid where nothing is to deform");
   });
   mistakes.note([&] { refuse_unreachable_tolerance(scene); });
-  mistakes.note([&] { check_interface(scene); });
-  mistakes.note([&] { check_exchange(scene); });
+  if (mistakes.note([&] { check_interface(scene); })) {
+    mistakes.note([&] { check_exchange(scene); });
+  }
   mistakes.note([&] {
     if (names(scene, "crack_fluid")) check_mouths(scene);
   });
