@@ -22,7 +22,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 import answers
@@ -31,8 +31,8 @@ from transforms import Keys
 
 SEED = 20
 WRONG, NEAR = 0.2, 0.05
-SHORTEST, PATIENCE = 60.0, 10.0  # s; a hang takes ten times what was foretold, or this if that is more
-DEAR = 20.0  # s; of runs foretold to take longer only the beginning is run
+SHORTEST, PATIENCE = 30.0, 10.0  # s; a hang takes ten times what was foretold, or this if that is more
+DEAR = 2.0  # s; of runs foretold to take longer only the beginning is run
 TRIAL = 0.5  # s
 MOST_POINTS = 5000
 OUT_OF_TIME = (-signal.SIGXCPU,)
@@ -73,7 +73,7 @@ class Attack:
     def foretell(self, file):
         """(exit code, what it said, seconds)."""
         code, said, told = self.command("check", str(file), "--json", "--trial", str(TRIAL), "--threads", "1",
-                                        patience=3.0 * SHORTEST)
+                                        patience=SHORTEST)
         if code != 0:
             return code, said, 0.0
         forecast = json.loads(told).get("forecast") or {}
@@ -206,7 +206,8 @@ def main():
     found = read(file)
     left = [number for number in numbers if number not in found]
     with open(file, "a", encoding="utf-8") as lines, ThreadPoolExecutor(arguments.jobs) as pool:
-        for one in pool.map(lambda number: judged(attack.attack(number)), left):
+        for done in as_completed([pool.submit(attack.attack, number) for number in left]):
+            one = judged(done.result())
             found[one["number"]] = one
             lines.write(json.dumps(one) + "\n")
             lines.flush()
