@@ -144,6 +144,8 @@ void CouplingManager::settle() {
 }
 
 double CouplingManager::advance(double stop) {
+  const double whole = std::min(schedule_.whole(), stop - time_);
+  std::optional<NumericalError> last_cut;
   double end = schedule_.end(time_, stop);
   double reached = 0.0;
   for (int retries = 0;; ++retries) {
@@ -153,9 +155,13 @@ double CouplingManager::advance(double stop) {
     } catch (const NumericalError& error) {
       if (retries == options_.retries || !solver_->cut(time_)) throw;
       end = cut(end, stop, error);
+      last_cut = error;
+      if (end - time_ < StallWatch::shortest * whole) throw stalled(whole, &error);
     }
   }
+  const bool is_stalled = stall_.finds_stall(reached - time_, whole);
   time_ = reached;
+  if (is_stalled) throw stalled(whole, last_cut ? &*last_cut : nullptr);
   ++step_;
   if (time_ == end) choose_next_window();
   return time_;
@@ -192,6 +198,18 @@ double CouplingManager::cut(double end, double stop, const NumericalError& error
   }
   if (cuts == most_told) log_warning("further cuts are only counted, in summary.json");
   return schedule_.end(time_, stop);
+}
+
+NumericalError CouplingManager::stalled(double whole, const NumericalError* cut) const {
+  const std::string field = cut ? cut->field() : "time";
+  const std::string place = cut ? cut->place() : solver_->ended_by();
+  std::string cause = "an event in each";
+  if (cut) cause = cut->what(), cause.resize(cause.find(" in " + field + " at " + place));
+  return {field, place, time_,
+          fmt::format("windows become ever shorter, where {:.3g} s was asked for, by: {}; let what "
+                      "changes there come on more slowly (a schedule), or choose another "
+                      "body.spacing: no progress",
+                      whole, cause)};
 }
 
 std::optional<std::string> CouplingManager::new_warning() {

@@ -13,6 +13,7 @@
 #include "coupling/ledger.hpp"
 #include "coupling/link.hpp"
 #include "coupling/module_slot.hpp"
+#include "coupling/stall_watch.hpp"
 #include "coupling/window_schedule.hpp"
 #include "coupling/window_solver.hpp"
 
@@ -47,7 +48,7 @@ class CouplingManager {
 
   /// Advances over one window, not past `stop` [s]; returns the time reached. A window that fails
   /// is taken back and tried again, half as long, as often as the scene lets it; the log says why.
-  /// Throws NumericalError.
+  /// Throws NumericalError, also where windows become ever shorter.
   double advance(double stop);
 
   /// Said once, when windows of one pass are seen not to be stable; nothing otherwise.
@@ -76,6 +77,8 @@ class CouplingManager {
   void start_links();
   /// Half of the window that began at time() and was to reach `end` is left; returns its end.
   double cut(double end, double stop, const NumericalError& error);
+  /// What a run says that no longer gets on; `cut` is what the last window was cut for, or null.
+  NumericalError stalled(double whole, const NumericalError* cut) const;
   void choose_next_window();
   /// How often windows are repeated where the scene leaves it open.
   Iterations own_iterations() const;
@@ -89,6 +92,7 @@ class CouplingManager {
   WindowSchedule schedule_;
   Iterations iterations_;
   std::unique_ptr<WindowSolver> solver_;  ///< once the links are known
+  StallWatch stall_;
   double time_ = 0.0;
   std::int64_t step_ = 0;
   bool has_warned_ = false;

@@ -16,6 +16,9 @@ class WindowSchedule {
   /// and a rest of less than two windows is halved rather than leaving a sliver.
   double end(double t, double stop) const;
 
+  /// What the next window would be without cuts and without a stop [s].
+  double whole() const { return length_; }
+
   /// The window was run to its end: the next may be longer, after a cut only if this one was
   /// `easy`. `stable` is the shortest of the modules' own stable steps now [s].
   void grow(double stable, bool easy = true);

@@ -100,6 +100,7 @@ double WindowSolver::conclude(const TimeWindow& window, double reached) {
     const ModuleTime counted(slot);
     const ProfileScope profiled("window's end");
     reached = slot.module->conclude(window);
+    if (reached < window.end) ended_by_ = slot.name;
   }
   return reached;
 }
@@ -131,7 +132,10 @@ double WindowSolver::pass(const TimeWindow& window) {
   for (ModuleSlot& slot : modules_) {
     deliver_to(slot);
     const double reached = advance(slot, window);
-    if (reached < window.end) return reached;
+    if (reached < window.end) {
+      ended_by_ = slot.name;
+      return reached;
+    }
     collect_from(slot, window.length());
   }
   return window.end;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/module/time_window.hpp"
@@ -63,6 +64,9 @@ class WindowSolver {
   /// pass; null until then.
   const Link* unstable_link() const { return unstable_; }
 
+  /// The module that ended a window early last; empty: none has.
+  const std::string& ended_by() const { return ended_by_; }
+
   const CouplingWork& work() const { return work_; }
 
  private:
@@ -98,6 +102,7 @@ class WindowSolver {
   bool is_saved_ = false;  ///< what begin_ holds is this window's beginning
   bool was_easy_ = true;
   double held_back_ = 0.0;
+  std::string ended_by_;
   Eigen::Index accelerated_size_ = 0;
   std::vector<double> weights_;          ///< one a link; of use for the lagged ones
   std::vector<StabilityWatch> watches_;  ///< likewise

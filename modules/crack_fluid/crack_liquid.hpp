@@ -21,6 +21,8 @@ struct CrackLiquid {
   double fill(double v) const { return 1.0 + std::min(v - vapour_pressure, 0.0) / bulk_modulus; }
   double empty() const { return vapour_pressure - bulk_modulus; }  ///< v of a dry facet
 
+  /// Of what a facet of this volume holds at v [kg].
+  double mass(double volume, double v) const { return density_at(pressure(v)) * volume * fill(v); }
   double density_at(double p) const { return density * (1.0 + p / bulk_modulus); }
   /// h = int dp / rho, from 0 on [J/kg].
   double enthalpy(double p) const { return bulk_modulus / density * std::log1p(p / bulk_modulus); }

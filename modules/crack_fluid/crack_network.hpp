@@ -108,6 +108,7 @@ class CrackNetwork final : public PhysicsModule {
   CrackExtent extent() const {
     return crack_extent(lubrication_.graph(), liquid_, unknown_, aperture_);
   }
+  double stored_mass() const;
   double leak_off_volume() const { return -leaked_.value() / liquid_.density; }  ///< [m^2]
 
   std::shared_ptr<const Body<D>> body_;

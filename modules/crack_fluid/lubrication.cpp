@@ -19,8 +19,8 @@ Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph)
     : liquid_(liquid), graph_(std::move(graph)) {
   const Index count = graph_.facet_count();
   for (Eigen::VectorXd* field :
-       {&pressure_, &fill_, &opening_, &aperture_, &capacity_, &residual_, &rounding_, &outflow_,
-        &leaked_.mass, &leaked_.by_fill, &inflow_, &by_fill_}) {
+       {&pressure_, &fill_, &opening_, &terms_, &aperture_, &capacity_, &residual_, &rounding_,
+        &outflow_, &leaked_.mass, &leaked_.by_fill, &inflow_, &by_fill_}) {
     field->setZero(count);
   }
 }
@@ -59,10 +59,11 @@ bool Lubrication::is_beside_full(Index f) const {
 void Lubrication::open(const LubricationStep& step) {
   const CrackOpening& given = step.opening;
   opening_.noalias() = given.slope * pressure_;
-  double largest = 0.0;
+  const double largest = opening_.cwiseAbs().maxCoeff();
   for (Index f = 0; f < graph_.facet_count(); ++f) {
-    largest = std::max(largest, std::abs(opening_[f]));
-    opening_[f] += given.value[f] + given.rate[f] * (step.time.end - given.end);
+    const double free = given.value[f] + given.rate[f] * (step.time.end - given.end);
+    terms_[f] = std::abs(free) + std::abs(opening_[f]);
+    opening_[f] += free;
   }
   face_pressure_ = pressure_;
   opening_slope_ = given.slope;
@@ -80,7 +81,9 @@ void Lubrication::store(const LubricationStep& step) {
     const double compression = 1.0 + pressure_[f] / liquid_.bulk_modulus;
     const double mass = capacity_[f] * compression * fill_[f];
     residual_[f] = mass - step.mass[f];
-    rounding_[f] = mass + std::abs(step.mass[f]);
+    // An aperture far below what it is the difference of is known no better than that.
+    const bool is_open = opening_[f] > liquid_.residual_aperture;
+    rounding_[f] = mass * (is_open ? terms_[f] / aperture_[f] : 1.0) + std::abs(step.mass[f]);
     by_fill_[f] = capacity_[f] * compression;
     by_pressure_.emplace_back(f, f, capacity_[f] * fill_[f] / liquid_.bulk_modulus);
     by_aperture_.emplace_back(f, f, mass / aperture_[f]);
@@ -140,6 +143,18 @@ void Lubrication::flow(double dt) {
   }
 }
 
+/// Of the fall of pressure between two facets that meet, and of the aperture there in terms of it,
+/// which is far below the terms that it is the difference of.
+double Lubrication::rounding_of_fall(Index from, Index to) const {
+  double wide = 0.0;
+  for (const Index f : {from, to}) {
+    if (opening_[f] > liquid_.residual_aperture) wide = std::max(wide, terms_[f] / aperture_[f]);
+  }
+  const double from_pressure = pressure_[from], to_pressure = pressure_[to];
+  return std::abs(from_pressure) + std::abs(to_pressure) +
+         3.0 * wide * std::abs(from_pressure - to_pressure);
+}
+
 void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt) {
   for (std::size_t a = 0; a < joint.size(); ++a) {
     for (std::size_t b = 0; b < joint.size(); ++b) {
@@ -151,6 +166,7 @@ void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint,
       const Index upstream = fall >= 0.0 ? from : to;
       const double density = liquid_.density_at(pressure_[upstream]);
       const double g = conductance_[a] * conductance_[b] / sum_;
+      rounding_[from] += dt * density * g * rounding_of_fall(from, to);
       by_pressure_.emplace_back(from, from, dt * density * g);
       by_pressure_.emplace_back(from, to, -dt * density * g);
       by_pressure_.emplace_back(from, upstream,
@@ -177,9 +193,11 @@ void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) 
                           std::max(std::abs(target), smallest_pressure * liquid_.bulk_modulus);
     const double held = weight * (v[f] - target + stiffness * without);
     residual_[f] = std::clamp(held, without - most, without - least);
-    if (residual_[f] == held) held_.push_back({f, weight, stiffness});
-    rounding_[f] +=
-        std::abs(inflow_[f]) + weight * std::abs(v[f]) + weight * stiffness * rounding_[f];
+    rounding_[f] += std::abs(inflow_[f]);
+    // What is held is weighed to be a mass: only where it is what counts does rounding in it.
+    if (residual_[f] != held) continue;
+    held_.push_back({f, weight, stiffness});
+    rounding_[f] += weight * (std::abs(v[f]) + stiffness * rounding_[f]);
   }
 }
 

@@ -75,6 +75,8 @@ class Lubrication {
   const Eigen::VectorXd& aperture() const { return aperture_; }  ///< [m]
   const Eigen::VectorXd& opening() const { return opening_; }    ///< may be below the residual
   const Eigen::VectorXd& face_pressure() const { return face_pressure_; }  ///< with contact's [Pa]
+  /// What presses closed faces together beyond the fluid; 0 where they are apart [Pa].
+  double contact(Index f) const { return face_pressure_[f] - pressure_[f]; }
   /// d(opening) / d(pressure), with the faces closed that are closed [m/Pa].
   const Eigen::MatrixXd& opening_slope() const { return opening_slope_; }
   const Eigen::VectorXd& capacity() const { return capacity_; }   ///< rho_0 area aperture
@@ -111,12 +113,14 @@ class Lubrication {
   void open(const LubricationStep& step);
   void leak(LeakOff& leak_off);
   void flow(double dt);
+  double rounding_of_fall(Index from, Index to) const;
   void differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt);
   void let_in(const LubricationStep& step, const Eigen::VectorXd& v);
 
   CrackLiquid liquid_{};
   CrackGraph graph_;
 
+  Eigen::VectorXd terms_;  ///< of the opening, their sizes added up: what it is rounded off by [m]
   Eigen::VectorXd pressure_, fill_, opening_, face_pressure_, aperture_, capacity_;
   Eigen::MatrixXd opening_slope_;
   Eigen::VectorXd residual_, rounding_, outflow_, inflow_;

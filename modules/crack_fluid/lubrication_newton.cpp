@@ -27,9 +27,11 @@ bool is_balanced(const Lubrication& lubrication, Index& worst) {
   return largest <= 1.0;
 }
 
-/// The part of the change `opening` of the openings that no aperture forbids.
+/// The part of the change of pressures, and with it of openings, that no aperture forbids. A closed
+/// facet opens once its fluid is above what presses its faces together.
 double part_allowed(const Lubrication& lubrication, const CrackLiquid& liquid,
-                    const Eigen::VectorXd& change) {
+                    const CrackOpening& given, const Eigen::VectorXd& pressure_change) {
+  const Eigen::VectorXd change = lubrication.opening_slope() * pressure_change;
   double part = 1.0;
   for (Index f = 0; f < lubrication.graph().facet_count(); ++f) {
     const double opening = lubrication.opening()[f];
@@ -37,6 +39,11 @@ double part_allowed(const Lubrication& lubrication, const CrackLiquid& liquid,
     const double highest = widening * aperture;
     const double lowest = std::max(narrowing * aperture, liquid.residual_aperture);
     const double goal = opening + change[f];
+    if (const double contact = lubrication.contact(f); contact > 0.0) {
+      const double most = contact + highest / given.slope(f, f);
+      if (pressure_change[f] > most) part = std::min(part, most / pressure_change[f]);
+      continue;
+    }
     if (goal > highest) part = std::min(part, (highest - opening) / change[f]);
     if (goal < lowest && opening > lowest) {
       part = std::min(part, (lowest - opening) / change[f]);
@@ -79,8 +86,7 @@ NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const Lu
     for (Index f = 0; f < count; ++f) {
       pressure_change[f] = liquid.is_full(v[f]) ? change[f] : 0.0;
     }
-    const double part =
-        part_allowed(lubrication, liquid, lubrication.opening_slope() * pressure_change);
+    const double part = part_allowed(lubrication, liquid, step.opening, pressure_change);
     for (Index f = 0; f < count; ++f) v[f] = moved(liquid, v[f], part * change[f]);
   }
   return report;

@@ -108,6 +108,35 @@ TEST(EventsAlone, WindowsDoNotGrowByAnEvent) {
   EXPECT_DOUBLE_EQ(manager.advance(10.0), 0.45) << "a sudden load starts over";
 }
 
+/// Ends every window a little nearer to a time that so is never reached.
+class Zeno final : public PhysicsModule {
+ public:
+  std::span<const Port> ports() const override { return {}; }
+  PortView port(PortId) override { return {}; }
+  void initialize(double) override {}
+  double stable_time_step() const override { return 1.0; }
+  double advance(const TimeWindow& window) override {
+    return std::min(window.end, window.begin + 0.02 * (0.25 - window.begin));
+  }
+  void visit_state(StateVisitor&) override {}
+  void on_restored(double) override {}
+};
+
+TEST(EventsAlone, WithoutProgressEndTheRun) {
+  std::vector<ModuleSlot> modules;
+  modules.push_back({"zeno", std::make_unique<Zeno>()});
+  CouplingManager manager(std::move(modules), even_windows(0.1));
+  manager.initialize(0.0);
+  try {
+    while (manager.time() < 1.0 && manager.step() < 2000) manager.advance(1.0);
+    ADD_FAILURE() << "came to " << manager.time();
+  } catch (const NumericalError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("windows become ever shorter"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("an event in each"));
+    EXPECT_EQ(error.place(), "zeno");
+  }
+}
+
 /// Says it reached a time that it cannot have reached.
 class Confused final : public PhysicsModule {
  public:

@@ -42,7 +42,8 @@ class Stone final : public PhysicsModule {
 /// by rate * window. Gives up on windows that are longer than `longest`.
 class Stream final : public PhysicsModule {
  public:
-  Stream(std::function<double(double)> rate, double longest) : rate_(rate), longest_(longest) {}
+  using OfTime = std::function<double(double)>;
+  Stream(OfTime rate, OfTime longest) : rate_(rate), longest_(longest) {}
   std::span<const Port> ports() const override { return ports_; }
   PortView port(PortId id) override {
     return {.points = line_.set(), .value = id == 0 ? heat_.value : loss_};
@@ -51,7 +52,7 @@ class Stream final : public PhysicsModule {
   double stable_time_step() const override { return std::numeric_limits<double>::infinity(); }
   double advance(const TimeWindow& window) override {
     taken_ += window.length() * heat_.value[0];
-    if (window.length() > longest_) {
+    if (window.length() > longest_(window.begin)) {
       throw NumericalError("taken", "the stream", window.end, "the window is too long");
     }
     loss_[0] = rate_(window.end) * heat_.value[0];
@@ -64,8 +65,7 @@ class Stream final : public PhysicsModule {
   void on_restored(double) override {}
 
  private:
-  std::function<double(double)> rate_;
-  double longest_;
+  OfTime rate_, longest_;
   std::vector<Port> ports_ = {{"heat", "J", PortDirection::in}, {"loss", "W", PortDirection::out}};
   fake::Line line_{1};
   fake::Input heat_{1};
@@ -80,6 +80,7 @@ struct Cooling {
     std::function<double(double)> rate = [](double) { return 1.0; };
     double longest = any;
     int iterations = 60;
+    std::function<double(double)> longest_at = {};  ///< by the time a window begins, in its place
   };
 
   Cooling(const Setup& setup, double window, int retries) {
@@ -87,7 +88,9 @@ struct Cooling {
     stone = first.get();
     std::vector<ModuleSlot> modules;
     modules.push_back({"stone", std::move(first)});
-    modules.push_back({"stream", std::make_unique<Stream>(setup.rate, setup.longest)});
+    auto longest = setup.longest_at;
+    if (!longest) longest = [given = setup.longest](double) { return given; };
+    modules.push_back({"stream", std::make_unique<Stream>(setup.rate, longest)});
     CouplingOptions options = even_windows(window);
     options.retries = retries;
     options.max_iterations = setup.iterations;
@@ -220,6 +223,22 @@ TEST(StepControl, ChangesNothingWhereNothingFails) {
     EXPECT_EQ(with.all().fields(), without.all().fields());
     EXPECT_EQ(with.manager->work().passes, without.manager->work().passes);
   }
+}
+
+/// What bears ever shorter windows only, towards a time that so is never reached.
+TEST(StepControl, StopsWhereWindowsBecomeEverShorter) {
+  Cooling cooling({.longest_at = [](double t) { return 0.3 * std::abs(0.5 - t); }}, 0.1, 8);
+  std::string said;
+  try {
+    cooling.run(1.0);
+  } catch (const NumericalError& error) {
+    said = error.what();
+  }
+  EXPECT_THAT(said, HasSubstr("windows become ever shorter, where 0.1 s was asked for"));
+  EXPECT_THAT(said, HasSubstr("the window is too long"));
+  EXPECT_THAT(said, HasSubstr("a schedule"));
+  EXPECT_THAT(said, HasSubstr("no progress in taken at the stream, t = 0.5 s"));
+  EXPECT_LT(cooling.manager->step(), 400);
 }
 
 TEST(StepControl, AWindowBetweenCutsMayBeCutAgain) {

@@ -113,6 +113,29 @@ TEST(CrackNetwork, NewFacetsAreDryAndFill) {
   EXPECT_LT(run.mass_error(), 1e-14);
 }
 
+/// Facets of metres, in rock that lets faces apart by far more than the residual aperture for a
+/// little pressure beyond what closes them. Fluid that comes to a dry facet is there at once.
+TEST(CrackNetwork, FillsLongFacetsOfAClosedCrack) {
+  CrackLiquid liquid = water;
+  liquid.residual_aperture = 1e-7;
+  for (const double closing : {0.2e6, 20e6}) {
+    for (const double compliance : {2e-10, 6e-8}) {
+      CrackRun run(liquid, {rate_inlet({0.0, 0.0}, 1e-5)});
+      run.add_line(straight_line({0.0, 0.0}, 0.0, 5.0, 3));
+      for (int k = 0; k < 60; ++k) {
+        run.open(-closing * compliance, compliance);
+        run.advance(1e-5 * std::pow(1.25, k));
+        ASSERT_LE(run.mass_error(), 1e-8) << closing << " " << compliance << " " << k;
+        const double capacity = 1000.0 * 5.0 * 1e-7, came = 1e-2 * run.time();
+        if (came < 0.99 * capacity) {
+          EXPECT_NEAR(run.values("crack_wetted_fraction")[0], came / capacity, 1e-9);
+        }
+      }
+      EXPECT_GE(run.values("crack_pressure")[0], closing);
+    }
+  }
+}
+
 TEST(CrackNetwork, DoesNothingWithoutACrack) {
   CrackRun run(water, {rate_inlet({0.0, 0.0}, 1e-5)});
   run.advance(1.0, 3);
