@@ -1,9 +1,11 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast effects instructions study study-quick toughness faults fuzz fuzz-many sanitize bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize bench clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
+ATTACK_COUNT ?= 3000
+ATTACK_JOBS ?= 2
 SCENE ?= configs/hf_storage.yaml
 BUILD := build/release
 PERIFRAC := $(BUILD)/bin/perifrac
@@ -23,6 +25,7 @@ help:
 	@echo 'make instructions  that absent effects cost none, and work follows activity (valgrind)'
 	@echo 'make stability  hard cases in many combinations of modules: docs/stability.md'
 	@echo 'make faults     kills, full disks, spoilt checkpoints and more at random moments: docs/reliability.md'
+	@echo 'make attack     ATTACK_COUNT made-up scenes, run at two spacings and windows: docs/reliability.md'
 	@echo 'make fuzz       scenes and checkpoints made up by a fuzzer, FUZZ_SECONDS each (clang 16)'
 	@echo 'make fuzz-many  FUZZ_INPUTS checkpoints, without the address sanitizer, which is faster (clang 16)'
 	@echo 'make sanitize   unit and contract tests under the address, undefined and thread sanitizers (clang 16)'
@@ -85,6 +88,10 @@ stability: perifrac
 
 faults: perifrac
 	tests/robustness/faults.py $(PERIFRAC) --kills 50 --page docs/reliability.md
+
+# Goes on where it was stopped.
+attack: perifrac
+	tests/attack/attack.py $(PERIFRAC) --count $(ATTACK_COUNT) --jobs $(ATTACK_JOBS)
 
 fuzz: perifrac
 	@tools/install clang

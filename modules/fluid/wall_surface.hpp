@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <type_traits>
 
 #include "modules/fluid/wall_cloud.hpp"
 
@@ -14,9 +15,11 @@ struct WallSurface {
   double depth;      ///< of the point below it [m]
 };
 
-/// Picks the surface with the least, or the largest, depth from those that are offered. Where two
-/// or three faces tie, as on the diagonal of a corner, it is the plane through the corner across
-/// their bisector: neither the order of axes nor rounding decides.
+/// Picks the surface with the least or the largest depth from those that are offered; depths that
+/// differ by rounding are the same. Of faces that tie outside a corner, `Compare` being `greater`,
+/// it is the plane through the corner across their bisector, so that no axis comes before another.
+/// Inside a corner that sticks out it is the first: a plane across would let fluid through the
+/// faces.
 template <int D, class Compare>
 class BestSurface {
  public:
@@ -24,12 +27,12 @@ class BestSurface {
   explicit BestSurface(double rounding) : rounding_(rounding) {}
 
   void offer(const WallSurface<D>& surface) {
-    if (count_ > 0 && std::abs(surface.depth - depth_) <= rounding_) {
+    if (count_ > 0 && std::abs(surface.depth - first_.depth) <= rounding_) {
       for (int a = 0; a < D; ++a) sum_[a] += surface.normal[a];
       ++count_;
-    } else if (count_ == 0 || Compare{}(surface.depth, depth_)) {
-      first_ = sum_ = surface.normal;
-      depth_ = surface.depth;
+    } else if (count_ == 0 || Compare{}(surface.depth, first_.depth)) {
+      first_ = surface;
+      sum_ = surface.normal;
       count_ = 1;
     }
   }
@@ -37,11 +40,9 @@ class BestSurface {
   bool found() const { return count_ > 0; }
 
   WallSurface<D> surface() const {
-    double square = 0.0;
-    for (const double component : sum_) square += component * component;
-    const double length = std::sqrt(square);
-    if (count_ == 1 || length < 0.5) return {first_, depth_};  // or the middle of a thin wall
-    WallSurface<D> result{sum_, count_ * depth_ / length};
+    if (count_ == 1 || !std::is_same_v<Compare, std::greater<>>) return first_;
+    const double length = std::sqrt(static_cast<double>(count_));  // axes are normal to each other
+    WallSurface<D> result{sum_, length * first_.depth};
     for (double& component : result.normal) component /= length;
     return result;
   }
@@ -49,8 +50,8 @@ class BestSurface {
  private:
   double rounding_;
   int count_ = 0;
-  double depth_ = 0.0;
-  Vector<D> first_{}, sum_{};
+  WallSurface<D> first_{};
+  Vector<D> sum_{};
 };
 
 template <int D>

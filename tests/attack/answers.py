@@ -1,0 +1,62 @@
+"""What a run answers, and how far two answers are apart."""
+import csv
+import re
+
+import numpy
+
+FIGURES = re.compile(r"(pore_pressure|displacement|fluid_pressure|effective_stress)\S* at |_plate_displacement$|crack_length$|"
+                     r"inlet_\S*_(pressure|opening)$|mean_crack_pressure$|energy_stored$|energy_gained$|fluid_mass_gained$|"
+                     r"fracture_energy$|leak_off_volume$")
+NOTHING = 1e-9  # of a figure's own largest value, or of its quantity's: what is left of a difference
+
+
+class Answer:
+    """The history of a run."""
+
+    def __init__(self, folder):
+        with open(folder / "history.csv", encoding="utf-8") as file:
+            header, *rows = list(csv.reader(file))
+        values = numpy.array([[float(cell or "nan") for cell in row] for row in rows if len(row) == len(header)])
+        self.columns = {re.sub(r" \[[^]]*\]$", "", name): column for name, column in zip(header, values.T)}
+        self.time = self.columns["time"]
+
+    def last_spacing(self, spacing):
+        """From when on its crack has grown by its last spacing [s]; the end where none grows."""
+        length = self.columns.get("crack_length")
+        if length is None or not spacing or length[-1] <= length[0]:
+            return self.time[-1]
+        return self.time[int(numpy.argmax(length > length[-1] - spacing))]
+
+    def mean(self, name, begin):
+        chosen = self.time >= begin * (1.0 - 1e-9)
+        if chosen.sum() < 2:
+            return self.columns[name][-1]
+        time, values = self.time[chosen], self.columns[name][chosen]
+        return float(numpy.trapz(values, time) / (time[-1] - time[0]))
+
+
+def quantity(name):
+    return re.sub(r"(_[xyz]+)?( at .*)?$", "", name)
+
+
+def farthest(one, other, spacing):
+    """(how far, which figure) of the figure that two answers differ by most, over its own size: of
+    all places of a field together, of the crack's growth where that is what there is."""
+    begin = min(one.last_spacing(spacing), other.last_spacing(spacing))
+    sizes = {}
+    for answer in (one, other):
+        for name, column in answer.columns.items():
+            if FIGURES.search(name):
+                most = numpy.abs(column[numpy.isfinite(column)]).max(initial=0.0)
+                sizes[quantity(name)] = max(sizes.get(quantity(name), 0.0), most)
+    worst = (0.0, "")
+    for name in one.columns:
+        if not FIGURES.search(name) or name not in other.columns:
+            continue
+        difference = abs(one.mean(name, begin) - other.mean(name, begin))
+        if name == "crack_length":  # it grows by spacings: what is less than one says nothing
+            difference = max(0.0, difference - spacing)
+        size = sizes[quantity(name)]
+        if size > 0.0 and difference / size > worst[0]:
+            worst = (difference / size, name)
+    return worst
