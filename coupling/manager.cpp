@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/final_error.hpp"
 #include "core/io/log.hpp"
 #include "coupling/connect.hpp"
 
@@ -152,6 +153,8 @@ double CouplingManager::advance(double stop) {
     try {
       reached = solver_->solve({time_, end}, iterations_);
       break;
+    } catch (const FinalError&) {
+      throw;
     } catch (const NumericalError& error) {
       if (retries == options_.retries || !solver_->cut(time_)) throw;
       end = cut(end, stop, error);

@@ -48,6 +48,7 @@ class CondensedInverse {
   std::vector<int> place_;
   std::vector<int> unknowns_;
   std::vector<Change> changes_;
+  int named_by_changes_ = 0;  ///< places below this
   Eigen::MatrixXd block_;
 };
 

@@ -1,12 +1,15 @@
 #include "modules/solid/cracked_body.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include <Eigen/Dense>
 
 #include "core/geometry/crack_cut.hpp"
+#include "core/require.hpp"
 #include "core/solvers/complementarity.hpp"
+#include "modules/solid/loose_piece.hpp"
 
 namespace perifrac {
 
@@ -60,19 +63,52 @@ void CrackedBody<D>::start() {
 }
 
 template <int D>
+std::vector<std::vector<Index>> CrackedBody<D>::loose_pieces() {
+  return find_loose_pieces<D>(*elastic_, *family_, free_unknowns_);
+}
+
+template <int D>
 bool CrackedBody<D>::cut(const CrackFacet<D>& facet) {
   const auto bonds = bonds_cut_by<D>(facet, *family_);
   if (bonds.empty()) return false;
+  const FaceJump<D> jump = face_jump<D>(facet, intact_, spacing_);
   std::set<Index> points;
   for (const auto& [i, j] : bonds) points.insert({i, j});
-  std::vector<PointStiffness> before, after;
-  for (const Index i : points) before.push_back(on_free(elastic_->point_stiffness(i)));
+  Parts parts;
+  for (const Index i : points) parts.less.push_back(on_free(elastic_->point_stiffness(i)));
   this->break_bonds(bonds);
-  for (const Index i : points) after.push_back(on_free(elastic_->point_stiffness(i)));
+  try {
+    for (const Index i : points) parts.more.push_back(on_free(elastic_->point_stiffness(i)));
+    check_pieces(bonds);
+    change_stiffness(parts);
+  } catch (...) {
+    this->heal_bonds(bonds);
+    find_opening();  // of a block that may have grown
+    throw;
+  }
+  bonds_.add_facet(facet, bonds);
+  followed_ = bonds_.version();
+  add_mode(jump);
+  compliance_ = compliance(0, 0);
+  find_opening();
+  return true;
+}
 
+/// Throws PieceCutFree where the cut leaves a piece that nothing holds.
+template <int D>
+void CrackedBody<D>::check_pieces(std::span<const std::pair<Index, Index>> cut) {
+  if (are_joined<D>(*family_, cut)) return;
+  const auto loose = loose_pieces();
+  if (!loose.empty()) throw PieceCutFree(describe_piece<D>(*family_, loose.front()));
+}
+
+template <int D>
+void CrackedBody<D>::change_stiffness(const Parts& parts) {
   std::set<int> unknowns;
-  for (const PointStiffness& part : before)
-    unknowns.insert(part.unknowns.begin(), part.unknowns.end());
+  for (const auto* side : {&parts.less, &parts.more}) {
+    for (const PointStiffness& part : *side)
+      unknowns.insert(part.unknowns.begin(), part.unknowns.end());
+  }
   inverse_->add(std::vector<int>(unknowns.begin(), unknowns.end()));
   std::vector<int> places;
   for (const int unknown : unknowns) places.push_back(inverse_->place(unknown));
@@ -89,16 +125,9 @@ bool CrackedBody<D>::cut(const CrackFacet<D>& facet) {
       }
     }
   };
-  for (const PointStiffness& part : before) add(part, -1.0);
-  for (const PointStiffness& part : after) add(part, 1.0);
+  for (const PointStiffness& part : parts.less) add(part, -1.0);
+  for (const PointStiffness& part : parts.more) add(part, 1.0);
   inverse_->change(places, delta);
-
-  bonds_.add_facet(facet, bonds);
-  followed_ = bonds_.version();
-  add_mode(face_jump<D>(facet, intact_, spacing_));
-  compliance_ = compliance(0, 0);
-  find_opening();
-  return true;
 }
 
 template <int D>
@@ -185,6 +214,7 @@ Eigen::MatrixXd CrackedBody<D>::compliance(int jump, int traction) const {
 
 template <int D>
 void CrackedBody<D>::set_load(const Eigen::VectorXd& load) {
+  require(load.size() == free_unknowns_.cols(), "a load on other unknowns than the body has");
   if (intact_move_.size() == load.size() && load == load_) return;
   load_ = load;
   intact_move_.resize(load.size());
@@ -207,6 +237,8 @@ template <int D>
 Eigen::VectorXd CrackedBody<D>::block_force(const Eigen::VectorXd& pressure,
                                             std::span<const double> shear) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
+  require(pressure.size() == std::ssize(modes_) && (shear.empty() || shear.size() == modes_.size()),
+          "pressure and shear of other facets than the body has");
   for (std::size_t f = 0; f < modes_.size(); ++f) {
     const Vector<D> load = face_load(f, pressure[f], shear);
     for (int k = 0; k < D; ++k) {
@@ -231,6 +263,8 @@ void CrackedBody<D>::find_opening() {
 
 template <int D>
 Eigen::VectorXd CrackedBody<D>::free_opening(const Eigen::VectorXd& pressure) const {
+  require(opening_.size() == pressure.size() && compliance_.cols() == pressure.size(),
+          "pressure of other facets than the body has");
   return opening_ + compliance_ * pressure;
 }
 
@@ -255,6 +289,7 @@ template <int D>
 Eigen::VectorXd CrackedBody<D>::face_force(const Eigen::VectorXd& pressure, bool relief,
                                            std::span<const double> shear) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(free_unknowns_.rows());
+  require(pressure.size() == std::ssize(jumps_), "pressure of other facets than the body has");
   for (std::size_t f = 0; f < jumps_.size(); ++f) {
     const Vector<D> load = face_load(f, pressure[f], shear, relief);
     for (const auto& [point, coefficient] : jumps_[f].terms) {

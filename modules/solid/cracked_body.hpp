@@ -32,9 +32,14 @@ class CrackedBody final : public CutBody<D> {
 
   /// Factors the body with its first cracks.
   void start();
+  /// Throws PieceCutFree where that leaves a piece that nothing holds, NotPositiveDefinite where
+  /// one too thin to bear anything; then nothing has changed.
   bool cut(const CrackFacet<D>& facet) override;
   /// The bond state was replaced: builds the same body anew.
   void follow_bonds();
+
+  /// Pieces of the body that nothing holds.
+  std::vector<std::vector<Index>> loose_pieces();
 
   /// Takes the load on what is solved for [N], cracks' faces apart.
   void set_load(const Eigen::VectorXd& load);
@@ -99,6 +104,12 @@ class CrackedBody final : public CutBody<D> {
 
   /// A symmetric matrix of all unknowns on those solved for.
   PointStiffness on_free(const PointStiffness& all) const;
+  /// What a change of stiffness takes and what it gives.
+  struct Parts {
+    std::vector<PointStiffness> less, more;
+  };
+  void check_pieces(std::span<const std::pair<Index, Index>> cut);
+  void change_stiffness(const Parts& parts);
   void add_mode(const FaceJump<D>& jump);
   void find_opening();
   Vector<D> face_load(std::size_t f, double pressure, std::span<const double> shear,

@@ -6,6 +6,30 @@
 
 namespace perifrac {
 
+namespace {
+
+std::vector<Index> ends_of(std::span<const std::pair<Index, Index>> bonds) {
+  std::vector<Index> points;
+  for (const auto& [i, j] : bonds) points.insert(points.end(), {i, j});
+  keep_each_once(points);
+  return points;
+}
+
+/// Undoes silence(), where the bond has its weight in `whole`.
+template <int D>
+void unsilence(Family<D>& family, const Family<D>& whole, Index i, Index j) {
+  for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)}) {
+    for (Index bond = family.offset[from]; bond < family.offset[from + 1]; ++bond) {
+      const Index end = family.other[bond];
+      const Index source =
+          end < family.point_count ? end : family.ghost_source[end - family.point_count];
+      if (source == to) family.weight[bond] = whole.weight[bond];
+    }
+  }
+}
+
+}  // namespace
+
 template <int D>
 CutBody<D>::CutBody(std::shared_ptr<Family<D>> family, double spacing,
                     std::shared_ptr<BreakableElasticity<D>> elastic, BondState<D>& bonds,
@@ -38,13 +62,14 @@ void CutBody<D>::cut_seeds() {
 
 template <int D>
 void CutBody<D>::break_bonds(std::span<const std::pair<Index, Index>> bonds) {
-  std::vector<Index> points;
-  for (const auto& [i, j] : bonds) {
-    silence(*family_, i, j);
-    points.insert(points.end(), {i, j});
-  }
-  keep_each_once(points);
-  elastic_->update(points);
+  for (const auto& [i, j] : bonds) silence(*family_, i, j);
+  elastic_->update(ends_of(bonds));
+}
+
+template <int D>
+void CutBody<D>::heal_bonds(std::span<const std::pair<Index, Index>> bonds) {
+  for (const auto& [i, j] : bonds) unsilence(*family_, intact_, i, j);
+  elastic_->update(ends_of(bonds));
 }
 
 template <int D>

@@ -57,6 +57,8 @@ class CutBody {
  protected:
   void cut_seeds();
   void break_bonds(std::span<const std::pair<Index, Index>> bonds);
+  /// Takes the last break_bonds() of these back.
+  void heal_bonds(std::span<const std::pair<Index, Index>> bonds);
   /// Takes family and material back to the body without cracks.
   void mend();
 

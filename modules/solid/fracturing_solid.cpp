@@ -4,11 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "core/errors.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
+#include "modules/solid/loose_piece.hpp"
 #include "modules/solid/rigid_motion.hpp"
 
 namespace perifrac {
@@ -43,24 +41,23 @@ std::string FracturingSolid<D>::place_of(Eigen::Index free) const {
   return describe_point(point_of(free), body_->points().at(point_of(free)));
 }
 
-/// `free` is of what is solved for; where its stiffness is nothing.
 template <int D>
-BodyError FracturingSolid<D>::loose_piece(Eigen::Index free) const {
-  const Points<D>& points = body_->points();
-  const Index i = point_of(free);
-  return {fmt::format("its cracks leave a piece that nothing holds, or that is too thin to bear "
-                      "anything, at ({:.6g}) m",
-                      fmt::join(points.at(i), ", ")),
+BodyError FracturingSolid<D>::loose_piece(const std::string& piece) const {
+  return {"its cracks leave " + piece,
           "cracks that leave every piece held by a face or by solid.pins, some points thick"};
 }
 
 template <int D>
 void FracturingSolid<D>::initialize(double t) {
   window_end_ = last_growth_ = t;
+  if (const auto loose = cracked_.loose_pieces(); !loose.empty()) {
+    throw loose_piece(describe_piece<D>(cracked_.family(), loose.front()) +
+                      ", which nothing holds");
+  }
   try {
     cracked_.start();
   } catch (const NotPositiveDefinite& error) {
-    throw loose_piece(error.row());
+    throw loose_piece("a piece that is too thin to bear anything, at " + place_of(error.row()));
   }
   tips_.start(seeds_, t);
   load_is_current_ = !is_steady();

@@ -65,7 +65,7 @@ class FracturingSolid final : public PhysicsModule {
  private:
   Index point_of(Eigen::Index free) const;
   std::string place_of(Eigen::Index free) const;
-  BodyError loose_piece(Eigen::Index free) const;
+  BodyError loose_piece(const std::string& piece) const;
   enum Id : PortId {
     pore_stress,
     interface_impulse,

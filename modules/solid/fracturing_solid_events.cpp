@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "core/errors.hpp"
+#include "core/final_error.hpp"
 #include "modules/solid/fracturing_solid.hpp"
+#include "modules/solid/loose_piece.hpp"
 
 namespace perifrac {
 
@@ -68,9 +69,15 @@ double FracturingSolid<D>::conclude(const TimeWindow& window) {
     const bool has_grown = grow(readiness_);
     // With fluid one event does a window.
     if (nucleation_ && !(has_grown && wet())) begin_cracks(has_grown);
+  } catch (const PieceCutFree& piece) {
+    solve_faces();  // of what was cut before
+    throw FinalError("displacement", piece.what(), tried.end,
+                     "cracks cut a piece free that nothing holds, so that there is no balance of "
+                     "forces; end the run before, or hold the piece by a face or solid.pins;");
   } catch (const NotPositiveDefinite& error) {
-    throw NumericalError("displacement", place_of(error.row()), tried.end,
-                         "the cracks have left a piece that nothing holds;");
+    solve_faces();
+    throw FinalError("displacement", place_of(error.row()), tried.end,
+                     "cracks leave a piece too thin to bear anything; end the run before;");
   }
   // Beside fluid, readiness after an event is known only at the next window's end.
   const bool is_known = !wet() || cracked_.facets().size() == facets;

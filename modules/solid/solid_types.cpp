@@ -15,6 +15,7 @@
 #include "modules/solid/quasi_static_solid.hpp"
 #include "modules/solid/rigid_slits.hpp"
 #include "modules/solid/rigid_solid.hpp"
+#include "modules/solid/short_seeds.hpp"
 #include "modules/solid/solid_boundary_keys.hpp"
 
 namespace perifrac {
@@ -32,15 +33,32 @@ std::vector<CrackFacet<3>> read_crack(const Section& scene, std::size_t k, const
   return read_plane_crack(scene, k, body);
 }
 
-/// The facets of all cracks that the scene has from the start.
+/// The facets of the cracks that the scene has from the start, a list a crack.
+template <int D>
+std::vector<std::vector<CrackFacet<D>>> read_seeds_by_crack(const Section& scene,
+                                                            const Body<D>& body) {
+  std::vector<std::vector<CrackFacet<D>>> cracks;
+  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
+    cracks.push_back(read_crack(scene, k, body));
+  }
+  return cracks;
+}
+
+/// The facets of all of them.
 template <int D>
 std::vector<CrackFacet<D>> read_seeds(const Section& scene, const Body<D>& body) {
   std::vector<CrackFacet<D>> facets;
-  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
-    const std::vector<CrackFacet<D>> crack = read_crack(scene, k, body);
+  for (const auto& crack : read_seeds_by_crack(scene, body)) {
     facets.insert(facets.end(), crack.begin(), crack.end());
   }
   return facets;
+}
+
+/// Throws InputError where cracks that are to grow are too short to.
+template <int D>
+void check_growing_seeds(const Section& scene, const Body<D>& body, const Family<D>& cut) {
+  if (!scene.has("damage")) return;
+  check_seeds_can_grow<D>(scene, body, cut, read_seeds_by_crack(scene, body));
 }
 
 /// What a scene's cracks that facets make are.
@@ -128,6 +146,7 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
                  "faces of type roller, fixed or rigid_plate that hold every motion");
   }
+  check_growing_seeds(section.scene(), *body, *family);
   return solid;
 }
 
@@ -144,10 +163,12 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<2>> elastic =
       read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
-  return std::make_unique<DynamicFracture>(
+  auto solid = std::make_unique<DynamicFracture>(
       body, family, std::move(elastic), boundary, section.number("density"),
       section.number("damping"), section.number("integrator.safety"),
       read_initial_stress<2>(section, *body), cracks.seeds, cracks.fracture_energy);
+  check_growing_seeds(section.scene(), *body, *family);
+  return solid;
 }
 
 std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,

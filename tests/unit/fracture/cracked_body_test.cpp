@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/solid/loose_piece.hpp"
 #include "tests/unit/fracture/cracked_plate.hpp"
 
 namespace perifrac::test {
@@ -30,6 +31,67 @@ void expect_growth_to_a_fresh_body(Rock rock) {
   EXPECT_LE((u - v).cwiseAbs().maxCoeff(), 1e-10 * u.cwiseAbs().maxCoeff());
   const Eigen::MatrixXd& c = fresh.cracked->compliance();
   EXPECT_LE((c - grown.cracked->compliance()).cwiseAbs().maxCoeff(), 1e-9 * c.maxCoeff());
+}
+
+/// The sides of a square of `side` spacings in the middle of a plate of 40.
+std::vector<CrackFacet<2>> square(double side) {
+  const double a = 20.0 - 0.5 * side, b = 20.0 + 0.5 * side;
+  const std::array<Vector<2>, 5> corners = {{{a, a}, {b, a}, {b, b}, {a, b}, {a, a}}};
+  std::vector<CrackFacet<2>> facets;
+  for (int leg = 0; leg < 4; ++leg) {
+    for (int k = 0; k < side; ++k) {
+      const auto at = [&](int n) {
+        const double share = n / side;
+        return Vector<2>{(1.0 - share) * corners[leg][0] + share * corners[leg + 1][0],
+                         (1.0 - share) * corners[leg][1] + share * corners[leg + 1][1]};
+      };
+      facets.push_back({at(k), at(k + 1)});
+    }
+  }
+  return facets;
+}
+
+/// All or nothing: what cannot be cut leaves the body as it was, to the bit.
+TEST(CrackedBody, IsAsItWasWhereACutWouldSetAPieceFree) {
+  for (const int side : {1, 2, 4}) {
+    const auto facets = square(side);
+    CrackedPlate plate(40, {facets.front()});
+    CrackedPlate untouched(40, {facets.front()});
+    const auto load = Eigen::VectorXd::LinSpaced(plate.free_count(), -1.0, 1.0);
+    for (CrackedPlate* each : {&plate, &untouched}) {
+      each->cracked->set_load(load);
+      for (std::size_t f = 1; f + 1 < facets.size(); ++f) each->cracked->cut(facets[f]);
+    }
+    EXPECT_THROW(plate.cracked->cut(facets.back()), PieceCutFree);
+    ASSERT_EQ(plate.cracked->facets().size(), facets.size() - 1);
+    EXPECT_EQ(plate.family->weight, untouched.family->weight);
+    const Eigen::VectorXd pressure = Eigen::VectorXd::Constant(std::ssize(facets) - 1, 1e-3);
+    EXPECT_EQ(plate.cracked->unknowns(pressure), untouched.cracked->unknowns(pressure));
+    EXPECT_EQ(plate.cracked->faces(pressure).opening, untouched.cracked->faces(pressure).opening);
+    const CrackFacet<2> next = {{{30.5, 10.5}, {31.5, 10.5}}};
+    EXPECT_TRUE(plate.cracked->cut(next));
+    EXPECT_EQ(plate.cracked->jumps().size(), facets.size());
+  }
+}
+
+TEST(CrackedBody, NamesThePieceThatComesFree) {
+  const auto facets = square(4);
+  CrackedPlate plate(40, {facets.front()});
+  for (std::size_t f = 1; f + 1 < facets.size(); ++f) plate.cracked->cut(facets[f]);
+  try {
+    plate.cracked->cut(facets.back());
+    FAIL() << "a piece that nothing holds is in balance";
+  } catch (const PieceCutFree& piece) {
+    EXPECT_STREQ(piece.what(), "a piece of 16 points, from (18.5, 18.5) to (21.5, 21.5) m");
+  }
+}
+
+/// The outer rows of the plate hold both halves.
+TEST(CrackedBody, MayBeParted) {
+  std::vector<CrackFacet<2>> facets = straight_crack({20.0, 20.0}, 0.0, 40);
+  CrackedPlate plate(40, {facets.front()});
+  for (std::size_t f = 1; f < facets.size(); ++f) EXPECT_TRUE(plate.cracked->cut(facets[f]));
+  EXPECT_TRUE(plate.cracked->loose_pieces().empty());
 }
 
 TEST(CrackedBody, GrowsToWhatAFreshBodyIs) {

@@ -34,6 +34,7 @@ struct CrackedPlate {
 
   double shear_modulus() const { return 0.5 * (1.0 - poisson_ratio); }
   Vector<2> middle() const { return {0.5 * n, 0.5 * n}; }
+  Eigen::Index free_count() const { return free_.cols(); }  ///< unknowns that are solved for
 
   CrackedPlate(int count, std::vector<CrackFacet<2>> seeds, double poisson = 0.25,
                std::shared_ptr<const Body<2>> shape = nullptr,

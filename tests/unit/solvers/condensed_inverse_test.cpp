@@ -80,6 +80,9 @@ TEST(CondensedInverse, SaysWhereNothingIsLeft) {
   } catch (const NotPositiveDefinite& error) {
     EXPECT_EQ(error.row(), 17);
   }
+  // And is as it was.
+  EXPECT_NEAR(inverse.block()(0, 0), 1e2, 1e-9);
+  EXPECT_NEAR(inverse.correct_block(Eigen::VectorXd::Ones(1))[0], 1e2, 1e-9);
 }
 
 }  // namespace

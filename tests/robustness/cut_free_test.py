@@ -1,0 +1,43 @@
+#!/usr/bin/python3
+"""Cracks that cut a piece of rock free which nothing holds end a run with exit code 1 and the piece's place."""
+import json
+import unittest
+
+from perifrac_runs import CONFIGS, RunTest, perifrac, settings
+
+# Of hf_storage at 5 mm: the crack's path [mm], its fracture energy [J/m^2], the rate [m^2/s]. All of these wrote out of
+# bounds once, or went on without a word.
+VARIANTS = [
+    ([50, 200, 50, 150], 50, 1e-3),
+    ([100, 200, 60, 175], 0.5, 1.6e-4),
+    ([75, 200, 115, 150], 2, 1.6e-4),
+    ([0, 175, 13.5, 190], 2, 5e-4),
+]
+
+
+class CutFree(RunTest):
+    def run_variant(self, path, energy, rate, folder):
+        keys = {"body.spacing": "5 mm", "cracks[0].path": "[" + ", ".join(f"{x} mm" for x in path) + "]",
+                "crack_fluid.inlets[0].at": f"[{path[0]} mm, {path[1]} mm]",
+                "damage.fracture_energy": f"{energy} J/m^2", "crack_fluid.inlets[0].rate": f"{rate} m^2/s",
+                "time.end": "0.4 s"}
+        return perifrac("run", CONFIGS / "hf_storage.yaml", "--no-report", "--threads", 1, "--output", folder,
+                        *settings(keys))
+
+    def test_says_which_piece_came_free(self):
+        for number, variant in enumerate(VARIANTS):
+            folder = self.folder / str(number)
+            with self.subTest(variant=variant):
+                done = self.run_variant(*variant, folder)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertRegex(done.stderr, r"error: cracks (cut a piece free that nothing holds.*at a piece of \d+ "
+                                              r"points, from \(.*\) to \(.*\) m|leave a piece too thin to bear anything"
+                                              r".*at point \d+ at \(.*\) m), t = \S+ s\n")
+                self.assertNotIn("is cut from", done.stderr)  # no shorter window would help
+                summary = json.loads((folder / "summary.json").read_text())
+                self.assertEqual(summary["outcome"], "failed")
+                self.assertLess(summary["ledger"]["mass_error"], 1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()
