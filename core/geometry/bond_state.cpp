@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/operators/bond_traversal.hpp"
+#include "core/require.hpp"
 
 namespace perifrac {
 
@@ -38,6 +39,8 @@ void BondState<D>::visit_state(StateVisitor& visitor) {
   if (corners == corners_before && bonds == bonds_before) return;
 
   constexpr std::size_t sides = std::tuple_size_v<CrackFacet<D>>;
+  require(corners.size() % (sides * D) == 0 && bonds.size() % 3 == 0,
+          "a state of cracks in parts that do not fit");
   facets_.resize(corners.size() / (sides * D));
   for (std::size_t k = 0; k < corners.size(); ++k)
     facets_[k / (sides * D)][k / D % sides][k % D] = corners[k];

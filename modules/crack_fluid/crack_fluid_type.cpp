@@ -78,9 +78,11 @@ std::unique_ptr<PhysicsModule> make_network(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
   const CrackLiquid liquid = read_liquid(section);
   auto leak_off = read_leak_off(section, body, liquid);
-  return std::make_unique<CrackNetwork<D>>(std::move(body), liquid,
-                                           CrackInlets(read_crack_inlets(section), liquid),
-                                           read_fillings<D>(section, liquid), std::move(leak_off));
+  auto outlets =
+      std::make_unique<CrackOutlets<D>>(body, read_behind_faces<D>(section.scene(), *body));
+  return std::make_unique<CrackNetwork<D>>(
+      std::move(body), liquid, CrackInlets(read_crack_inlets(section), liquid),
+      read_fillings<D>(section, liquid), std::move(leak_off), std::move(outlets));
 }
 
 KeyTable network_keys() {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/require.hpp"
 #include "modules/crack_fluid/lubrication_newton.hpp"
 
 namespace perifrac {
@@ -29,6 +30,7 @@ void CrackNetwork<D>::match_facets() {
     version_ = bonds.facet_points().version;
     lubrication_ = Lubrication(liquid_, CrackGraph(bonds.facets()));
     inlets_.locate(bonds.facet_points(), lubrication_.graph());
+    if (outlets_) outlets_->match(lubrication_.graph());
   }
   const std::size_t count = bonds.facets().size();
   mass_.resize(count, 0.0);
@@ -42,6 +44,7 @@ void CrackNetwork<D>::match_facets() {
 
 template <int D>
 void CrackNetwork<D>::initialize(double) {
+  if (outlets_) outlets_->start();
   match_facets();
   std::ranges::fill(mass_, 0.0);
   std::ranges::fill(unknown_, liquid_.empty());
@@ -94,6 +97,7 @@ double CrackNetwork<D>::advance(const TimeWindow& window) {
   match_facets();
   if (mass_.empty()) return window.end;
   if (has_begun_ == 0) fill_at_start(window);
+  if (outlets_) outlets_->tell(window.begin);
   if (!face_work_.knows_all_of(lubrication_)) {
     lubrication_.evaluate(at_rest(window), vector_of(unknown_));
     face_work_.add_new(lubrication_);
@@ -140,10 +144,16 @@ std::vector<double> CrackNetwork<D>::filled_from_neighbours() const {
 /// Tries one step; false where a shorter one is called for. Throws NumericalError where none is.
 template <int D>
 bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
+  require(opening_.size() == mass_.size() && opening_rate_.size() == mass_.size() &&
+              opening_slope_.size() == mass_.size() * mass_.size(),
+          "an opening of other facets than the crack has");
+  const auto given = inlets_.inflows(time);
+  std::vector<FacetInflow> inflows(given.begin(), given.end());
+  if (outlets_) outlets_->append_to(inflows, time, liquid_.vapour_pressure);
   const LubricationStep step{.time = time,
                              .opening = {opening_, opening_rate_, opening_slope_, window.end},
                              .mass = mass_,
-                             .inflows = inlets_.inflows(time),
+                             .inflows = inflows,
                              .leak_off = leak_off_.get()};
   if (leak_off_) leak_off_->begin(time);
   Eigen::VectorXd v = vector_of(time.length() > 0.0 ? unknown_ : settled_);

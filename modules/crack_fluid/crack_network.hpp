@@ -10,6 +10,7 @@
 #include "modules/crack_fluid/crack_extent.hpp"
 #include "modules/crack_fluid/crack_inlets.hpp"
 #include "modules/crack_fluid/crack_mouths.hpp"
+#include "modules/crack_fluid/crack_outlets.hpp"
 #include "modules/crack_fluid/face_work.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/lubrication.hpp"
@@ -46,9 +47,10 @@ struct CrackFilling {
 template <int D>
 class CrackNetwork final : public PhysicsModule {
  public:
-  /// `leak_off` may be null.
+  /// `leak_off` and `outlets` may be null; without these a crack that grows to a face stays closed.
   CrackNetwork(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid, CrackInlets inlets,
-               std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off);
+               std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off,
+               std::unique_ptr<CrackOutlets<D>> outlets = nullptr);
 
   std::span<const Port> ports() const override { return ports_; }
   PortView port(PortId id) override;
@@ -117,6 +119,7 @@ class CrackNetwork final : public PhysicsModule {
   CrackMouths mouths_;
   std::vector<CrackFilling<D>> fillings_;
   std::unique_ptr<LeakOff> leak_off_;
+  std::unique_ptr<CrackOutlets<D>> outlets_;
   PoreLeakOff<D>* pores_;  ///< which is the leak-off, or null
   std::vector<Port> ports_;
   std::vector<Quantity> quantities_;   ///< by port

@@ -13,13 +13,15 @@ const PointSet whole_crack{.name = "crack_total"};
 template <int D>
 CrackNetwork<D>::CrackNetwork(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid,
                               CrackInlets inlets, std::vector<CrackFilling<D>> fillings,
-                              std::unique_ptr<LeakOff> leak_off)
+                              std::unique_ptr<LeakOff> leak_off,
+                              std::unique_ptr<CrackOutlets<D>> outlets)
     : body_(std::move(body)),
       liquid_(liquid),
       inlets_(std::move(inlets)),
       mouths_(inlets_),
       fillings_(std::move(fillings)),
       leak_off_(std::move(leak_off)),
+      outlets_(std::move(outlets)),
       pores_(dynamic_cast<PoreLeakOff<D>*>(leak_off_.get())) {
   using enum PortDirection;
   using enum PortKind;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/geometry/crack_cut.hpp"
+#include "core/require.hpp"
 #include "core/solvers/complementarity.hpp"
 #include "modules/solid/stiffness_bound.hpp"
 
@@ -162,6 +163,9 @@ double CrackDynamics::opening_rate(std::size_t f, std::span<const double> veloci
 
 void CrackDynamics::press(std::span<const double> pressure) {
   const auto count = static_cast<Eigen::Index>(terms_.size());
+  require(pressure.size() == terms_.size() && forecast_.size() == terms_.size() &&
+              slope_.size() == terms_.size() * terms_.size(),
+          "pressure of other facets than the body has");
   const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(slope_.data(), count,
                                                                                count);
   pressure_ = Eigen::Map<const Eigen::VectorXd>(pressure.data(), count);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/require.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -269,6 +271,8 @@ void CrackTips::visit_state(StateVisitor& visitor) {
   }
   visitor.visit("tips", numbers);
   visitor.visit("tip_facets", indices);
+  require(indices.size() % 3 == 0 && numbers.size() == indices.size() / 3 * 8,
+          "a state of tips in parts that do not fit");
   tips_.resize(indices.size() / 3);
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     const double* const n = &numbers[8 * k];

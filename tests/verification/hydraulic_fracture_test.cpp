@@ -242,5 +242,39 @@ TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
 }
 
+/// A wing that grows to the right face of a narrow body, whose halves are held by rollers.
+SceneRun run_to_face(const std::vector<std::string>& more) {
+  std::vector<std::string> overrides = {"body.size=[100 mm, 200 mm]",
+                                        "cracks[0].path=[0 mm, 100 mm, 20 mm, 100 mm]",
+                                        "crack_fluid.inlets[0].at=[0 mm, 100 mm]",
+                                        "solid.confining_stress=[0.2 MPa, 0.2 MPa]",
+                                        "time.end=0.16 s",
+                                        "output.interval=20 ms"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return run_config("kgd_mixed", overrides);
+}
+
+/// In the end all that is pumped in flows out: the fluid is where the elastic halves and the fall
+/// of pressure along the crack are in balance.
+TEST(GrownToAFace, ACrackDrainsThere) {
+  const SceneRun run = run_to_face({});
+  ASSERT_EQ(run.exit_code, 0);
+  EXPECT_NEAR(run.column("crack_length [m]").back(), 0.1, 1e-9);
+  const std::vector<double> mass = run.column("fluid_mass_stored [kg/m]");
+  const std::vector<double> pressure = run.column("inlet_well_pressure [Pa]");
+  EXPECT_NEAR(mass.back() / mass[mass.size() - 2], 1.0, 7e-4);
+  EXPECT_NEAR(pressure.back() / pressure[pressure.size() - 2], 1.0, 7e-4);
+  EXPECT_LT(mass.back(), 0.6 * 1000.0 * 0.5 * 1.6e-4 * 0.16);
+  EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.007);
+}
+
+TEST(GrownToAFace, ACrackStaysClosedWhereTheFaceIsHeld) {
+  const SceneRun run = run_to_face({"solid.boundary.right.type=roller"});
+  ASSERT_EQ(run.exit_code, 0);
+  EXPECT_NEAR(run.column("crack_length [m]").back(), 0.1, 1e-9);
+  EXPECT_NEAR(run.column("fluid_mass_stored [kg/m]").back(), 1000.0 * 0.5 * 1.6e-4 * 0.16, 1e-9);
+}
+
 }  // namespace
 }  // namespace perifrac::test

@@ -1,0 +1,154 @@
+#include "modules/crack_fluid/crack_outlets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/io/log.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// So near a face no bond lies ahead of a tip: the outermost points are half a spacing inside it
+/// [spacings].
+constexpr double at_face = 0.55;
+
+constexpr int no_face = -1;
+
+template <int D>
+Vector<D> middle_of(const FacetSide<D>& side) {
+  Vector<D> x;
+  for (int a = 0; a < D; ++a) x[a] = 0.5 * (side.front()[a] + side.back()[a]);
+  return x;
+}
+
+}  // namespace
+
+template <int D>
+CrackOutlets<D>::CrackOutlets(std::shared_ptr<const Body<D>> body, std::vector<BehindFace> behind)
+    : body_(std::move(body)), behind_(std::move(behind)) {}
+
+template <int D>
+void CrackOutlets<D>::start() {
+  seeds_ = body_->bond_state().facets().size();
+  told_.clear();
+}
+
+/// The nearest of those that x lies at or beyond.
+template <int D>
+int CrackOutlets<D>::face_at(const Vector<D>& x) const {
+  int nearest = no_face;
+  double least = at_face * body_->spacing();
+  for (int f = 0; f < std::ssize(body_->faces()); ++f) {
+    const Face& face = body_->faces()[f];
+    if (!body_->layer(f).empty()) continue;
+    double square = 0.0;
+    for (int a = 0; a < D; ++a) square += x[a] * x[a];
+    const double along = face.curved() ? std::sqrt(square) : x[face.axis];
+    const double inside = face.direction * (face.coordinate - along);
+    if (inside > least) continue;
+    least = inside;
+    nearest = f;
+  }
+  return nearest;
+}
+
+template <int D>
+void CrackOutlets<D>::match(const CrackGraph& graph) {
+  outlets_.clear();
+  const auto facets = body_->bond_state().facets();
+  if (facets.size() == seeds_) return;
+  std::map<FacetSide<D>, int> facets_at;
+  for (const CrackFacet<D>& facet : facets) {
+    for (const auto& side : sides<D>(facet)) ++facets_at[side];
+  }
+  std::set<std::pair<Index, int>> given;  // cracks that meet a face from the start
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (const auto& side : sides<D>(facets[f])) {
+      const Vector<D> at = middle_of<D>(side);
+      const int face = facets_at[side] == 1 ? face_at(at) : no_face;
+      if (face == no_face) continue;
+      const std::pair crack{graph.crack(static_cast<Index>(f)), face};
+      if (f < seeds_) {
+        given.insert(crack);
+      } else if (D == 2 || !given.contains(crack)) {
+        outlets_.push_back({static_cast<Index>(f), face, at});
+      }
+    }
+  }
+}
+
+template <int D>
+void CrackOutlets<D>::tell(double t) {
+  for (const auto& [facet, face, at] : outlets_) {
+    if (!told_.insert({face, D == 2 ? facet : 0}).second) continue;
+    const BehindFace& behind = behind_[face];
+    std::string what = fmt::format("opens there, and drains to {:.6g} Pa",
+                                   behind.pressure * behind.schedule.factor(t));
+    if (behind.kind == BehindFace::Kind::held) what = "stops there and stays closed: it is held";
+    if (behind.kind == BehindFace::Kind::free_fluid) {
+      what = "stays closed there: what free fluid beside it does is not followed";
+    }
+    log_info(fmt::format("at t = {:.6g} s a crack has grown to the face '{}' at ({:.6g}) m; it {}",
+                         t, body_->faces()[face].name, fmt::join(at, ", "), what));
+  }
+}
+
+template <int D>
+void CrackOutlets<D>::append_to(std::vector<FacetInflow>& inflows, const TimeWindow& step,
+                                double vapour_pressure) const {
+  if (!(step.length() > 0.0)) return;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const Outlet& outlet : outlets_) {
+    const BehindFace& behind = behind_[outlet.face];
+    if (behind.kind != BehindFace::Kind::open) continue;
+    if (std::ranges::count(inflows, outlet.facet, &FacetInflow::facet) > 0) continue;
+    const double pressure = behind.pressure * behind.schedule.factor(step.end);
+    inflows.push_back({.facet = outlet.facet,
+                       .least = -infinity,
+                       .most = behind.gives ? infinity : 0.0,
+                       .target = std::max(pressure, vapour_pressure)});
+  }
+}
+
+template <int D>
+std::vector<BehindFace> read_behind_faces(const Section& scene, const Body<D>& body) {
+  std::vector<BehindFace> faces;
+  for (const Face& face : body.faces()) {
+    BehindFace& behind = faces.emplace_back();
+    const auto has = [&](const std::string& section) {
+      return scene.has(section + ".boundary." + face.name + ".type");
+    };
+    const auto take_pressure = [&](const std::string& section) {
+      const std::string path = section + ".boundary." + face.name;
+      if (scene.word(path + ".type") != "pressure") return;
+      behind.pressure = scene.number(path + ".pressure");
+      behind.schedule = read_schedule(scene, path);
+      behind.gives = true;
+    };
+    if (has("solid")) {
+      const std::string type = scene.word("solid.boundary." + face.name + ".type");
+      if (type == "roller" || type == "fixed" || type == "rigid_plate") {
+        behind.kind = BehindFace::Kind::held;
+      }
+      take_pressure("solid");
+    }
+    if (has("pore_flow")) take_pressure("pore_flow");
+    if (behind.kind == BehindFace::Kind::open && scene.has("fluid")) {
+      behind.kind = BehindFace::Kind::free_fluid;
+    }
+  }
+  return faces;
+}
+
+template class CrackOutlets<2>;
+template class CrackOutlets<3>;
+template std::vector<BehindFace> read_behind_faces<2>(const Section&, const Body<2>&);
+template std::vector<BehindFace> read_behind_faces<3>(const Section&, const Body<3>&);
+
+}  // namespace perifrac
