@@ -1,7 +1,5 @@
 #include "core/solvers/complementarity.hpp"
 
-#include <stdexcept>
-
 #include <Eigen/Dense>
 
 namespace perifrac {
@@ -56,7 +54,7 @@ Complementarity solve_complementarity(const Eigen::Ref<const Eigen::MatrixXd>& m
     for (const Eigen::Index i : wrong) answer.held[i] = !answer.held[i];
     find_values(m, q, answer);
   }
-  throw std::runtime_error("no solution of a complementarity problem");
+  throw NoContact("no solution of a complementarity problem");
 }
 
 Eigen::MatrixXd response_with_held(const Eigen::Ref<const Eigen::MatrixXd>& m,

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -41,7 +40,7 @@ class Search {
       if (newton()) return {x_, y_};
       for (int sweep = 0; sweep < sweeps_a_round; ++sweep) relax_all(swept);
     }
-    throw std::runtime_error("no solution of a contact problem with friction");
+    throw NoContact("no solution of a contact problem with friction");
   }
 
  private:

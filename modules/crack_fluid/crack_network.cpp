@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/require.hpp"
+#include "core/solvers/complementarity.hpp"
 #include "modules/crack_fluid/lubrication_newton.hpp"
 
 namespace perifrac {
@@ -157,11 +158,18 @@ bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
                              .leak_off = leak_off_.get()};
   if (leak_off_) leak_off_->begin(time);
   Eigen::VectorXd v = vector_of(time.length() > 0.0 ? unknown_ : settled_);
-  NewtonReport report = solve(lubrication_, liquid_, step, v);
+  const auto solved = [&] {
+    try {
+      return solve(lubrication_, liquid_, step, v);
+    } catch (const NoContact&) {
+      return NewtonReport{};
+    }
+  };
+  NewtonReport report = solved();
   iterations_ += report.iterations;
   if (!report.converged && time.length() > 0.0) {
     v = vector_of(filled_from_neighbours());
-    report = solve(lubrication_, liquid_, step, v);
+    report = solved();
     iterations_ += report.iterations;
   }
   ++steps_;

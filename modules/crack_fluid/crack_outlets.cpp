@@ -39,20 +39,23 @@ void CrackOutlets<D>::start() {
   told_.clear();
 }
 
-/// The nearest of those that x lies at or beyond.
+/// The nearest of those that all of the side lies at or beyond.
 template <int D>
-int CrackOutlets<D>::face_at(const Vector<D>& x) const {
+int CrackOutlets<D>::face_at(const FacetSide<D>& side) const {
   int nearest = no_face;
   double least = at_face * body_->spacing();
   for (int f = 0; f < std::ssize(body_->faces()); ++f) {
     const Face& face = body_->faces()[f];
     if (!body_->layer(f).empty()) continue;
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) square += x[a] * x[a];
-    const double along = face.curved() ? std::sqrt(square) : x[face.axis];
-    const double inside = face.direction * (face.coordinate - along);
-    if (inside > least) continue;
-    least = inside;
+    const auto inside = [&](const Vector<D>& x) {
+      double square = 0.0;
+      for (int a = 0; a < D; ++a) square += x[a] * x[a];
+      const double along = face.curved() ? std::sqrt(square) : x[face.axis];
+      return face.direction * (face.coordinate - along);
+    };
+    const double farthest = std::max(inside(side.front()), inside(side.back()));
+    if (farthest > least) continue;
+    least = farthest;
     nearest = f;
   }
   return nearest;
@@ -70,14 +73,13 @@ void CrackOutlets<D>::match(const CrackGraph& graph) {
   std::set<std::pair<Index, int>> given;  // cracks that meet a face from the start
   for (std::size_t f = 0; f < facets.size(); ++f) {
     for (const auto& side : sides<D>(facets[f])) {
-      const Vector<D> at = middle_of<D>(side);
-      const int face = facets_at[side] == 1 ? face_at(at) : no_face;
+      const int face = facets_at[side] == 1 ? face_at(side) : no_face;
       if (face == no_face) continue;
       const std::pair crack{graph.crack(static_cast<Index>(f)), face};
       if (f < seeds_) {
         given.insert(crack);
       } else if (D == 2 || !given.contains(crack)) {
-        outlets_.push_back({static_cast<Index>(f), face, at});
+        outlets_.push_back({static_cast<Index>(f), face, middle_of<D>(side)});
       }
     }
   }

@@ -47,7 +47,7 @@ class CrackOutlets {
     int face;
     Vector<D> at;
   };
-  int face_at(const Vector<D>& x) const;
+  int face_at(const FacetSide<D>& side) const;
 
   std::shared_ptr<const Body<D>> body_;
   std::vector<BehindFace> behind_;

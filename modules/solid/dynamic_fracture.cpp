@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/errors.hpp"
+#include "core/solvers/complementarity.hpp"
 #include "core/time/equal_steps.hpp"
 
 namespace perifrac {
@@ -127,7 +129,11 @@ double DynamicFracture::advance(const TimeWindow& window) {
     const double part = static_cast<double>(n) / static_cast<double>(steps);
     const double end = n == steps ? window.end : window.begin + part * window.length();
     foretell(begin, end - begin);
-    cracks_.press(crack_pressure_);
+    try {
+      cracks_.press(crack_pressure_);
+    } catch (const NoContact& error) {
+      throw NumericalError("crack_opening", "the faces of the cracks", end, error.what());
+    }
     DynamicSolid<2>::advance({begin, end});
     begin = end;
   }

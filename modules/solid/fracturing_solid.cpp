@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "core/solvers/complementarity.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/loose_piece.hpp"
 #include "modules/solid/rigid_motion.hpp"
@@ -142,10 +143,14 @@ template <int D>
 void FracturingSolid<D>::solve_faces() {
   load_is_current_ = load_is_current_ && is_steady();
   take_load();
-  if constexpr (D == 2) {
-    if (friction_) faces_ = friction_->faces(cracked_, in_cracks(), window_end_);
+  try {
+    if constexpr (D == 2) {
+      if (friction_) faces_ = friction_->faces(cracked_, in_cracks(), window_end_);
+    }
+    if (!friction_) faces_ = cracked_.faces(in_cracks());
+  } catch (const NoContact& error) {
+    throw NumericalError("crack_opening", "the faces of the cracks", window_end_, error.what());
   }
-  if (!friction_) faces_ = cracked_.faces(in_cracks());
   unknowns_are_current_ = false;
 }
 
