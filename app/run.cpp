@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "app/energy_warnings.hpp"
 #include "app/nucleus_warning.hpp"
 #include "app/output_times.hpp"
 #include "app/profile_report.hpp"
@@ -111,18 +112,6 @@ void refuse_other_results(const RunRequest& request, const std::filesystem::path
       folder.string(), request.restart));
 }
 
-/// A run may end with numbers that mean nothing: the ledger knows.
-void warn_of_open_balance(const CouplingManager& manager) {
-  constexpr double noticeable = 0.05;
-  const auto energy = manager.ledger().energy();
-  if (energy && energy->relative_error > noticeable) {
-    log_warning(
-        fmt::format("the energy balance is {:.0f} % open; shorter windows or more "
-                    "coupling.iterations may close it",
-                    100.0 * energy->relative_error));
-  }
-}
-
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
 int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const double> outputs) {
   CouplingManager& manager = *simulation.manager;
@@ -147,7 +136,7 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const d
   return 0;
 }
 
-void start(Simulation& simulation, Recorder& recorder, const OutputFolder& folder,
+void start(const Section& scene, Simulation& simulation, Recorder& recorder, const OutputFolder& folder,
            const std::optional<Checkpoint>& restart) {
   CouplingManager& manager = *simulation.manager;
   for (const std::string& warning : manager.warnings()) log_warning(warning);
@@ -156,7 +145,9 @@ void start(Simulation& simulation, Recorder& recorder, const OutputFolder& folde
     recorder.open(folder, restart);
     return;
   }
-  manager.settle();
+  if (const auto warning = start_warning(scene, simulation, manager.settle())) {
+    log_warning(*warning);
+  }
   recorder.check_finite();
   recorder.open(folder, restart);
   recorder.record_window();
@@ -196,12 +187,12 @@ int run_scene(const RunRequest& request) {
   RunOutcome outcome = RunOutcome::done;
   int exit_code = 0;
   try {
-    start(simulation, recorder, folder, restart);
+    start(scene, simulation, recorder, folder, restart);
     if (const int signal = advance_to_end(simulation, recorder, outputs)) {
       outcome = RunOutcome::stopped;
       exit_code = exit_code_of(signal);
     }
-    warn_of_open_balance(*simulation.manager);
+    if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
   } catch (const NumericalError& error) {
     log_error(error.what());
     outcome = RunOutcome::failed;

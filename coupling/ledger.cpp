@@ -53,6 +53,13 @@ void Ledger::start() {
   energy_at_start_ = stored(PortRole::energy_stored);
 }
 
+double Ledger::settle() {
+  const auto energy = this->energy();
+  if (!energy || energy->error >= 0.0) return 0.0;
+  *energy_at_start_ += energy->error;
+  return energy->relative_error;
+}
+
 std::optional<Balance> Ledger::mass() const {
   if (!mass_at_start_) return std::nullopt;
   return balance(total(modules_, PortRole::mass_stored), *mass_at_start_,

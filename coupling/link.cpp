@@ -201,10 +201,15 @@ void Link::compare() {
   std::vector<double> difference(value_.size());
   for (std::size_t i = 0; i < value_.size(); ++i) difference[i] = value_[i] - used_[i];
   mismatch_.absolute = norm(difference);
-  // A strain below the rounding of 1 is none: a body at rest has nothing to be compared with.
-  const double rounding =
-      std::sqrt(static_cast<double>(value_.size())) * std::numeric_limits<double>::epsilon();
-  if (is_pure_number_ && mismatch_.absolute <= rounding) mismatch_.absolute = 0.0;
+  // A strain below the rounding of 1 is none, nor is what that comes to as a pressure in pores that
+  // are as good as empty: a body at rest has nothing to be compared with.
+  constexpr double no_pressure = 1e-6;  // [Pa]
+  const double root = std::sqrt(static_cast<double>(value_.size()));
+  const bool is_pressure = source_.module->ports()[source_.port].unit == "Pa";
+  const double least = is_pure_number_ ? root * std::numeric_limits<double>::epsilon()
+                       : is_pressure   ? root * no_pressure
+                                       : 0.0;
+  if (mismatch_.absolute <= least) mismatch_.absolute = 0.0;
   mismatch_.scale = mismatch_.output = norm(reached_.output);
   if (!uses_slope()) return;
   for (std::size_t i = 0; i < value_.size(); ++i) {

@@ -139,9 +139,10 @@ std::vector<std::string> CouplingManager::warnings() const {
   return warnings;
 }
 
-void CouplingManager::settle() {
+double CouplingManager::settle() {
   solver_->solve({time_, time_}, settling);
   schedule_.start_over(stable_time_step());
+  return ledger_.settle();
 }
 
 double CouplingManager::advance(double stop) {

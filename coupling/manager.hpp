@@ -42,9 +42,9 @@ class CouplingManager {
   std::vector<std::string> warnings() const;
 
   /// The instant answer to a load that came on suddenly: a window of no length, iterated until the
-  /// modules agree whatever the scene's iterations. Windows start over from the first.
-  /// Throws NumericalError.
-  void settle();
+  /// modules agree whatever the scene's iterations. Windows start over from the first. Returns the
+  /// share of energy that this sets free (Ledger::settle). Throws NumericalError.
+  double settle();
 
   /// Advances over one window, not past `stop` [s]; returns the time reached. A window that fails
   /// is taken back and tried again, half as long, as often as the scene lets it; the log says why.

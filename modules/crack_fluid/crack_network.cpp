@@ -71,7 +71,8 @@ LubricationStep CrackNetwork<D>::at_rest(const TimeWindow& window) const {
           .mass = mass_};
 }
 
-/// Cracks of the start, now that their opening is known. Their fluid counts as injected.
+/// Cracks of the start, now that their opening is known. Their fluid counts as injected, with what
+/// it took to open them.
 template <int D>
 void CrackNetwork<D>::fill_at_start(const TimeWindow& window) {
   has_begun_ = 1;
@@ -84,7 +85,9 @@ void CrackNetwork<D>::fill_at_start(const TimeWindow& window) {
     }
   }
   lubrication_.evaluate(at_rest(window), vector_of(unknown_));
+  face_work_.start(lubrication_.graph().facet_count());
   for (std::size_t f = 0; f < mass_.size(); ++f) {
+    work_.add(face_work_.book(lubrication_, static_cast<Index>(f)));
     if (!liquid_.is_full(unknown_[f])) continue;
     mass_[f] = lubrication_.residual()[f];
     injected_.add(mass_[f]);

@@ -2,8 +2,6 @@
 
 namespace perifrac {
 
-void FaceWork::clear() { facets_.clear(); }
-
 void FaceWork::add_new(const Lubrication& before) {
   for (Index f = static_cast<Index>(facets_.size()); f < before.graph().facet_count(); ++f) {
     const double pressure = before.face_pressure()[f];

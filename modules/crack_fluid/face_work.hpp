@@ -16,7 +16,10 @@ namespace perifrac {
 /// it comes to hold.
 class FaceWork {
  public:
-  void clear();
+  void clear() { facets_.clear(); }
+  /// All facets as they are at rest, before anything acts: what comes on at once with the fluid at
+  /// the start does half of what it comes to, and so does the fluid.
+  void start(Index count) { facets_.assign(count, {0.0, 0.0, false}); }
   /// Takes facets that are new as they are before the step.
   void add_new(const Lubrication& before);
   bool knows_all_of(const Lubrication& now) const;

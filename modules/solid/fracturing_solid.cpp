@@ -67,6 +67,7 @@ void FracturingSolid<D>::initialize(double t) {
   external_work_ = spent_energy_ = radiated_energy_ = 0.0;
   readiness_before_ = nucleus_before_ = 0.0;
   load_work_ = relief_work_ = elastic_energy_ = 0.0;
+  has_begun_ = 0;
   const auto facets = static_cast<Eigen::Index>(seeds_.size());
   faces_ = {Eigen::VectorXd::Zero(facets), Eigen::VectorXd::Zero(facets),
             std::vector<bool>(seeds_.size(), false)};
@@ -191,6 +192,7 @@ void FracturingSolid<D>::derive() {
 }
 
 /// Work since the last time; that of the fluid in the cracks is the fluid's, and contact does none.
+/// What comes on at once at the start does half of it: a body in equilibrium has no kinetic energy.
 template <int D>
 void FracturingSolid<D>::book_work() {
   if constexpr (D == 2) {
@@ -199,9 +201,11 @@ void FracturingSolid<D>::book_work() {
   }
   if (is_steady()) {
     const auto energies = cracked_.energies(faces_.pressure, faces_.shear);
-    // Loads that come on suddenly do half of it: a body in equilibrium has no kinetic energy.
-    const double share = load_work_ == 0.0 ? 0.5 : 1.0;
-    external_work_ += share * (energies.load - load_work_) + energies.relief - relief_work_;
+    const double share = has_begun_ == 0 ? 0.5 : 1.0;
+    external_work_ += share * (energies.load - load_work_ + energies.relief - relief_work_);
+    // Faces begin to slide once half, and more, has come on.
+    if (has_begun_ == 0 && friction_) external_work_ += 0.5 * friction_->dissipation();
+    has_begun_ = 1;
     load_work_ = energies.load;
     relief_work_ = energies.relief;
     elastic_energy_ = energies.elastic + (friction_ ? friction_->elastic_energy() : 0.0);
@@ -223,8 +227,9 @@ void FracturingSolid<D>::book_work() {
     relief -= pore_stress_at_rest_[i] * scratch[i] * body_->points().volume[i];
   }
   external_work_ +=
-      0.5 * (view(force_) + view(force)).dot(view(unknowns_) - view(unknowns_before_)) + relief -
-      relief_work_;
+      0.5 * (view(force_) + view(force)).dot(view(unknowns_) - view(unknowns_before_)) +
+      (has_begun_ == 0 ? 0.5 : 1.0) * (relief - relief_work_);
+  has_begun_ = 1;
   relief_work_ = relief;
   force_ = force;
   unknowns_before_ = unknowns_;
@@ -246,6 +251,7 @@ CrackState<D> FracturingSolid<D>::crack_state() {
 template <int D>
 void FracturingSolid<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("pore_stress", pore_stress_);  // says whether the rest is steady
+  visitor.visit("has_begun", has_begun_);
   visitor.visit("relief_work", relief_work_);
   if (is_steady()) {
     visitor.visit("load_work", load_work_);
