@@ -3,24 +3,25 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/nucleus_warning.hpp"
+#include "app/memory.hpp"
 #include "app/output_times.hpp"
 #include "app/profile_report.hpp"
 #include "app/recorder.hpp"
 #include "app/report.hpp"
 #include "app/scene_keys.hpp"
+#include "app/scene_warnings.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
+#include "app/validity_watch.hpp"
 #include "app/version.hpp"
 #include "core/config/scene.hpp"
 #include "core/config/units.hpp"
 #include "core/errors.hpp"
+#include "core/io/input_file.hpp"
 #include "core/io/log.hpp"
 #include "core/io/progress.hpp"
 #include "core/io/signals.hpp"
@@ -47,11 +48,9 @@ Simulation set_up(const Section& scene) {
 
 /// The scene as run: what a checkpoint belongs to.
 std::string scene_text(const RunRequest& request) {
-  std::ifstream file(request.scene);
-  std::ostringstream text;
-  text << file.rdbuf();
-  for (const std::string& override : request.overrides) text << "# --set " << override << '\n';
-  return text.str();
+  std::string text = read_input_text(request.scene, "a scene file");
+  for (const std::string& override : request.overrides) text += "# --set " + override + '\n';
+  return text;
 }
 
 /// The time [s] that --until names. The scene's own end stays what it is: windows follow from it.
@@ -120,8 +119,13 @@ void warn_of_open_balance(const CouplingManager& manager) {
   }
 }
 
+void log_all(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) log_warning(warning);
+}
+
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
-int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const double> outputs) {
+int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& watch,
+                   std::span<const double> outputs) {
   CouplingManager& manager = *simulation.manager;
   Progress progress(manager.time(), simulation.end);
   auto output = std::ranges::upper_bound(outputs, manager.time());
@@ -131,11 +135,14 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const d
     if (const auto warning = manager.new_warning()) log_warning(*warning);
     recorder.check_finite();
     recorder.record_window();
-    if (manager.time() == *output) {
+    const bool is_output = manager.time() == *output;
+    const bool is_restart_point = is_output || manager.step() % windows_between_restart_points == 0;
+    if (is_restart_point || ValidityWatch::is_due(manager.step())) log_all(watch.look());
+    if (is_output) {
       recorder.record_output();
       recorder.restart_point();
       ++output;
-    } else if (manager.step() % windows_between_restart_points == 0) {
+    } else if (is_restart_point) {
       recorder.restart_point();
     }
     recorder.write_checkpoint(true);
@@ -147,7 +154,7 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const d
 void start(Simulation& simulation, Recorder& recorder, const OutputFolder& folder,
            const std::optional<Checkpoint>& restart) {
   CouplingManager& manager = *simulation.manager;
-  for (const std::string& warning : manager.warnings()) log_warning(warning);
+  log_all(manager.warnings());
   if (restart) {
     recorder.restore(*restart);
     recorder.open(folder, restart);
@@ -162,6 +169,67 @@ void start(Simulation& simulation, Recorder& recorder, const OutputFolder& folde
   recorder.write_checkpoint(false);
 }
 
+void replace_earlier_results(const OutputFolder& folder) {
+  const int files = folder.remove_earlier_results();
+  if (files == 0) return;
+  log_info(
+      fmt::format("{}: {} files of an earlier run are replaced", folder.path().string(), files));
+}
+
+/// Runs `whole`, which returns the signal that stopped it or 0. Where that fails, the log says why,
+/// and what can still be written is: of memory that ended, nothing is sure any more.
+template <class Whole>
+RunEnd go(Whole&& whole, Recorder& recorder, ValidityWatch& watch) {
+  RunEnd end;
+  try {
+    if (whole() != 0) end.outcome = RunOutcome::stopped;
+    return end;
+  } catch (const NumericalError& error) {
+    end.failure = failure_of(error);
+  } catch (const std::bad_alloc& error) {
+    end.failure = failure_of(error);
+  }
+  end.outcome = RunOutcome::failed;
+  log_error(describe(*end.failure));
+  if (end.failure->time) {
+    log_all(watch.look());  // what it had come to may say why
+    recorder.record_failure();
+    recorder.write_checkpoint(false);
+  }
+  return end;
+}
+
+/// How a run ended, since when it ran, and what it cost by part.
+struct Ending {
+  RunEnd end;
+  std::chrono::steady_clock::time_point begin;
+  std::optional<Profile>& profile;
+};
+
+/// Writes the summary, and says and draws what there is.
+void conclude(const RunRequest& request, const Section& scene, const std::string& text,
+              Simulation& simulation, const Recorder& recorder, const OutputFolder& folder,
+              const Ending& ending) {
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - ending.begin).count();
+  nlohmann::json summary = summarize(scene, request.scene, text, simulation, recorder.reference(),
+                                     ending.end, {.whole = seconds, .output = recorder.seconds()});
+  if (ending.profile) summary["profile"] = profile_json(*ending.profile, simulation);
+  write_summary(folder.path(), summary);
+  if (request.json) {
+    fmt::print("{}", json_text(summary));
+  } else {
+    fmt::print("{}", summary_text(summary));
+    if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
+  }
+  std::fflush(stdout);
+  if (ending.profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
+  if (request.report && ending.end.outcome != RunOutcome::stopped &&
+      make_report(folder.path(), request.json) != 0) {
+    log_warning("no report was made of the results; `perifrac report` tries again");
+  }
+}
+
 }  // namespace
 
 int run_scene(const RunRequest& request) {
@@ -171,51 +239,39 @@ int run_scene(const RunRequest& request) {
   hold_back_signals();
   const Section scene = read(request);
   const std::string text = scene_text(request);
+  require_memory(scene);
   Simulation simulation = set_up(scene);
-  if (const auto warning = nucleus_warning(scene)) log_warning(*warning);
+  const auto warnings = scene_warnings(scene, regime_of(scene, simulation));
   const std::vector<double> outputs =
       read_output_times(scene.at("output"), simulation.end, read_until(request.until));
   simulation.end = outputs.back();
   Recorder recorder(scene, text, simulation);
   const std::optional<Checkpoint> restart = read_restart(request, text, simulation.end);
   if (restart) refuse_other_results(request, folder_of(request));
-  const OutputFolder folder(folder_of(request));
-  if (!restart) folder.remove_earlier_results();
+  const OutputFolder folder(folder_of(request), request.overwrite);
+  if (!restart) replace_earlier_results(folder);
+  log_all(warnings);
 
-  RunOutcome outcome = RunOutcome::done;
-  int exit_code = 0;
+  ValidityWatch watch(scene, simulation);
+  int signal = 0;
+  const RunEnd end = go(
+      [&] {
+        start(simulation, recorder, folder, restart);
+        signal = advance_to_end(simulation, recorder, watch, outputs);
+        warn_of_open_balance(*simulation.manager);
+        recorder.write_checkpoint(false);
+        recorder.check_kept();
+        return signal;
+      },
+      recorder, watch);
+  // Of memory that ended, nothing that is left to do is sure; what the log said last stays true.
   try {
-    start(simulation, recorder, folder, restart);
-    if (const int signal = advance_to_end(simulation, recorder, outputs)) {
-      outcome = RunOutcome::stopped;
-      exit_code = exit_code_of(signal);
-    }
-    warn_of_open_balance(*simulation.manager);
-  } catch (const NumericalError& error) {
-    log_error(error.what());
-    outcome = RunOutcome::failed;
-    exit_code = 1;
+    conclude(request, scene, text, simulation, recorder, folder, {end, begin, profile});
+  } catch (const std::bad_alloc&) {
+    if (!end.failure) throw;
   }
-  recorder.write_checkpoint(false);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  nlohmann::json summary = summarize(scene, request.scene, text, simulation, recorder.reference(),
-                                     outcome, {.whole = seconds, .output = recorder.seconds()});
-  if (profile) summary["profile"] = profile_json(*profile, simulation);
-  write_summary(folder.path(), summary);
-  if (request.json) {
-    fmt::print("{}", json_text(summary));
-  } else {
-    fmt::print("{}", summary_text(summary));
-    if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
-  }
-  std::fflush(stdout);
-  if (profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
-  if (request.report && outcome != RunOutcome::stopped &&
-      make_report(folder.path(), request.json) != 0) {
-    log_warning("no report was made of the results; `perifrac report` tries again");
-  }
-  return exit_code;
+  if (end.failure) return 1;
+  return signal == 0 ? 0 : exit_code_of(signal);
 }
 
 }  // namespace perifrac

@@ -29,6 +29,15 @@ class Run:
         return self.summary.get("outcome", "unfinished")
 
     @property
+    def failure(self) -> dict[str, Any]:
+        """Why the run failed; empty of one that did not."""
+        return self.summary.get("failure") or {}
+
+    @property
+    def warnings(self) -> list[str]:
+        return self.summary.get("warnings") or []
+
+    @property
     def counts(self) -> dict[str, int]:
         """What the run had any of."""
         return {name: count for name, count in self.summary.get("counts", {}).items() if count}

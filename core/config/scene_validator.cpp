@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -149,7 +151,7 @@ class Validator {
              "expected a list of items, each '- key: value'");
     }
     SceneTree::Entry entry{.place = written.key_place};
-    std::vector<const YamlNode*> names;
+    std::unordered_map<std::string_view, const YamlNode*> names;
     for (std::size_t i = 0; i < written.children.size(); ++i) {
       const YamlNode& item = written.children[i];
       entry.children.push_back(fmt::format("[{}]", i));
@@ -157,14 +159,13 @@ class Validator {
       require_map(item, keys.children.front(), item_path, parent.type);
       read_map({&item, keys.children.front(), item_path, item.place, parent.type});
       if (const YamlNode* name = item.child("name")) {
-        for (const YamlNode* other : names) {
-          if (other->text == name->text) {
-            refuse(name->place, join_path(item_path, "name"),
-                   fmt::format("a second {}", in_quotes(name->text)),
-                   fmt::format("expected names that differ; the first is at {}", other->place));
-          }
+        const auto [first, is_new] = names.try_emplace(name->text, name);
+        if (!is_new) {
+          refuse(
+              name->place, join_path(item_path, "name"),
+              fmt::format("a second {}", in_quotes(name->text)),
+              fmt::format("expected names that differ; the first is at {}", first->second->place));
         }
-        names.push_back(name);
       }
     }
     scene_.entries[path] = std::move(entry);
