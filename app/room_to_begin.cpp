@@ -5,6 +5,7 @@
 // METIS, under CHOLMOD, calls itself: a stack of less than 256 kB ends it without a word.
 #include <algorithm>
 #include <cstddef>
+#include <fcntl.h>
 #include <sched.h>
 #include <string_view>
 #include <sys/mman.h>
@@ -57,7 +58,17 @@ void look_for_stack() {
   end("perifrac: the stack is too small to begin: 1 MB is the least; allow more (ulimit -s)\n");
 }
 
+/// A file that is opened where a standard one is closed would take its number, and what is printed.
+/// Nothing can be written to these: a result that cannot be printed is still no success.
+void look_for_standard_files() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(number, F_GETFD) >= 0) continue;
+    [[maybe_unused]] const int opened = ::open("/dev/null", O_RDONLY);
+  }
+}
+
 void look_for_room(int, char**, char** environment) {
+  look_for_standard_files();
   look_for_stack();
   const std::size_t buffers = std::max<std::size_t>(2, thread_count(environment));
   const std::size_t room = buffers * room_for_a_thread + room_for_the_rest;

@@ -177,16 +177,18 @@ void replace_earlier_results(const OutputFolder& folder) {
 }
 
 /// Runs `whole`, which returns the signal that stopped it or 0. Where that fails, the log says why,
-/// and what can still be written is: of memory that ended, nothing is sure any more.
+/// and what can still be written is: after any but a NumericalError the state is not sure any more.
 template <class Whole>
 RunEnd go(Whole&& whole, Recorder& recorder, ValidityWatch& watch) {
   RunEnd end;
   try {
     if (whole() != 0) end.outcome = RunOutcome::stopped;
     return end;
-  } catch (const NumericalError& error) {
-    end.failure = failure_of(error);
-  } catch (const std::bad_alloc& error) {
+  } catch (const InputError&) {
+    throw;
+  } catch (const OutputError&) {
+    throw;  // the summary would fare no better
+  } catch (const std::exception& error) {
     end.failure = failure_of(error);
   }
   end.outcome = RunOutcome::failed;

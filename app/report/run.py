@@ -50,6 +50,8 @@ class Run:
 def read_summary(path: Path) -> dict[str, Any]:
     if not path.exists():
         return {}
+    if not path.is_file():
+        raise NoRun(f"{path}: not a file; expected what 'perifrac run' wrote")
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except json.JSONDecodeError as error:

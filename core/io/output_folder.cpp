@@ -74,7 +74,8 @@ std::vector<std::filesystem::path> files_of_runs(const std::filesystem::path& fo
     if (unfinished) {
       name.remove_suffix(temporary_suffix.size());
     }
-    if ((unfinished || !unfinished_only) && !entry.is_directory() && is_ours(name)) {
+    const bool is_wanted = (unfinished || !unfinished_only) && is_ours(name);
+    if (is_wanted && !entry.is_directory(missing)) {  // a loop of links is none
       found.push_back(entry.path());
     }
   }

@@ -142,6 +142,21 @@ class CommandLine(RunTest):
                 self.assertNotEqual(os.waitstatus_to_exitcode(_run_into(command, full)), 0)
 
 
+    def test_standard_files_that_are_closed(self):
+        """What is printed does not go into a file of the run."""
+        for closed in ([1], [2], [0, 1, 2]):
+            with self.subTest(closed=closed):
+                folder = self.folder / "run"
+                command = [PERIFRAC, "run", str(MANDEL), "--no-report", "--output", str(folder), *settings(SMALL)]
+                actions = [(os.POSIX_SPAWN_CLOSE, number) for number in closed]
+                process = os.posix_spawn(command[0], command, os.environ, file_actions=actions)
+                code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+                self.assertEqual(code, 1 if 1 in closed else 0)
+                self.assertEqual((folder / ".lock").read_bytes(), b"")
+                self.assertTrue((folder / "history.csv").read_text().startswith("time [s],step"))
+                json.loads((folder / "summary.json").read_text())
+
+
 def _run_into(command, file):
     null = os.open(os.devnull, os.O_WRONLY)
     actions = [(os.POSIX_SPAWN_DUP2, file.fileno(), 1), (os.POSIX_SPAWN_DUP2, null, 2)]

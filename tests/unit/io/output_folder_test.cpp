@@ -141,6 +141,13 @@ TEST(OutputFolder, TakesFilesWithoutALockForSomebodyElses) {
   EXPECT_NO_THROW(OutputFolder(folder.path(), Overwrite::any));
 }
 
+TEST(OutputFolder, HoldsWhateverElseThereIs) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  const OutputFolder output(folder.path());
+  EXPECT_EQ(output.remove_earlier_results(), 0);
+}
+
 TEST(OutputFolder, KnowsFurtherNamesOfResults) {
   const TemporaryFolder folder;
   put(folder / "table.md", "mine");
