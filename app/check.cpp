@@ -1,6 +1,8 @@
 #include "app/check.hpp"
 
 #include <chrono>
+#include <cmath>
+#include <new>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,12 +10,13 @@
 #include "app/array_list.hpp"
 #include "app/coarse_twin.hpp"
 #include "app/forecast.hpp"
-#include "app/nucleus_warning.hpp"
+#include "app/memory.hpp"
 #include "app/output_times.hpp"
 #include "app/recorder.hpp"
 #include "app/scene_echo.hpp"
 #include "app/scene_keys.hpp"
 #include "app/scene_regime.hpp"
+#include "app/scene_warnings.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
 #include "core/config/mistakes.hpp"
@@ -119,17 +122,24 @@ void print_forecast(const nlohmann::json& forecast) {
 
 void print(const nlohmann::json& result) {
   const auto& counts = result["counts"];
-  fmt::print("{}: fine\n", result["scene"].get<std::string>());
+  fmt::print("{}: {}\n", result["scene"].get<std::string>(),
+             result.contains("links") ? "fine" : "its keys are fine; it was not built");
   for (const auto& effect : result["effects"]) fmt::print("  {}\n", effect.get<std::string>());
-  for (const auto& line : result["read"]) fmt::print("  {}\n", line.get<std::string>());
-  for (const auto& link : result["links"]) fmt::print("  link {}\n", link.get<std::string>());
-  fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
-             counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
-             result["family_bytes"].get<long>() / 1000);
+  for (const auto& line : result.value("read", nlohmann::json::array())) {
+    fmt::print("  {}\n", line.get<std::string>());
+  }
+  for (const auto& link : result.value("links", nlohmann::json::array())) {
+    fmt::print("  link {}\n", link.get<std::string>());
+  }
+  if (result.contains("family_bytes")) {
+    fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
+               counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
+               result["family_bytes"].get<long>() / 1000);
+  }
   for (const auto& [name, count] : counts.items()) {
     if (name.ends_with("_points")) fmt::print("  {} {}\n", count.get<long>(), name);
   }
-  for (const auto& array : result["arrays"]) {
+  for (const auto& array : result.value("arrays", nlohmann::json::array())) {
     fmt::print("  {:<48} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
                array["count"].get<long>(), array["bytes"].get<long>());
   }
@@ -140,12 +150,15 @@ void print(const nlohmann::json& result) {
   }
 }
 
-}  // namespace
+/// What is known of a scene without building it, where that takes more memory than there is.
+nlohmann::json unbuilt(const Section& scene, const MemoryEstimate& estimate) {
+  return {{"effects", effects(scene)},
+          {"counts", {{"points", std::llround(estimate.points)}}},
+          {"warnings", scene_warnings(scene, {})}};
+}
 
-int check_scene(const std::string& scene_file, const std::vector<std::string>& overrides, bool json,
-                double trial_seconds) {
+nlohmann::json built(const CheckRequest& request, const Section& scene) {
   const auto begin = std::chrono::steady_clock::now();
-  const Section scene = read_scene(scene_file, overrides, scene_catalogue());
   Simulation simulation;
   std::vector<double> outputs;
   Mistakes mistakes;
@@ -159,8 +172,7 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
   const Recorder recorder(scene, "", simulation);
   ArrayList list;
   manager.visit_state(list);
-  nlohmann::json result = {{"scene", scene_file},
-                           {"modules", modules_of(manager)},
+  nlohmann::json result = {{"modules", modules_of(manager)},
                            {"effects", effects(scene)},
                            {"read", what_was_read(scene, simulation)},
                            {"links", links_of(manager)},
@@ -171,22 +183,59 @@ int check_scene(const std::string& scene_file, const std::vector<std::string>& o
   const std::optional<SceneRegime> regime = regime_of(scene, simulation);
   if (regime) {
     result["regime"] = regime_json(*regime);
-    for (const std::string& warning : regime->warnings) result["warnings"].push_back(warning);
+    for (const std::string& note : regime->notes) result["warnings"].push_back(note);
   }
-  if (const auto warning = nucleus_warning(scene)) result["warnings"].push_back(*warning);
-  if (trial_seconds > 0.0) {
-    const double building =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    std::optional<double> length;
-    if (!regime || !regime->is_as_in_infinite_body) {
-      length = crack_length_of_coarse_twin(scene_file, overrides, scene, trial_seconds);
-    }
-    if (!length) length = length_at_end(regime);
-    result["forecast"] = forecast_json(
-        forecast(simulation, outputs, trial_seconds, building, facets_at_end(simulation, length)));
-    if (length) result["forecast"]["crack_length"] = {{"value", *length}, {"unit", "m"}};
+  for (const std::string& warning : scene_warnings(scene, regime)) {
+    result["warnings"].push_back(warning);
   }
-  if (json) {
+  if (!(request.trial_seconds > 0.0)) return result;
+  const double building =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::optional<double> length;
+  if (!regime || !regime->is_as_in_infinite_body) {
+    length =
+        crack_length_of_coarse_twin(request.scene, request.overrides, scene, request.trial_seconds);
+  }
+  if (!length) length = length_at_end(regime);
+  result["forecast"] = forecast_json(forecast(simulation, outputs, request.trial_seconds, building,
+                                              facets_at_end(simulation, length)));
+  if (length) result["forecast"]["crack_length"] = {{"value", *length}, {"unit", "m"}};
+  return result;
+}
+
+/// Built where there is memory for it: the system ends a process that takes more, without a word.
+nlohmann::json built_if_it_fits(const CheckRequest& request, const Section& scene) {
+  const double available = available_memory();
+  const auto estimate = estimate_memory(scene);
+  const auto warn = [&](nlohmann::json result, const std::string& what) {
+    result["warnings"].push_back(what);
+    return result;
+  };
+  if (estimate && estimate->bytes > available) {
+    return warn(unbuilt(scene, *estimate),
+                "too large to be tried here: a run takes " + describe(*estimate, available));
+  }
+  keep_to_free_memory();
+  try {
+    return built(request, scene);
+  } catch (const std::bad_alloc&) {
+    return warn(unbuilt(scene, estimate.value_or(MemoryEstimate{})),
+                fmt::format("the trial ran out of memory: a run takes more than the {:.2g} GB that "
+                            "were free",
+                            1e-9 * available));
+  }
+}
+
+}  // namespace
+
+int check_scene(const CheckRequest& request) {
+  const Section scene = read_scene(request.scene, request.overrides, scene_catalogue());
+  nlohmann::json result = built_if_it_fits(request, scene);
+  result["scene"] = request.scene;
+  if (const auto estimate = estimate_memory(scene)) {
+    result["memory"] = {{"estimate", estimate->bytes}, {"available", available_memory()}};
+  }
+  if (request.json) {
     fmt::print("{}", json_text(result));
   } else {
     print(result);

@@ -42,11 +42,18 @@ void add_scene_options(CLI::App& verb, Request& request) {
   verb.add_flag("--json", request.run.json, "machine-readable output");
 }
 
+void add_overwrite(CLI::App& verb, Overwrite& overwrite) {
+  verb.add_flag_callback(
+      "--overwrite", [&overwrite] { overwrite = Overwrite::any; },
+      "replace files that no run wrote, where they have the names of results");
+}
+
 void add_run_options(CLI::App& verb, Request& request) {
   add_scene_options(verb, request);
   verb.add_option("--output", request.run.output,
                   "folder for results; the checkpoint's, or runs/<scene>")
       ->type_name("DIR");
+  add_overwrite(verb, request.run.overwrite);
   verb.add_option("--threads", request.threads, "threads; results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
@@ -72,6 +79,7 @@ void add_check_options(CLI::App& verb, Request& request) {
 void add_study_options(CLI::App& verb, StudyRequest& study) {
   verb.add_option("study", study.file, "study file (YAML)")->required();
   verb.add_option("--output", study.output, "folder for results; runs/<study>")->type_name("DIR");
+  add_overwrite(verb, study.overwrite);
   verb.add_option("--jobs", study.jobs, "variants at a time; those that run together are slower")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
@@ -88,7 +96,10 @@ int dispatch(const CLI::App& app, const Request& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);
   if (app.got_subcommand("check")) {
-    return check_scene(request.run.scene, request.run.overrides, request.run.json, request.trial);
+    return check_scene({.scene = request.run.scene,
+                        .overrides = request.run.overrides,
+                        .json = request.run.json,
+                        .trial_seconds = request.trial});
   }
   if (app.got_subcommand("study")) return run_study(request.study);
   if (app.got_subcommand("report")) return make_report(request.folder, false);

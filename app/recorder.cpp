@@ -1,5 +1,6 @@
 #include "app/recorder.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -107,6 +108,19 @@ void Recorder::record_output() {
   const double time = simulation_.manager->time();
   write_frames(time);
   if (reference_ && time > 0.0) reference_->record_output(time);
+}
+
+void Recorder::record_failure() {
+  const double time = simulation_.manager->time();
+  const auto is_there = [&](const auto& series) { return series.second.last_time() == time; };
+  if (std::ranges::all_of(frames_, is_there)) return;
+  const Stopwatch watch(seconds_);
+  write_frames(time);
+}
+
+void Recorder::check_kept() const {
+  if (history_) history_->check_kept();
+  for (const auto& [name, series] : frames_) series.check_kept();
 }
 
 void Recorder::write_frames(double time) {

@@ -40,6 +40,12 @@ class Recorder {
   /// where the fluid mass of the ledger is off beyond the bound of the scene.
   void restart_point();
 
+  /// A frame of the state that a run failed in, where there is none of that time; nothing before
+  /// it began to write.
+  void record_failure();
+  /// Throws OutputError where something of what was written is not there any more.
+  void check_kept() const;
+
   /// Writes the last restart point, if it is not on disk yet; with `if_due`, only where the wall
   /// time between checkpoints has gone by.
   void write_checkpoint(bool if_due);

@@ -1,18 +1,32 @@
-// OpenBLAS takes a buffer of 128 MiB for every thread while the program is loaded, and where there
-// is no room it tries for ever. So the program looks for the room first, before any library begins:
-// a time at which only the system itself can be asked.
+// OpenBLAS takes a buffer of 128 MiB for every thread, two at the least, most while the program is
+// loaded and the rest when it is first used; where there is no room it tries for ever. So the
+// program looks for the room first, before any library begins, a time at which only the system
+// itself can be asked, and has OpenBLAS take all of it before anything else can.
+// METIS, under CHOLMOD, calls itself: a stack of less than 256 kB ends it without a word.
 #include <algorithm>
 #include <cstddef>
+#include <fcntl.h>
 #include <sched.h>
 #include <string_view>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
+
+// Not there where the program is built without OpenBLAS.
+extern "C" [[gnu::weak]] int openblas_get_num_threads();
+extern "C" [[gnu::weak]] void openblas_set_num_threads(int);
 
 namespace {
 
 constexpr std::size_t mebibyte = 1 << 20;
 constexpr std::size_t room_for_a_thread = 128 * mebibyte;
 constexpr std::size_t room_for_the_rest = 16 * mebibyte;
+constexpr rlim_t least_stack = mebibyte, usual_stack = 8 * mebibyte;
+
+[[noreturn]] void end(std::string_view words) {
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, words.data(), words.size());
+  ::_exit(1);
+}
 
 /// Threads of OpenMP: OMP_NUM_THREADS, else one for every processor.
 std::size_t thread_count(char** environment) {
@@ -35,19 +49,45 @@ std::size_t thread_count(char** environment) {
   return threads == 0 ? here : std::min(threads, here);
 }
 
+/// A small stack grows, as far as that is allowed.
+void look_for_stack() {
+  rlimit stack{};
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= least_stack) return;
+  stack.rlim_cur = std::min(stack.rlim_max, usual_stack);
+  if (stack.rlim_cur >= least_stack && ::setrlimit(RLIMIT_STACK, &stack) == 0) return;
+  end("perifrac: the stack is too small to begin: 1 MB is the least; allow more (ulimit -s)\n");
+}
+
+/// A file that is opened where a standard one is closed would take its number, and what is printed.
+/// Nothing can be written to these: a result that cannot be printed is still no success.
+void look_for_standard_files() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(number, F_GETFD) >= 0) continue;
+    [[maybe_unused]] const int opened = ::open("/dev/null", O_RDONLY);
+  }
+}
+
 void look_for_room(int, char**, char** environment) {
-  const std::size_t room = thread_count(environment) * room_for_a_thread + room_for_the_rest;
+  look_for_standard_files();
+  look_for_stack();
+  const std::size_t buffers = std::max<std::size_t>(2, thread_count(environment));
+  const std::size_t room = buffers * room_for_a_thread + room_for_the_rest;
   void* const place =
       ::mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (place != MAP_FAILED) {
-    ::munmap(place, room);
-    return;
+  if (place == MAP_FAILED) {
+    end("perifrac: out of memory before it began: it takes 128 MB of address space for every "
+        "thread, and for two at the least; allow more (ulimit -v), or fewer threads "
+        "(OMP_NUM_THREADS)\n");
   }
-  constexpr std::string_view words =
-      "perifrac: out of memory before it began: it takes 128 MB of address space for every thread; "
-      "allow more (ulimit -v), or fewer threads (OMP_NUM_THREADS)\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, words.data(), words.size());
-  ::_exit(1);
+  ::munmap(place, room);
+}
+
+/// As every factorisation will, once libraries are there and nothing else is.
+[[gnu::constructor]] void take_buffers() {
+  if (openblas_set_num_threads == nullptr) return;
+  const int threads = openblas_get_num_threads();
+  openblas_set_num_threads(1);
+  openblas_set_num_threads(threads);
 }
 
 [[gnu::section(".preinit_array"), gnu::used]] void (*const first_of_all)(int, char**,

@@ -3,28 +3,29 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "app/energy_warnings.hpp"
-#include "app/nucleus_warning.hpp"
+#include "app/memory.hpp"
 #include "app/output_times.hpp"
 #include "app/profile_report.hpp"
 #include "app/recorder.hpp"
 #include "app/report.hpp"
 #include "app/scene_echo.hpp"
 #include "app/scene_keys.hpp"
+#include "app/scene_warnings.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
+#include "app/validity_watch.hpp"
 #include "app/version.hpp"
 #include "core/config/mistakes.hpp"
 #include "core/config/scene.hpp"
 #include "core/config/units.hpp"
 #include "core/errors.hpp"
+#include "core/io/input_file.hpp"
 #include "core/io/log.hpp"
 #include "core/io/progress.hpp"
 #include "core/io/signals.hpp"
@@ -51,11 +52,9 @@ Simulation set_up(const Section& scene) {
 
 /// The scene as run: what a checkpoint belongs to.
 std::string scene_text(const RunRequest& request) {
-  std::ifstream file(request.scene);
-  std::ostringstream text;
-  text << file.rdbuf();
-  for (const std::string& override : request.overrides) text << "# --set " << override << '\n';
-  return text.str();
+  std::string text = read_input_text(request.scene, "a scene file");
+  for (const std::string& override : request.overrides) text += "# --set " + override + '\n';
+  return text;
 }
 
 /// The time [s] that --until names. The scene's own end stays what it is: windows follow from it.
@@ -112,8 +111,13 @@ void refuse_other_results(const RunRequest& request, const std::filesystem::path
       folder.string(), request.restart));
 }
 
+void log_all(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) log_warning(warning);
+}
+
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
-int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const double> outputs) {
+int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& watch,
+                   std::span<const double> outputs) {
   CouplingManager& manager = *simulation.manager;
   Progress progress(manager.time(), simulation.end);
   auto output = std::ranges::upper_bound(outputs, manager.time());
@@ -123,11 +127,14 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const d
     if (const auto warning = manager.new_warning()) log_warning(*warning);
     recorder.check_finite();
     recorder.record_window();
-    if (manager.time() == *output) {
+    const bool is_output = manager.time() == *output;
+    const bool is_restart_point = is_output || manager.step() % windows_between_restart_points == 0;
+    if (is_restart_point || ValidityWatch::is_due(manager.step())) log_all(watch.look());
+    if (is_output) {
       recorder.record_output();
       recorder.restart_point();
       ++output;
-    } else if (manager.step() % windows_between_restart_points == 0) {
+    } else if (is_restart_point) {
       recorder.restart_point();
     }
     recorder.write_checkpoint(true);
@@ -136,10 +143,10 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const d
   return 0;
 }
 
-void start(const Section& scene, Simulation& simulation, Recorder& recorder, const OutputFolder& folder,
-           const std::optional<Checkpoint>& restart) {
+void start(const Section& scene, Simulation& simulation, Recorder& recorder,
+           const OutputFolder& folder, const std::optional<Checkpoint>& restart) {
   CouplingManager& manager = *simulation.manager;
-  for (const std::string& warning : manager.warnings()) log_warning(warning);
+  log_all(manager.warnings());
   if (restart) {
     recorder.restore(*restart);
     recorder.open(folder, restart);
@@ -156,6 +163,70 @@ void start(const Section& scene, Simulation& simulation, Recorder& recorder, con
   recorder.write_checkpoint(false);
 }
 
+void replace_earlier_results(const OutputFolder& folder) {
+  const int files = folder.remove_earlier_results();
+  if (files == 0) return;
+  log_info(
+      fmt::format("{}: {} files of an earlier run are replaced", folder.path().string(), files));
+}
+
+/// Runs `whole`, which returns the signal that stopped it or 0. Where that fails, the log says why,
+/// and what can still be written is: after any but a NumericalError the state is not sure any more.
+template <class Whole>
+RunEnd go(Whole&& whole, Recorder& recorder, ValidityWatch& watch) {
+  RunEnd end;
+  try {
+    if (whole() != 0) end.outcome = RunOutcome::stopped;
+    return end;
+  } catch (const InputError&) {
+    throw;
+  } catch (const OutputError&) {
+    throw;  // the summary would fare no better
+  } catch (const std::exception& error) {
+    end.failure = failure_of(error);
+  }
+  end.outcome = RunOutcome::failed;
+  log_error(describe(*end.failure));
+  if (end.failure->time) {
+    log_all(watch.look());  // what it had come to may say why
+    recorder.record_failure();
+    recorder.write_checkpoint(false);
+  }
+  return end;
+}
+
+/// How a run ended, since when it ran, and what it cost by part.
+struct Ending {
+  RunEnd end;
+  std::chrono::steady_clock::time_point begin;
+  std::optional<Profile>& profile;
+};
+
+/// Writes the summary, and says and draws what there is.
+void conclude(const RunRequest& request, const Section& scene, const std::string& text,
+              Simulation& simulation, const Recorder& recorder, const OutputFolder& folder,
+              const Ending& ending) {
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - ending.begin).count();
+  nlohmann::json summary = summarize(scene, request.scene, text, simulation, recorder.reference(),
+                                     ending.end, {.whole = seconds, .output = recorder.seconds()});
+  summary["read"] = what_was_read(scene, simulation);
+  if (ending.profile) summary["profile"] = profile_json(*ending.profile, simulation);
+  write_summary(folder.path(), summary);
+  if (request.json) {
+    fmt::print("{}", json_text(summary));
+  } else {
+    fmt::print("{}", summary_text(summary));
+    if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
+  }
+  std::fflush(stdout);
+  if (ending.profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
+  if (request.report && ending.end.outcome != RunOutcome::stopped &&
+      make_report(folder.path(), request.json) != 0) {
+    log_warning("no report was made of the results; `perifrac report` tries again");
+  }
+}
+
 }  // namespace
 
 int run_scene(const RunRequest& request) {
@@ -165,6 +236,7 @@ int run_scene(const RunRequest& request) {
   hold_back_signals();
   const Section scene = read(request);
   const std::string text = scene_text(request);
+  require_memory(scene);
   Simulation simulation;
   std::vector<double> outputs;
   Mistakes mistakes;
@@ -174,51 +246,36 @@ int run_scene(const RunRequest& request) {
         read_output_times(scene.at("output"), scene.number("time.end"), read_until(request.until));
   });
   mistakes.throw_if_any();
-  const std::vector<std::string> read = what_was_read(scene, simulation);
-  if (!request.json) fmt::print("{}\n", fmt::join(read, "\n"));
-  if (const auto warning = nucleus_warning(scene)) log_warning(*warning);
+  if (!request.json) fmt::print("{}\n", fmt::join(what_was_read(scene, simulation), "\n"));
+  const auto warnings = scene_warnings(scene, regime_of(scene, simulation));
   simulation.end = outputs.back();
   Recorder recorder(scene, text, simulation);
   const std::optional<Checkpoint> restart = read_restart(request, text, simulation.end);
   if (restart) refuse_other_results(request, folder_of(request));
-  const OutputFolder folder(folder_of(request));
-  if (!restart) folder.remove_earlier_results();
+  const OutputFolder folder(folder_of(request), request.overwrite);
+  if (!restart) replace_earlier_results(folder);
+  log_all(warnings);
 
-  RunOutcome outcome = RunOutcome::done;
-  int exit_code = 0;
+  ValidityWatch watch(scene, simulation);
+  int signal = 0;
+  const RunEnd end = go(
+      [&] {
+        start(scene, simulation, recorder, folder, restart);
+        signal = advance_to_end(simulation, recorder, watch, outputs);
+        if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
+        recorder.write_checkpoint(false);
+        recorder.check_kept();
+        return signal;
+      },
+      recorder, watch);
+  // Of memory that ended, nothing that is left to do is sure; what the log said last stays true.
   try {
-    start(scene, simulation, recorder, folder, restart);
-    if (const int signal = advance_to_end(simulation, recorder, outputs)) {
-      outcome = RunOutcome::stopped;
-      exit_code = exit_code_of(signal);
-    }
-    if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
-  } catch (const NumericalError& error) {
-    log_error(error.what());
-    outcome = RunOutcome::failed;
-    exit_code = 1;
+    conclude(request, scene, text, simulation, recorder, folder, {end, begin, profile});
+  } catch (const std::bad_alloc&) {
+    if (!end.failure) throw;
   }
-  recorder.write_checkpoint(false);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  nlohmann::json summary = summarize(scene, request.scene, text, simulation, recorder.reference(),
-                                     outcome, {.whole = seconds, .output = recorder.seconds()});
-  summary["read"] = read;
-  if (profile) summary["profile"] = profile_json(*profile, simulation);
-  write_summary(folder.path(), summary);
-  if (request.json) {
-    fmt::print("{}", json_text(summary));
-  } else {
-    fmt::print("{}", summary_text(summary));
-    if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
-  }
-  std::fflush(stdout);
-  if (profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
-  if (request.report && outcome != RunOutcome::stopped &&
-      make_report(folder.path(), request.json) != 0) {
-    log_warning("no report was made of the results; `perifrac report` tries again");
-  }
-  return exit_code;
+  if (end.failure) return 1;
+  return signal == 0 ? 0 : exit_code_of(signal);
 }
 
 }  // namespace perifrac

@@ -98,7 +98,8 @@ KeyTable reference_keys() {
        .required = true,
        .when = "type=table",
        .meaning = "Columns with commas, `time [s]` first, then scalars as history.csv names "
-                  "them."}};
+                  "them. Lines `# KEY = VALUE` before them, in SI, say which scene they are for; "
+                  "another one is not compared."}};
 }
 
 constexpr const char* body_meaning =

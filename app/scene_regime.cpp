@@ -103,32 +103,32 @@ double distance_to_faces(const PointSet& points, const Place& inlet, double spac
   return least;
 }
 
-std::vector<std::string> warnings(const Section& scene, const SceneRegime& regime,
-                                  double to_faces) {
-  std::vector<std::string> warnings;
+/// `notes` are about the figures of the regime alone, which runs do not depend on.
+void warn(const Section& scene, double to_faces, SceneRegime& regime) {
   const double spacing = scene.number("body.spacing");
   const double length = expected_crack(regime.fracture, regime.time).length;
   const double lag = largest_lag(regime.fracture, regime.time);
   const std::string reference = writes(scene, "reference") ? scene.word("reference.type") : "";
   if (!regime.is_as_in_infinite_body) {
-    warnings.push_back(fmt::format(
-        "faces of the body are only {:.2g} times the crack's length from the inlet: the figures{} "
-        "are those of an infinite body, good from 8 times on",
-        to_faces / length, reference == "kgd" ? " and the reference `kgd`" : ""));
+    (reference == "kgd" ? regime.warnings : regime.notes)
+        .push_back(fmt::format("faces of the body are only {:.2g} times the crack's length from "
+                               "the inlet: the figures{} "
+                               "are those of an infinite body, good from 8 times on",
+                               to_faces / length,
+                               reference == "kgd" ? " and the reference `kgd`" : ""));
   }
   if (lag > small_lag * length && reference == "kgd") {
-    warnings.push_back(fmt::format(
+    regime.warnings.push_back(fmt::format(
         "the closing stress leaves a dry tip of up to {:.2g} of the crack: the reference `kgd` has "
         "no fluid lag",
         lag / length));
   }
   if (lag > small_lag * length && lag < 2.0 * spacing) {
-    warnings.push_back(
+    regime.warnings.push_back(
         fmt::format("body.spacing is too coarse for a fluid lag of {:.2g} m, which counts: two "
                     "spacings a lag are the least",
                     lag));
   }
-  return warnings;
 }
 
 }  // namespace
@@ -148,7 +148,8 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
       .wings = mouth.at_end ? 1 : 2,
       .time = pumping_time(scene),
       .is_as_in_infinite_body = false,
-      .warnings = {}};
+      .warnings = {},
+      .notes = {}};
   if (!(regime.time > 0.0)) return std::nullopt;
   HydraulicFracture& fracture = regime.fracture;
   if (const auto stated = read_stated_stress(scene)) {
@@ -169,7 +170,7 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
   const double to_faces =
       distance_to_faces(simulation.points(), inlet, scene.number("body.spacing"));
   regime.is_as_in_infinite_body = to_faces >= enough * expected_crack(fracture, regime.time).length;
-  regime.warnings = warnings(scene, regime, to_faces);
+  warn(scene, to_faces, regime);
   return regime;
 }
 

@@ -18,6 +18,7 @@ struct SceneRegime {
   bool is_as_in_infinite_body;  ///< the body's faces are far enough off
   /// Where what the scene does is not what that crack does, or is resolved too coarsely.
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  ///< likewise, where the answer of a run does not depend on it
 };
 
 /// Nothing unless the scene pumps fluid at one inlet, by rate, into a crack that grows by its

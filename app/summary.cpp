@@ -10,6 +10,7 @@
 #include "app/register_modules.hpp"
 #include "app/version.hpp"
 #include "core/io/atomic_file.hpp"
+#include "core/io/log.hpp"
 
 namespace perifrac {
 
@@ -62,6 +63,17 @@ nlohmann::json statistics(const ModuleSlot& slot) {
   return result;
 }
 
+nlohmann::json failure_summary(const Failure& failure) {
+  nlohmann::json result = {{"error", failure.error}};
+  if (failure.time) {
+    result["field"] = failure.field;
+    result["place"] = failure.place;
+    result["time"] = {{"value", *failure.time}, {"unit", "s"}};
+  }
+  if (!failure.advice.empty()) result["advice"] = failure.advice;
+  return result;
+}
+
 nlohmann::json modules_summary(const Section& scene, const CouplingManager& manager) {
   nlohmann::json result = nlohmann::json::array();
   for (const ModuleSlot& slot : manager.modules()) {
@@ -109,7 +121,7 @@ nlohmann::json counts(const Simulation& simulation) {
 
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const std::string& scene_text, Simulation& simulation,
-                         const Reference* reference, RunOutcome outcome, const WallTime& wall) {
+                         const Reference* reference, const RunEnd& end, const WallTime& wall) {
   const CouplingManager& manager = *simulation.manager;
   const rusage used = usage();
   nlohmann::json result = {{"scene",
@@ -120,7 +132,7 @@ nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                            {"build", build_info()},
                            {"machine", machine_info()},
                            {"dimension", scene.integer("dimension")},
-                           {"outcome", word(outcome)},
+                           {"outcome", word(end.outcome)},
                            {"time", {{"value", manager.time()}, {"unit", "s"}}},
                            {"effects", effects(scene)},
                            {"counts", counts(simulation)},
@@ -130,7 +142,9 @@ nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                            {"cpu_time", seconds(used.ru_utime) + seconds(used.ru_stime)},
                            {"threads", omp_get_max_threads()},
                            {"peak_memory", peak_memory()},
-                           {"ledger", ledger_summary(manager.ledger())}};
+                           {"ledger", ledger_summary(manager.ledger())},
+                           {"warnings", logged_warnings()}};
+  if (end.failure) result["failure"] = failure_summary(*end.failure);
   result["counts"]["windows"] = manager.step();
   result["counts"]["passes"] = manager.work().passes;
   result["counts"]["most_passes"] = manager.work().most_passes;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/failure.hpp"
 #include "app/references/reference.hpp"
 #include "app/simulation.hpp"
 #include "core/config/section.hpp"
@@ -12,6 +14,12 @@
 namespace perifrac {
 
 enum class RunOutcome { done, failed, stopped };
+
+/// How a run ended.
+struct RunEnd {
+  RunOutcome outcome = RunOutcome::done;
+  std::optional<Failure> failure{};  ///< of one that failed
+};
 
 /// Wall times [s] of a run.
 struct WallTime {
@@ -22,7 +30,7 @@ struct WallTime {
 /// What summary.json holds; its keys are described in app/report/README.md.
 nlohmann::json summarize(const Section& scene, const std::string& scene_file,
                          const std::string& scene_text, Simulation& simulation,
-                         const Reference* reference, RunOutcome outcome, const WallTime& wall);
+                         const Reference* reference, const RunEnd& end, const WallTime& wall);
 
 /// JSON as text. Bytes of a scene that are not UTF-8 are replaced: they must not cost the results.
 std::string json_text(const nlohmann::json& json);

@@ -38,6 +38,8 @@ def read_history(path: Path) -> History:
     """An absent file is an empty history; a row cut short (the run was killed) is left out."""
     if not path.exists():
         return History()
+    if not path.is_file():
+        raise NoRun(f"{path}: not a file; expected what 'perifrac run' wrote")
     with path.open(newline="", encoding="utf-8") as stream:
         header, *rows = list(csv.reader(stream)) or [[]]
     table = np.array([[to_float(c) for c in row] for row in rows if len(row) == len(header)])

@@ -128,6 +128,8 @@ def page_parts(run: Run, data: dict[str, Any]) -> dict[str, str]:
         "outcome": escape(run.outcome),
         "facts": tables.facts(run),
         "effects": tables.effects(run),
+        "failure": tables.section("failure", "Why it failed", tables.failure(run)),
+        "warnings": tables.section("warnings", "Warnings", tables.warnings(run)),
         "errors": tables.section("errors", sentence(f"errors against {title}"),
                                  tables.error_summary(reference), tables.error_table(reference)),  # fmt: skip
         "charts": chart_sections(data["charts"]),

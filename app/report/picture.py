@@ -27,6 +27,7 @@ ARROWS_ACROSS = 24
 PALETTE = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5D5D5D"]
 INK, FAINT = "#1c2733", "#5b6875"
 MOST_MARKERS = 26
+LONGEST_LINE = 150  # characters across the picture
 STYLE = {
     "font.family": "DejaVu Sans",
     "font.size": 9,
@@ -224,7 +225,10 @@ def facts(run: Run) -> str:
 
 
 def verdict(run: Run) -> str:
-    """The largest errors, in one line."""
+    """Why the run failed, or the largest errors, in one line."""
+    if run.failure:
+        error = run.failure["error"]
+        return error if len(error) <= LONGEST_LINE else error[: LONGEST_LINE - 1] + "…"
     errors = run.reference.get("quantities", [])
     largest = [(words(e["name"]).split(" over the exact")[0], quantity(e["max_error"], e.get("unit", ""), 2)) for e in errors]
     return "  ·  ".join(f"{name}: max error {error}" for name, error in largest)

@@ -29,6 +29,15 @@ class Run:
         return self.summary.get("outcome", "unfinished")
 
     @property
+    def failure(self) -> dict[str, Any]:
+        """Why the run failed; empty of one that did not."""
+        return self.summary.get("failure") or {}
+
+    @property
+    def warnings(self) -> list[str]:
+        return self.summary.get("warnings") or []
+
+    @property
     def counts(self) -> dict[str, int]:
         """What the run had any of."""
         return {name: count for name, count in self.summary.get("counts", {}).items() if count}
@@ -41,6 +50,8 @@ class Run:
 def read_summary(path: Path) -> dict[str, Any]:
     if not path.exists():
         return {}
+    if not path.is_file():
+        raise NoRun(f"{path}: not a file; expected what 'perifrac run' wrote")
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except json.JSONDecodeError as error:

@@ -48,6 +48,21 @@ def facts(run: Run) -> str:
     return "".join(f"<div><dt>{escape(n)}</dt><dd>{escape(v)}</dd></div>" for n, v in known)
 
 
+def failure(run: Run) -> str:
+    """What went wrong, where and when, and what to change."""
+    known = run.failure
+    if not known:
+        return ""
+    rows = [[name, described(known[name])] for name in ("field", "place", "time") if name in known]
+    advice = f'<p>To change: {escape(known["advice"])}.</p>' if known.get("advice") else ""
+    return f'<p class="error" role="alert">{escape(known["error"])}</p>' + advice + (table(["what", "value"], rows) if rows else "")
+
+
+def warnings(run: Run) -> str:
+    items = "".join(f"<li>{escape(warning)}</li>" for warning in run.warnings)
+    return f'<ul class="warnings">{items}</ul>' if items else ""
+
+
 def effects(run: Run) -> str:
     return "".join(f"<li>{escape(words(effect))}</li>" for effect in run.summary.get("effects", []))
 

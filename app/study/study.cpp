@@ -1,5 +1,6 @@
 #include "app/study/study.hpp"
 
+#include <array>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -19,6 +20,9 @@ namespace perifrac {
 
 namespace {
 
+constexpr std::array<std::string_view, 7> results_of_a_study = {
+    "study.csv", "study.json", "study.png", "study.svg", "study.html", "table.md", "table.tex"};
+
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream stream(text);
   return {std::istream_iterator<std::string>(stream), {}};
@@ -27,6 +31,7 @@ std::vector<std::string> words_of(const std::string& text) {
 StudyOptions options_of(const StudyRequest& request) {
   const std::filesystem::path own = "runs" / std::filesystem::path(request.file).stem();
   return {.folder = request.output.empty() ? own : std::filesystem::path(request.output),
+          .overwrite = request.overwrite,
           .jobs = request.jobs,
           .launcher = words_of(request.launcher),
           .retry = request.retry,
@@ -65,7 +70,7 @@ int run_study(const StudyRequest& request) {
   const Matrix matrix = expand(study);
   const StudyOptions options = options_of(request);
   hold_back_signals();
-  const OutputFolder folder(options.folder);
+  const OutputFolder folder(options.folder, options.overwrite, results_of_a_study);
   warn_of_invalid(matrix.variants);
   StudyOutcome outcome = run_variants(study, matrix.variants, options);
   if (outcome.signal != 0) return stopped(outcome, study);

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "core/io/output_folder.hpp"
+
 namespace perifrac {
 
 /// What `perifrac study` was asked for.
@@ -9,6 +11,7 @@ struct StudyRequest {
   std::string file;
   std::string output;    ///< folder; empty: runs/<study>
   std::string launcher;  ///< words before the command of every run
+  Overwrite overwrite = Overwrite::own;
   int jobs = 1;
   bool retry = false;
   bool fresh = false;

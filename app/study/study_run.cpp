@@ -111,7 +111,7 @@ class Queue {
 
   void start(std::size_t i) {
     // A run left over from a killed study may still hold it; what it left must not pass for ours.
-    OutputFolder(folder(i)).remove_earlier_results();
+    OutputFolder(folder(i), options_.overwrite).remove_earlier_results();
     try {
       ProcessCommand wanted{
           .words = command(i), .log = folder(i) / "log.txt", .quiet = true, .own_group = true};

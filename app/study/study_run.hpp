@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "app/study/record.hpp"
+#include "core/io/output_folder.hpp"
 
 namespace perifrac {
 
 struct StudyOptions {
   std::filesystem::path folder;
+  Overwrite overwrite = Overwrite::own;
   int jobs = 1;                         ///< variants at a time
   std::vector<std::string> launcher{};  ///< words before the command of every run
   bool retry = false;                   ///< run again what did not end well

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -167,7 +169,7 @@ class Validator {
              "expected a list of items, each '- key: value'");
     }
     SceneTree::Entry entry{.place = written.key_place};
-    std::vector<const YamlNode*> names;
+    std::unordered_map<std::string_view, const YamlNode*> names;
     for (std::size_t i = 0; i < written.children.size(); ++i) {
       const YamlNode& item = written.children[i];
       entry.children.push_back(fmt::format("[{}]", i));
@@ -175,23 +177,20 @@ class Validator {
       mistakes_.note([&] {
         require_map(item, keys.children.front(), item_path, parent.type);
         read_map({&item, keys.children.front(), item_path, item.place, parent.type});
-        if (const YamlNode* name = item.child("name")) {
-          require_other_name(*name, names, item_path);
-          names.push_back(name);
-        }
+        const YamlNode* name = item.child("name");
+        if (name == nullptr) return;
+        const auto [first, is_new] = names.try_emplace(name->text, name);
+        if (!is_new) refuse_second_name(*name, *first->second, item_path);
       });
     }
     scene_.entries[path] = std::move(entry);
   }
 
-  static void require_other_name(const YamlNode& name, const std::vector<const YamlNode*>& others,
-                                 const std::string& item_path) {
-    for (const YamlNode* other : others) {
-      if (other->text != name.text) continue;
-      refuse(name.place, join_path(item_path, "name"),
-             fmt::format("a second {}", in_quotes(name.text)),
-             fmt::format("expected names that differ; the first is at {}", other->place));
-    }
+  [[noreturn]] static void refuse_second_name(const YamlNode& name, const YamlNode& first,
+                                              const std::string& item_path) {
+    refuse(name.place, join_path(item_path, "name"),
+           fmt::format("a second {}", in_quotes(name.text)),
+           fmt::format("expected names that differ; the first is at {}", first.place));
   }
 
   void read_leaf(const Map& map, const KeyNode& keys, const YamlNode* written,

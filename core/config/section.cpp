@@ -66,7 +66,10 @@ std::vector<std::string> Section::names(std::string_view path) const {
   return entry == tree_->entries.end() ? std::vector<std::string>{} : entry->second.children;
 }
 
-std::size_t Section::count(std::string_view path) const { return names(path).size(); }
+std::size_t Section::count(std::string_view path) const {
+  const auto entry = tree_->entries.find(full_path(path));
+  return entry == tree_->entries.end() ? 0 : entry->second.children.size();
+}
 
 Section Section::at(std::string_view path) const { return {tree_, full_path(path)}; }
 

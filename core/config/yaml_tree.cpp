@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <sstream>
+#include <unordered_map>
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -15,6 +12,7 @@
 
 #include "core/config/names.hpp"
 #include "core/errors.hpp"
+#include "core/io/input_file.hpp"
 
 namespace perifrac {
 namespace {
@@ -75,8 +73,8 @@ class TreeBuilder : public YAML::EventHandler {
   /// A list or map whose end has not come yet.
   struct Open {
     YamlNode node;
-    std::optional<Key> key;   ///< read, its value not yet
-    std::vector<Key> seen{};  ///< keys before it
+    std::optional<Key> key;                       ///< read, its value not yet
+    std::unordered_map<std::string, int> seen{};  ///< lines of the keys before it
   };
 
   bool expects_key() const {
@@ -95,14 +93,12 @@ class TreeBuilder : public YAML::EventHandler {
 
   void take_key(const YAML::Mark& mark, const std::string& name) {
     Open& map = open_.back();
-    const auto first = std::find_if(map.seen.begin(), map.seen.end(),
-                                    [&](const Key& key) { return key.name == name; });
-    if (first != map.seen.end()) {
+    const auto [first, is_new] = map.seen.try_emplace(name, mark.line + 1);
+    if (!is_new) {
       refuse(mark, fmt::format("duplicate key {}", in_quotes(name)),
-             fmt::format("expected each key once; it stands on line {} too", first->mark.line + 1));
+             fmt::format("expected each key once; it stands on line {} too", first->second));
     }
-    map.seen.push_back({name, mark});
-    map.key = map.seen.back();
+    map.key = {name, mark};
   }
 
   void open(YamlNode::Kind kind, const YAML::Mark& mark) {
@@ -201,14 +197,8 @@ std::string yaml_text(const YamlNode& node) {
 }
 
 YamlNode parse_yaml_file(const std::string& path) {
-  errno = std::filesystem::is_directory(path) ? EISDIR : 0;
-  std::ifstream file;
-  if (errno == 0) file.open(path);
-  if (!file.is_open()) {
-    throw InputError(
-        fmt::format("{}: cannot be read ({}); expected a scene file", path, std::strerror(errno)));
-  }
-  return parse(file, TreeBuilder(path, true));
+  std::istringstream text(read_input_text(path, "a scene file"));
+  return parse(text, TreeBuilder(path, true));
 }
 
 YamlNode parse_yaml_text(const std::string& text, const std::string& place) {

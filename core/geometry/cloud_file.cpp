@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "core/config/names.hpp"
 #include "core/errors.hpp"
+#include "core/io/input_file.hpp"
 
 namespace perifrac {
 
@@ -18,7 +20,7 @@ namespace {
 class Lines {
  public:
   explicit Lines(const std::string& path) : path_(path), file_(path) {
-    if (!file_) throw InputError(path + ": cannot be read; expected a file of points");
+    InputFile(path, "a file of points");
   }
 
   /// Next line that is not empty, without the end that other systems write.
@@ -43,7 +45,7 @@ class Lines {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-      refuse(fmt::format("'{}'", text), "a finite number");
+      refuse(in_quotes(text), "a finite number");
     }
     return value;
   }
@@ -71,7 +73,7 @@ CloudFile<D> read_columns(Lines& lines) {
   std::erase(line, ' ');
   cloud.has_volumes = line == header + ",volume";
   if (line != header && !cloud.has_volumes) {
-    lines.refuse(fmt::format("the first line is '{}'", line),
+    lines.refuse("the first line is " + in_quotes(line),
                  fmt::format("'{0}' or '{0},volume'", header));
   }
   const std::size_t count = D + (cloud.has_volumes ? 1 : 0);

@@ -89,6 +89,11 @@ std::vector<CrackFacet<2>> read_crack(const Section& scene, std::size_t k, doubl
           fmt::format("legs of at most {:g} spacings, {:g} m", most_pieces, most_pieces * spacing));
     }
     const int pieces = std::max(1, static_cast<int>(std::lround(length / spacing)));
+    constexpr std::size_t most_facets = 20000;  // each answers to each: more fit into no memory
+    if (facets.size() + pieces > most_facets) {
+      scene.fail(path, fmt::format("more than {} spacings of crack", most_facets),
+                 fmt::format("at most {:g} m", most_facets * spacing));
+    }
     Vector<2> last = from;
     for (int piece = 1; piece <= pieces; ++piece) {
       const double share = static_cast<double>(piece) / pieces;

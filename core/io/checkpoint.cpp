@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/hdf5.hpp"
+#include "core/io/input_file.hpp"
 
 namespace perifrac {
 namespace {
@@ -24,33 +21,33 @@ namespace {
 constexpr std::size_t seal_size = 512;
 constexpr std::string_view seal_title = "perifrac checkpoint, format 1\n";
 
+constexpr std::size_t npos = std::string::npos;
+
+std::string size_line(std::size_t size) { return fmt::format("{}{} bytes, ", seal_title, size); }
+
 /// The seal that belongs to the rest of the file.
 std::string make_seal(std::string_view content) {
   std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a, 64 bits
   for (const char byte : content) {
     hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
   }
-  std::string seal = fmt::format("{}{} bytes, FNV-1a {:016x}\n", seal_title, content.size(), hash);
+  std::string seal = size_line(content.size()) + fmt::format("FNV-1a {:016x}\n", hash);
   seal.resize(seal_size, '\0');
   return seal;
 }
 
 void check_seal(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw InputError(fmt::format("{}: cannot be read: {}; expected a checkpoint_*.h5 of a run",
-                                 path.string(), std::strerror(errno)));
-  }
-  std::ostringstream copy;
-  copy << file.rdbuf();
-  const std::string bytes = copy.str();
-  if (!bytes.starts_with(seal_title)) {
+  InputFile file(path, "a checkpoint_*.h5 of a run");
+  const std::string seal = file.read(seal_size);
+  if (!seal.starts_with(seal_title)) {
     throw InputError(path.string() +
                      ": not a checkpoint that this version can read; expected a checkpoint_*.h5 "
                      "that perifrac wrote");
   }
-  const auto content = std::string_view(bytes).substr(std::min(seal_size, bytes.size()));
-  if (!bytes.starts_with(make_seal(content))) {
+  // The size that it should have is known before the rest is read.
+  const bool is_whole =
+      seal.starts_with(size_line(file.size() - seal.size())) && seal == make_seal(file.read(npos));
+  if (!is_whole) {
     throw InputError(path.string() +
                      ": the checkpoint is damaged or cut short; its checksum must match; restart "
                      "from the other checkpoint_*.h5 of the run");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "core/errors.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/hdf5.hpp"
+#include "core/io/input_file.hpp"
 
 namespace perifrac {
 namespace {
@@ -115,9 +115,21 @@ void FrameSeries::write(double time, const PointSet& points, std::span<const Fra
   write_series();
 }
 
+void FrameSeries::check_kept() const {
+  for (const Frame& frame : frames_) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(folder_ / frame.file, error)) {
+      throw OutputError((folder_ / frame.file).string(),
+                        "it was written, and is gone; other runs and tidying keep away from the "
+                        "folder of a run");
+    }
+  }
+}
+
 void FrameSeries::read_series() {
   try {
-    const auto series = nlohmann::json::parse(std::ifstream(series_file()));
+    const auto series =
+        nlohmann::json::parse(read_input_text(series_file(), "the list of frames of this run"));
     for (const auto& entry : series.at("files")) {
       frames_.push_back({entry.at("name"), entry.at("time")});
     }

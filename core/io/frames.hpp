@@ -33,6 +33,14 @@ class FrameSeries {
   /// vector, is 0. The number of points may change between frames. Throws OutputError.
   void write(double time, const PointSet& points, std::span<const FrameField> fields);
 
+  /// Of the last frame [s]; nothing before the first.
+  std::optional<double> last_time() const {
+    return frames_.empty() ? std::nullopt : std::optional(frames_.back().time);
+  }
+
+  /// Throws OutputError where a frame of the list is not there any more.
+  void check_kept() const;
+
  private:
   struct Frame {
     std::string file;

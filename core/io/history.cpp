@@ -4,15 +4,14 @@
 #include <charconv>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/file_descriptor.hpp"
+#include "core/io/input_file.hpp"
 
 namespace perifrac {
 namespace {
@@ -51,9 +50,7 @@ std::int64_t step_of(std::string_view row) {
 /// The rows of an old table up to a step. A last row without an end was cut off in writing.
 std::string rows_to_keep(const std::filesystem::path& file, const std::string& header,
                          std::int64_t restart_step) {
-  std::ostringstream content;
-  content << std::ifstream(file).rdbuf();
-  const std::string table = content.str();
+  const std::string table = InputFile(file, "the history of this run").read(std::string::npos);
   if (!table.starts_with(header)) {
     throw InputError(
         fmt::format("{}: has other columns than this run; expected {}; give another "
@@ -77,19 +74,29 @@ History::History(std::filesystem::path file, const std::vector<HistoryColumn>& c
     : file_(std::move(file)) {
   const std::string header = make_header(columns);
   const bool keep = restart_step && std::filesystem::exists(file_);
-  write_atomically(file_, header + (keep ? rows_to_keep(file_, header, *restart_step) : ""));
+  const std::string table = header + (keep ? rows_to_keep(file_, header, *restart_step) : "");
+  write_atomically(file_, table);
+  size_ = table.size();
 }
 
-void History::append(double time, std::int64_t step, std::span<const double> values) const {
+void History::append(double time, std::int64_t step, std::span<const double> values) {
   std::string row = fmt::format("{},{}", time, step);
   for (const double value : values) {
     row += fmt::format(",{}", value);
   }
   // Opened anew for each row: a folder that was removed meanwhile is noticed.
   const FileDescriptor file(file_, O_WRONLY | O_APPEND);
-  if (!file.is_open() || !file.append(row + '\n')) {
+  row += '\n';
+  if (!file.is_open() || !file.append(row)) {
     throw OutputError(file_.string(), std::strerror(errno));
   }
+  size_ += row.size();
+}
+
+void History::check_kept() const {
+  std::error_code error;
+  if (std::filesystem::file_size(file_, error) == size_ && !error) return;
+  throw OutputError(file_.string(), "somebody else has changed it while the run went on");
 }
 
 }  // namespace perifrac

@@ -26,10 +26,14 @@ class History {
           std::optional<std::int64_t> restart_step = {});
 
   /// `time` in [s], `values` one a column, in its unit. Throws OutputError.
-  void append(double time, std::int64_t step, std::span<const double> values) const;
+  void append(double time, std::int64_t step, std::span<const double> values);
+
+  /// Throws OutputError where the table does not hold all that was written.
+  void check_kept() const;
 
  private:
   std::filesystem::path file_;
+  std::uintmax_t size_ = 0;  ///< [bytes]
 };
 
 }  // namespace perifrac

@@ -18,10 +18,18 @@ void log(spdlog::level::level_enum level, std::string_view message) {
   logger.log(level, message);
 }
 
+std::vector<std::string> warnings;
+
 }  // namespace
 
 void log_info(std::string_view message) { log(spdlog::level::info, message); }
-void log_warning(std::string_view message) { log(spdlog::level::warn, message); }
+void log_warning(std::string_view message) {
+  constexpr std::size_t most_kept = 100;
+  if (warnings.size() < most_kept) warnings.emplace_back(message);
+  log(spdlog::level::warn, message);
+}
 void log_error(std::string_view message) { log(spdlog::level::err, message); }
+
+const std::vector<std::string>& logged_warnings() { return warnings; }
 
 }  // namespace perifrac

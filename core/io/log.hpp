@@ -1,6 +1,8 @@
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace perifrac {
 
@@ -9,5 +11,8 @@ namespace perifrac {
 void log_info(std::string_view message);
 void log_warning(std::string_view message);
 void log_error(std::string_view message);
+
+/// The warnings so far, for what a run leaves; of very many the first.
+const std::vector<std::string>& logged_warnings();
 
 }  // namespace perifrac

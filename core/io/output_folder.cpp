@@ -1,5 +1,6 @@
 #include "core/io/output_folder.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -23,6 +24,8 @@ namespace {
       "into; give another one with --output",
       folder.string(), reason));
 }
+
+constexpr const char* lock_name = ".lock";
 
 /// Makes the folder and returns it, for use before the lock in it is opened.
 std::filesystem::path make_folder(std::filesystem::path folder) {
@@ -71,17 +74,24 @@ std::vector<std::filesystem::path> files_of_runs(const std::filesystem::path& fo
     if (unfinished) {
       name.remove_suffix(temporary_suffix.size());
     }
-    if ((unfinished || !unfinished_only) && !entry.is_directory() && is_ours(name)) {
+    const bool is_wanted = (unfinished || !unfinished_only) && is_ours(name);
+    if (is_wanted && !entry.is_directory(missing)) {  // a loop of links is none
       found.push_back(entry.path());
     }
   }
   return found;
 }
 
-int remove_files_of_runs(const std::filesystem::path& folder, bool unfinished_only) {
+std::vector<std::filesystem::path> all_files_of_runs(const std::filesystem::path& folder,
+                                                     bool unfinished_only) {
   auto files = files_of_runs(folder, is_result, unfinished_only);
   const auto frames = files_of_runs(folder / "frames", is_frame, unfinished_only);
   files.insert(files.end(), frames.begin(), frames.end());
+  return files;
+}
+
+int remove_files_of_runs(const std::filesystem::path& folder, bool unfinished_only) {
+  const auto files = all_files_of_runs(folder, unfinished_only);
   for (const auto& file : files) {
     std::error_code error;
     std::filesystem::remove(file, error);
@@ -93,10 +103,30 @@ int remove_files_of_runs(const std::filesystem::path& folder, bool unfinished_on
   return static_cast<int>(files.size());
 }
 
+/// Every run leaves a lock. Without one, files of the names that we write are somebody else's.
+void refuse_foreign_files(const std::filesystem::path& folder, Overwrite overwrite,
+                          std::span<const std::string_view> more_names) {
+  std::error_code missing;
+  if (overwrite == Overwrite::any || std::filesystem::exists(folder / lock_name, missing)) return;
+  std::vector<std::filesystem::path> files = all_files_of_runs(folder, false);
+  for (const std::string_view name : more_names) {
+    if (std::filesystem::exists(folder / name, missing)) files.push_back(folder / name);
+  }
+  if (files.empty()) return;
+  std::ranges::sort(files);
+  throw InputError(fmt::format(
+      "{}: is not of a run, and would be replaced; expected a folder without it; give another one "
+      "with --output, or --overwrite",
+      files.front().string()));
+}
+
 }  // namespace
 
-OutputFolder::OutputFolder(std::filesystem::path folder)
-    : path_(make_folder(std::move(folder))), lock_(path_ / ".lock", O_RDWR | O_CREAT) {
+OutputFolder::OutputFolder(std::filesystem::path folder, Overwrite overwrite,
+                           std::span<const std::string_view> more_names)
+    : path_(make_folder(std::move(folder))),
+      lock_((refuse_foreign_files(path_, overwrite, more_names), path_ / lock_name),
+            O_RDWR | O_CREAT) {
   if (!lock_.is_open()) {
     refuse(path_, std::strerror(errno));
   }

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 #include "core/io/file_descriptor.hpp"
 
 namespace perifrac {
+
+/// Which files may be replaced: those of earlier runs, or any that have their names.
+enum class Overwrite { own, any };
 
 /// The folder that a run writes into, made if need be, and held against other runs for as long as
 /// this object lives. The hold ends with the process however that ends; the empty file DIR/.lock
@@ -12,9 +17,11 @@ namespace perifrac {
 class OutputFolder {
  public:
   /// Also removes half-written files that a killed run left. Throws InputError where the folder
-  /// cannot be made or written into, or where another run holds it; OutputError where a
-  /// half-written file cannot be removed.
-  explicit OutputFolder(std::filesystem::path folder);
+  /// cannot be made or written into, where another run holds it, or, unless they may be replaced,
+  /// where no run was there before and files have the names of results (`more_names` besides);
+  /// OutputError where a half-written file cannot be removed.
+  explicit OutputFolder(std::filesystem::path folder, Overwrite overwrite = Overwrite::own,
+                        std::span<const std::string_view> more_names = {});
 
   const std::filesystem::path& path() const { return path_; }
 

@@ -20,7 +20,7 @@ NOTCH = 0.014  # [m], the slit it begins with
 def table(name: str) -> dict[str, np.ndarray]:
     """A reference beside its scene, by column."""
     with (CONFIGS / name).open(newline="", encoding="utf-8") as stream:
-        header, *rows = list(csv.reader(stream))
+        header, *rows = list(csv.reader(line for line in stream if not line.startswith("#")))
     return {c.split(" [")[0]: v for c, v in zip(header, np.array(rows, dtype=float).T)}
 
 

@@ -51,6 +51,10 @@ KeyTable pore_fluid_keys() {
        .range = "(0, inf)",
        .fallback = "1000 kg/m^3",
        .meaning = "Density of the pore fluid at zero pressure, for the mass ledger and gravity."},
+      {.path = "fluid.cavitation_pressure",
+       .unit = "Pa",
+       .meaning = "A run warns where pore pressure falls below it: the fluid would boil, and pores "
+                  "that are simulated stay full. Left out: any suction is taken."},
       {.path = "fluid.equation_of_state",
        .type = KeyType::word,
        .fallback = "linear",

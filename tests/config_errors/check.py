@@ -37,7 +37,7 @@ def complaints(perifrac, verb, case, header):
         before = sorted(os.walk(folder))
         scene = header.get("scene", os.path.basename(case))
         command = [perifrac, verb, scene] + shlex.split(header.get("args", ""))
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=900)
         expected = header["expect"].replace("{file}", scene) + "\n"
         if done.returncode != 2:
             yield f"exit code {done.returncode}, expected 2"

@@ -4,7 +4,7 @@ import json
 import os
 import unittest
 
-from perifrac_runs import CONFIGS, HERE, MANDEL, PERIFRAC, RunTest, SMALL, perifrac, settings
+from perifrac_runs import CONFIGS, HERE, MANDEL, PERIFRAC, RunTest, SMALL, STILL, perifrac, settings
 
 
 class CommandLine(RunTest):
@@ -41,7 +41,7 @@ class CommandLine(RunTest):
                 self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_run_prints_one_document(self):
-        done = perifrac("run", MANDEL, *settings(SMALL), "--json", "--output", self.folder / "run")
+        done = perifrac("run", MANDEL, *settings(SMALL | STILL), "--json", "--output", self.folder / "run")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(json.loads(done.stdout), json.loads((self.folder / "run" / "summary.json").read_text()))
 
@@ -154,6 +154,21 @@ class CommandLine(RunTest):
             with self.subTest(arguments), open("/dev/full", "w", encoding="utf-8") as full:
                 command = [PERIFRAC, *map(str, arguments)]
                 self.assertNotEqual(os.waitstatus_to_exitcode(_run_into(command, full)), 0)
+
+
+    def test_standard_files_that_are_closed(self):
+        """What is printed does not go into a file of the run."""
+        for closed in ([1], [2], [0, 1, 2]):
+            with self.subTest(closed=closed):
+                folder = self.folder / "run"
+                command = [PERIFRAC, "run", str(MANDEL), "--no-report", "--output", str(folder), *settings(SMALL)]
+                actions = [(os.POSIX_SPAWN_CLOSE, number) for number in closed]
+                process = os.posix_spawn(command[0], command, os.environ, file_actions=actions)
+                code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+                self.assertEqual(code, 1 if 1 in closed else 0)
+                self.assertEqual((folder / ".lock").read_bytes(), b"")
+                self.assertTrue((folder / "history.csv").read_text().startswith("time [s],step"))
+                json.loads((folder / "summary.json").read_text())
 
 
 def _run_into(command, file):

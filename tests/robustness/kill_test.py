@@ -10,9 +10,13 @@ from perifrac_runs import MANDEL, TIMES, checkpoints, datasets, listed_frames, r
 
 
 class Kill(LongRunTest):
-    def kill_after(self, folder, seconds, *options):
+    def kill_after(self, folder, seconds, *options, frames=0):
+        """So long after there are so many frames."""
         process = subprocess.Popen(run_command(MANDEL, LONG, folder, *options), stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
+        while len(listed_frames(folder)) < frames:
+            self.assertIsNone(process.poll(), "the run ended by itself")
+            time.sleep(0.01)
         time.sleep(seconds)
         self.assertIsNone(process.poll(), "the run ended by itself")
         process.kill()
@@ -31,7 +35,7 @@ class Kill(LongRunTest):
             seconds = moments.uniform(0.02, 0.8)
             with self.subTest(n=n, seconds=seconds):
                 folder = self.folder / str(n)
-                self.kill_after(folder, seconds)
+                self.kill_after(folder, seconds, frames=2 if n == 0 else 0)
                 self.assert_readable(folder)
                 reached = max(reached, len(listed_frames(folder)))
                 self.finish(folder)

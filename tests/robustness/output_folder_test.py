@@ -9,7 +9,7 @@ import subprocess
 import unittest
 
 from long_runs import LONG
-from perifrac_runs import MANDEL, RunTest, SMALL, checkpoints, listed_frames, perifrac, run_command, settings
+from perifrac_runs import CONFIGS, MANDEL, PATIENCE, RunTest, SMALL, STILL, checkpoints, listed_frames, perifrac, run_command, settings
 
 
 def limit_files_to(size):
@@ -36,7 +36,7 @@ class OutputFolder(RunTest):
                 self.assertIsNone(first.poll())
             self.assert_refused(self.run_into(folder), str(folder), "another run")
             first.send_signal(signal.SIGTERM)
-            self.assertEqual(first.wait(timeout=60), 143)
+            self.assertEqual(first.wait(timeout=PATIENCE), 143)
         finally:
             first.kill()
         self.assertEqual(self.run_into(folder).returncode, 0)
@@ -59,6 +59,53 @@ class OutputFolder(RunTest):
         self.assertEqual((folder / "notes.txt").read_text(), "mine")
         self.assertFalse((folder / "report.png").exists())
 
+    def test_says_in_one_line_what_it_replaces(self):
+        folder = self.folder / "run"
+        self.assertEqual(self.run_into(folder, *settings(STILL)).stderr, "")
+        self.assertRegex(self.run_into(folder, *settings(STILL)).stderr,
+                         r"^\d\d:\d\d:\d\d info: .*run: \d+ files of an earlier run are replaced\n$")
+
+    def test_files_of_others_stay(self):
+        """Nothing that only has the name of a result is touched, unless --overwrite says so."""
+        for name in ("history.csv", "summary.json", "report.html", "report.png", "checkpoint_000012.h5",
+                     "frames/solid_000000.hdf", "frames/body.hdf.series", "history.csv.tmp", "table.md", "study.csv"):
+            with self.subTest(name=name):
+                folder = self.folder / name.replace("/", "_")
+                (folder / name).parent.mkdir(parents=True)
+                (folder / name).write_text("mine")
+                of_study = name in ("table.md", "study.csv")
+                words = ["study", CONFIGS / "studies" / "coupling_scheme.yaml"] if of_study else ["run", MANDEL, *settings(SMALL | STILL)]
+                for _ in range(2):  # a refusal leaves nothing that would let the next one pass
+                    done = perifrac(*words, "--no-report", "--output", folder, cwd=self.folder)
+                    self.assert_refused(done, str(folder / name), "--overwrite")
+                    self.assertEqual(files(folder), {folder / name: b"mine"})
+                if of_study:
+                    continue
+                done = perifrac(*words, "--no-report", "--output", folder, "--overwrite", cwd=self.folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertNotEqual(files(folder).get(folder / name), b"mine")
+
+    def test_results_that_vanish_meanwhile(self):
+        for number, victim in enumerate(("frames/body_000000.hdf", "frames", "history.csv")):
+            with self.subTest(victim=victim):
+                folder = self.folder / str(number)
+                command = run_command(MANDEL, LONG, folder, "--until", "4000 s")
+                run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                try:
+                    while len(checkpoints(folder)) < 2:
+                        self.assertIsNone(run.poll())
+                    os.rename(folder / victim, self.folder / "elsewhere")
+                    if victim == "history.csv":
+                        (folder / victim).write_text("")
+                    run.send_signal(signal.SIGTERM)  # it need not go on to its end to notice
+                    _, complaints = run.communicate(timeout=PATIENCE)
+                finally:
+                    run.kill()
+                shutil.rmtree(self.folder / "elsewhere", ignore_errors=True)
+                (self.folder / "elsewhere").unlink(missing_ok=True)
+                self.assertEqual(run.returncode, 1, complaints)
+                self.assertRegex(complaints, r"^perifrac: .*cannot be written: .*\n$")
+
     def test_a_folder_that_is_removed_meanwhile(self):
         folder = self.folder / "run"
         run = subprocess.Popen(run_command(MANDEL, LONG, folder), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -67,7 +114,7 @@ class OutputFolder(RunTest):
             while not checkpoints(folder):
                 self.assertIsNone(run.poll())
             os.rename(folder, self.folder / "elsewhere")
-            _, complaints = run.communicate(timeout=60)
+            _, complaints = run.communicate(timeout=PATIENCE)
         finally:
             run.kill()
         self.assertEqual(run.returncode, 1)
@@ -96,7 +143,7 @@ class OutputFolder(RunTest):
 
     def test_a_full_disk_in_the_midst_of_a_row(self):
         probes = "[" + ", ".join(f"{{name: {n}, at: [1 m, {n} m]}}" for n in range(1, 20)) + "]"
-        keys = SMALL | {"output.probes": probes}
+        keys = SMALL | STILL | {"output.probes": probes}
         whole = self.run_scene(keys, "whole")
         size = (whole / "history.csv").stat().st_size
         self.assertEqual(size, max(len(content) for content in files(whole).values()))

@@ -5,13 +5,13 @@ import re
 import subprocess
 import unittest
 
-from perifrac_runs import HERE, MANDEL, RunTest, SMALL, run_command
+from perifrac_runs import HERE, MANDEL, PATIENCE, RunTest, SMALL, run_command
 
 
 class Profile(RunTest):
     def run_profiled(self, scene, keys, folder):
         done = subprocess.run(run_command(scene, keys, self.folder / folder, "--profile"), capture_output=True,
-                              text=True, timeout=120, cwd=self.folder)
+                              text=True, timeout=PATIENCE, cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stderr, json.loads((self.folder / folder / "summary.json").read_text())["profile"]
 

@@ -7,7 +7,7 @@ import time
 import unittest
 
 from long_runs import LONG, LongRunTest, rows
-from perifrac_runs import MANDEL, TIMES, checkpoints, run_command
+from perifrac_runs import MANDEL, PATIENCE, TIMES, checkpoints, run_command
 
 
 class Signals(LongRunTest):
@@ -21,7 +21,7 @@ class Signals(LongRunTest):
                 time.sleep(0.002)
             for number in signals:
                 process.send_signal(number)
-            _, complaints = process.communicate(timeout=60)
+            _, complaints = process.communicate(timeout=PATIENCE)
         finally:
             process.kill()
         self.assertEqual(complaints, "")

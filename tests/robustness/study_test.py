@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from perifrac_runs import MANDEL, PERIFRAC, RunTest, perifrac
+from perifrac_runs import MANDEL, PATIENCE, PERIFRAC, RunTest, perifrac
 
 # Mandel's problem, small enough for a blink; what differs makes it fail.
 STUDY = f"""
@@ -57,7 +57,7 @@ class StudyTest(RunTest):
         return self.folder / "out" / "variants" / name / "record.json"
 
     def wait_for(self, condition, process):
-        end = time.monotonic() + 60
+        end = time.monotonic() + PATIENCE
         while not condition():
             self.assertIsNone(process.poll(), "the study ended early")
             self.assertLess(time.monotonic(), end, "nothing happened")
@@ -71,7 +71,7 @@ class StudyTest(RunTest):
         self.addCleanup(process.stderr.close)
         self.wait_for(begun.exists, process)
         process.send_signal(number)
-        said = process.communicate(timeout=60)[1].decode()
+        said = process.communicate(timeout=PATIENCE)[1].decode()
         self.assertIn("6 of 7 variants on record", said)
         return process.returncode
 
@@ -171,7 +171,7 @@ class StudyTest(RunTest):
         self.wait_for((self.folder / "out/variants").exists, process)
         other = perifrac(*self.options)
         process.send_signal(signal.SIGTERM)
-        process.wait(timeout=60)
+        process.wait(timeout=PATIENCE)
         self.assertEqual(other.returncode, 2)
         self.assertIn("another run is writing into it", other.stderr)
 

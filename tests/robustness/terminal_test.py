@@ -9,15 +9,15 @@ import subprocess
 import termios
 import unittest
 
-from perifrac_runs import MANDEL, RunTest, SMALL, perifrac, run_command, settings
+from perifrac_runs import MANDEL, PATIENCE, SMALL, STILL, RunTest, perifrac, run_command, settings
 
 # Long enough for several updates, five a second.
-SLOW = SMALL | {"time.end": "1500 s"}
+SLOW = SMALL | STILL | {"time.end": "1500 s"}
 
 
 class Terminal(RunTest):
     def test_quiet_in_a_pipe(self):
-        done = perifrac("run", MANDEL, "--no-report", "--output", self.folder / "run", *settings(SMALL))
+        done = perifrac("run", MANDEL, "--no-report", "--output", self.folder / "run", *settings(SMALL | STILL))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for control in ("\r", "\x1b"):
             self.assertNotIn(control, done.stdout)
@@ -33,7 +33,7 @@ class Terminal(RunTest):
                 shown += os.read(terminal, 4096)
             except OSError:  # the other end is closed
                 break
-        printed, _ = process.communicate(timeout=60)
+        printed, _ = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 0)
         text = shown.decode()
         self.assertRegex(text, r"\d+ %   t = [\d.e+-]+ s of 1500 s   \d+ steps")

@@ -26,7 +26,7 @@ void append_rows(const History& history, int first, int last) {
 
 TEST(History, HasUnitsInItsHeader) {
   const TemporaryFolder folder;
-  const History history(folder / "history.csv", columns);
+  History history(folder / "history.csv", columns);
   history.append(0.5, 3, std::array{1e5, 2.0});
   EXPECT_EQ(content_of(folder / "history.csv"),
             "time [s],step,centre.pressure [Pa],iterations\n0.5,3,100000,2\n");
@@ -34,13 +34,13 @@ TEST(History, HasUnitsInItsHeader) {
 
 TEST(History, QuotesNamesThatHoldASeparator) {
   const TemporaryFolder folder;
-  const History history(folder / "history.csv", {{"a, \"b\"", "m"}});
+  History history(folder / "history.csv", {{"a, \"b\"", "m"}});
   EXPECT_EQ(content_of(folder / "history.csv"), "time [s],step,\"a, \"\"b\"\" [m]\"\n");
 }
 
 TEST(History, PrintsNumbersThatReadBackToTheSameBits) {
   const TemporaryFolder folder;
-  const History history(folder / "h.csv", {{"a", ""}});
+  History history(folder / "h.csv", {{"a", ""}});
   for (const double value : {0.1, 1.0 / 3.0, 1e-308, 5e-324, 1.7976931348623157e308, -0.0}) {
     history.append(0.0, 0, std::array{value});
     const std::string table = content_of(folder / "h.csv");
@@ -83,7 +83,7 @@ TEST(History, DropsARowThatWasCutOff) {
 
 TEST(History, StartsATableWhereARestartFindsNone) {
   const TemporaryFolder folder;
-  const History history(folder / "h.csv", columns, 100);
+  History history(folder / "h.csv", columns, 100);
   EXPECT_EQ(content_of(folder / "h.csv"), "time [s],step,centre.pressure [Pa],iterations\n");
 }
 
@@ -101,20 +101,20 @@ TEST(History, RefusesToGoOnInATableOfOtherColumns) {
 
 TEST(History, ReportsAFullDisk) {
   const TemporaryFolder folder;
-  const History history(folder / "h.csv", columns);
+  History history(folder / "h.csv", columns);
   append_rows(history, 0, 0);
   const std::string before = content_of(folder / "h.csv");
   {
     const FileSizeLimit limit(before.size() + 5);
     EXPECT_THROW(append_rows(history, 1, 1), OutputError);
   }
-  const History restarted(folder / "h.csv", columns, 0);
+  History restarted(folder / "h.csv", columns, 0);
   EXPECT_EQ(content_of(folder / "h.csv"), before);
 }
 
 TEST(History, ReportsAFolderThatIsGone) {
   TemporaryFolder folder;
-  const History history(folder / "h.csv", columns);
+  History history(folder / "h.csv", columns);
   std::filesystem::remove(folder / "h.csv");
   EXPECT_THROW(append_rows(history, 0, 0), OutputError);
 }

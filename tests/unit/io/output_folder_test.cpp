@@ -99,7 +99,7 @@ TEST(OutputFolder, LosesOnlyWhatRunsWroteWhenARunStartsAnew) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "frames" / "fluid_000009.hdf");  // a folder
   for (const char* name :
-       {"history.csv", "summary.json", "checkpoint_000012.h5", "frames/solid_000000.hdf",
+       {".lock", "history.csv", "summary.json", "checkpoint_000012.h5", "frames/solid_000000.hdf",
         "frames/solid.hdf.series", "frames/solid_1234567.hdf"}) {
     put(folder / name, "old");
   }
@@ -122,14 +122,39 @@ TEST(OutputFolder, LosesOnlyWhatRunsWroteWhenARunStartsAnew) {
 TEST(OutputFolder, LosesHalfWrittenFilesOfAKilledRunOnly) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "frames");
-  for (const char* name : {"checkpoint_000012.h5", "checkpoint_000013.h5.tmp", "history.csv",
-                           "frames/solid_000003.hdf.tmp", "mine.tmp"}) {
+  for (const char* name : {".lock", "checkpoint_000012.h5", "checkpoint_000013.h5.tmp",
+                           "history.csv", "frames/solid_000003.hdf.tmp", "mine.tmp"}) {
     put(folder / name, "");
   }
   const OutputFolder output(folder.path());
   EXPECT_THAT(folder.names(),
               ElementsAre(".lock", "checkpoint_000012.h5", "frames", "history.csv", "mine.tmp"));
   EXPECT_TRUE(std::filesystem::is_empty(folder / "frames"));
+}
+
+TEST(OutputFolder, TakesFilesWithoutALockForSomebodyElses) {
+  const TemporaryFolder folder;
+  put(folder / "history.csv", "mine");
+  EXPECT_THAT([&] { OutputFolder{folder.path()}; },
+              ThrowsMessage<InputError>(testing::StartsWith((folder / "history.csv").string())));
+  EXPECT_THAT(folder.names(), ElementsAre("history.csv"));
+  EXPECT_NO_THROW(OutputFolder(folder.path(), Overwrite::any));
+}
+
+TEST(OutputFolder, HoldsWhateverElseThereIs) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  const OutputFolder output(folder.path());
+  EXPECT_EQ(output.remove_earlier_results(), 0);
+}
+
+TEST(OutputFolder, KnowsFurtherNamesOfResults) {
+  const TemporaryFolder folder;
+  put(folder / "table.md", "mine");
+  constexpr std::string_view names[] = {"study.csv", "table.md"};
+  EXPECT_THROW(OutputFolder(folder.path(), Overwrite::own, names), InputError);
+  EXPECT_NO_THROW(OutputFolder{folder.path()});
+  EXPECT_NO_THROW(OutputFolder(folder.path(), Overwrite::own, names));  // a run was there now
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import re
 import shutil
 import struct
@@ -277,6 +278,17 @@ class BrokenRuns(ReportTest):
         self.assertIn("failed", page.text)
         self.assertEqual(page.sections, [])
 
+    def test_why_a_run_failed(self) -> None:
+        self.folder.mkdir()
+        failure = {"error": "a & b in pressure at point 3, t = 2 s", "field": "pressure", "place": "point 3",
+                   "time": {"value": 2.0, "unit": "s"}, "advice": "shorter windows"}
+        summary = {"outcome": "failed", "failure": failure, "warnings": ["one pass <may> not hold"]}
+        (self.folder / "summary.json").write_text(json.dumps(summary))
+        page = self.reported()
+        for words in ("Why it failed", "a & b in pressure at point 3", "shorter windows", "one pass <may> not hold"):
+            self.assertIn(words, page.text)
+        self.assertEqual(page.sections, ["failure", "warnings"])
+
 
 class Refused(ReportTest):
     def test_folder_without_a_run(self) -> None:
@@ -291,6 +303,13 @@ class Refused(ReportTest):
         self.folder.mkdir()
         (self.folder / "summary.json").write_text('{"outcome":\n  done}')
         self.assertIn("summary.json:2:3: not JSON", self.refused(self.folder))
+
+    def test_results_that_are_no_files(self) -> None:
+        self.folder.mkdir()
+        os.mkfifo(self.folder / "history.csv")
+        self.assertIn("history.csv: not a file", self.refused(self.folder))
+        os.mkfifo(self.folder / "summary.json")
+        self.assertIn("summary.json: not a file", self.refused(self.folder))
 
     def test_history_without_time(self) -> None:
         self.folder.mkdir()

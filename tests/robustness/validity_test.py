@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""What makes an answer wrong is warned of, before a run or while it runs, once each, and `check` and `run` say the same."""
+import json
+import unittest
+
+from perifrac_runs import CONFIGS, MANDEL, RunTest, SMALL, STILL, perifrac, settings
+
+FLUID = CONFIGS / "hf_storage.yaml"
+COARSE = {"body.spacing": "5 mm", "time.end": "10 ms"}
+WELL = {"body.spacing": "20 mm", "time.end": "0.2 ms", "output.interval": "0.1 ms"}
+COARSENESS = ("body.spacing is too coarse", "the energy balance")
+STILL_SHORT = SMALL | STILL | {"time.end": "3 s", "output.times": "[1 s]"}
+
+
+class Validity(RunTest):
+    def warnings(self, scene, keys, folder="run"):
+        done = perifrac("run", scene, "--no-report", "--overwrite", "--output", self.folder / folder, *settings(keys))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        warned = [line.split(" warning: ")[1] for line in done.stderr.splitlines() if " warning: " in line]
+        self.summary = json.loads((self.folder / folder / "summary.json").read_text())
+        self.assertEqual(self.summary["warnings"], self.summary["warnings"])
+        return warned
+
+    def assert_warns(self, scene, keys, *words):
+        """One warning for each of the words, and no other; what the points are too coarse for is another matter."""
+        warned = [warning for warning in self.warnings(scene, keys) if not any(word in warning for word in COARSENESS)]
+        self.assertEqual(len(warned), len(words), warned)
+        for word, warning in zip(words, warned):
+            self.assertIn(word, warning)
+        return warned
+
+    def without_reference(self, name):
+        lines = (CONFIGS / name).read_text().splitlines(keepends=True)
+        scene = self.folder / name
+        scene.write_text("".join(line for line in lines if not line.startswith("reference:")))
+        return scene
+
+    def test_a_run_says_what_check_knows(self):
+        dry = WELL | {"solid.confining_stress": "[0.1 MPa, 0.1 MPa]"}
+        warned = self.assert_warns(CONFIGS / "kgd_mixed.yaml", dry, "no fluid lag")
+        said = perifrac("check", CONFIGS / "kgd_mixed.yaml", "--json", "--trial", "0", *settings(dry))
+        self.assertEqual(json.loads(said.stdout)["warnings"], self.summary["warnings"])
+
+    def test_a_table_of_another_fluid_is_not_compared(self):
+        for key, value in (("crack_fluid.viscosity", "10 cP"), ("crack_fluid.inlets[0].rate", "2e-4 m^2/s"),
+                           ("solid.confining_stress", "[0.3 MPa, 0.105 MPa]"),
+                           ("crack_fluid.inlets[0].schedule", "{times: [1 ms, 2 ms], factors: [1, 0.5]}")):
+            with self.subTest(key=key):
+                self.assert_warns(FLUID, COARSE | {key: value}, f"is for {key}")
+                self.assertNotIn("reference", self.summary)
+        self.assert_warns(FLUID, COARSE)
+        self.assertIn("reference", self.summary)
+
+    def test_a_table_is_not_compared_beyond_its_end(self):
+        table = "time [s],crack_length [m]\n0.001,0.014\n0.006,0.02\n"
+        (self.folder / "table.csv").write_text(table)
+        scene = self.folder / "scene.yaml"
+        scene.write_text(FLUID.read_text().replace("hf_storage_reference.csv", "table.csv"))
+        self.assert_warns(scene, COARSE, "ends at t = 0.006 s, before the run does")
+        errors = {row["time"]: row["crack_length_error"] for row in self.summary["reference"]["table"]}
+        self.assertLess(errors[0.005], 1.0)
+        self.assertIsNone(errors[0.01])
+
+    def test_a_table_whose_conditions_cannot_be_read(self):
+        scene = self.folder / "scene.yaml"
+        scene.write_text(FLUID.read_text().replace("hf_storage_reference.csv", "table.csv"))
+        for line, word in (("# viscosity", ":1: no condition"), ("# crack_fluid.viscosty = 1", "no scene has a key"),
+                           ("# crack_fluid.viscosity = 1 cP", ":1: 'cP'; expected a finite number")):
+            with self.subTest(line=line):
+                (self.folder / "table.csv").write_text(f"{line}\ntime [s],crack_length [m]\n0.001,0.014\n")
+                self.assert_refused(perifrac("check", scene, "--trial", "0", *settings(COARSE)), "table.csv", word)
+
+    def test_grains_softer_than_the_rock(self):
+        soft = STILL_SHORT | {"pore_flow.grain_bulk_modulus": "0.6 GPa"}
+        self.assert_warns(MANDEL, soft, "above that of its grains")
+
+    def test_strains(self):
+        self.assert_warns(MANDEL, STILL_SHORT | {"solid.boundary.top.force": "15 GN/m"}, "strains reach")
+
+    def test_rotations(self):
+        soft = {"solid.material.youngs_modulus": "200 MPa", "body.spacing": "0.25 m", "time.end": "0.6 s"}
+        beam = self.without_reference("cantilever_dynamic.yaml")
+        self.assert_warns(beam, soft, "rotations reach")
+        self.assert_warns(beam, soft | {"solid.kinematics": "corotational"})
+
+    def test_suction(self):
+        self.assert_warns(MANDEL, STILL_SHORT | {"pore_flow.fluid.cavitation_pressure": "1 kPa"},
+                          "below pore_flow.fluid.cavitation_pressure")
+        self.assert_warns(MANDEL, STILL_SHORT | {"pore_flow.fluid.cavitation_pressure": "-1 kPa"})
+
+    def test_sudden_drainage(self):
+        swinging = STILL_SHORT | {"pore_flow.undrained_stabilisation": "0"}
+        self.assert_warns(MANDEL, swinging, "pore_pressure swings from point to point")
+        self.assert_warns(MANDEL, STILL_SHORT)
+
+    def test_density(self):
+        pressed = {"pore_flow.fluid.bulk_modulus": "100 kPa", "pore_flow.initial_pressure": "50 kPa"}
+        self.assert_warns(MANDEL, STILL_SHORT | pressed, "pore_pressure is 0.5 of the fluid's bulk modulus")
+        soft = {"fluid.bulk_modulus": "20 kPa"}
+        water = self.without_reference("hydrostatic.yaml")
+        self.assert_warns(water, soft | {"time.end": "20 ms", "output.times": "[]"}, "far from fluid.density")
+
+
+if __name__ == "__main__":
+    unittest.main()
