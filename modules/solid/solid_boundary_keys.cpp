@@ -6,6 +6,7 @@
 
 #include "core/config/mistakes.hpp"
 #include "core/geometry/face_conditions.hpp"
+#include "core/geometry/outside.hpp"
 #include "core/geometry/read_point.hpp"
 #include "core/time/schedule.hpp"
 
@@ -167,33 +168,35 @@ void check_sphere_pressure(const Section& section, const FaceCondition& conditio
   }
 }
 
-/// The whole face stays where it is; one that is moved, or a part of one, is a load, which pins may
-/// bear.
-bool stays(const Section& section, const FaceCondition& condition) {
-  const auto moves = [&](const char* key) { return section.number(condition.path + key) != 0.0; };
-  if (section.has(condition.path + ".region")) return false;
-  if (condition.type == "fixed") {
-    return !section.has(condition.path + ".displacement") &&
-           !section.has(condition.path + ".velocity");
-  }
-  return !moves(".normal_displacement") && !moves(".normal_velocity");
-}
-
-/// A pin is to hold what would float: beside a face that holds the same displacement it strains the
-/// rock in between. A plate goes where its force takes it.
-void refuse_what_faces_hold(const Section& section, const std::string& pin, int axis,
-                            const std::vector<FaceCondition>& conditions,
-                            const std::vector<Face>& faces) {
+/// A pin is to hold what would float: beside a roller at rest that holds the same displacement of a
+/// whole face it strains the rock in between. One that moves, or holds a part, may press on pins.
+void refuse_what_rollers_hold(const Section& section, const std::string& pin, int axis,
+                              const std::vector<FaceCondition>& conditions,
+                              const std::vector<Face>& faces) {
   for (const FaceCondition& condition : conditions) {
     const Face& face = faces[condition.face];
-    const bool holds =
-        condition.type == "fixed" || (condition.type == "roller" && face.axis == axis);
-    if (!holds || !stays(section, condition)) continue;
+    const std::string& path = condition.path;
+    if (condition.type != "roller" || face.axis != axis || section.has(path + ".region") ||
+        section.number(path + ".normal_displacement") != 0.0 ||
+        section.number(path + ".normal_velocity") != 0.0) {
+      continue;
+    }
     section.fail(pin,
-                 fmt::format("holds the displacement along {}, which face '{}' of type {} holds",
-                             "xyz"[axis], face.name, condition.type),
-                 "pins only along axes that no face holds");
+                 fmt::format("holds the displacement along {}, which the roller at face '{}' holds",
+                             "xyz"[axis], face.name),
+                 "pins only along axes that no roller holds");
   }
+}
+
+/// The nearest point of the body proper, which a place in a bonded layer may be said by too.
+template <int D>
+Index read_pinned_point(const Section& section, const std::string& path, const Body<D>& body) {
+  const auto x = read_vector<D>(section, path);
+  const bool is_beyond_a_face = std::ranges::any_of(body.faces(), [&](const Face& face) {
+    return !face.curved() && face.direction * (x[face.axis] - face.coordinate) > 0.0;
+  });
+  const bool in_layer = is_beyond_a_face && face_before<D>(body, x) < 0;
+  return in_layer ? body.nearest_point(x) : read_point(section, path, body);
 }
 
 template <int D>
@@ -205,8 +208,8 @@ void read_pins(const Section& section, const Body<D>& body,
     mistakes.note([&] {
       const int axis = section.word(path + ".axis")[0] - 'x';
       if (axis >= D) section.fail(path + ".axis", "'z' in 2D", "x or y");
-      refuse_what_faces_hold(section, path, axis, conditions, body.faces());
-      boundary.pin(read_point(section, path + ".at", body), axis);
+      refuse_what_rollers_hold(section, path, axis, conditions, body.faces());
+      boundary.pin(read_pinned_point(section, path + ".at", body), axis);
     });
   }
 }
