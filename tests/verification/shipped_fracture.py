@@ -126,7 +126,7 @@ class ShippedFracture(unittest.TestCase):
         run = self.run_scene("notch_slit", {"body.spacing": "2 mm", **pins}, 0.0029)
         self.assertAlmostEqual(run.last("crack_length"), 0.046, delta=0.0041)  # two steps
         self.assertAlmostEqual(run.last("fracture_energy"), 0.1345, delta=0.02)
-        self.assertAlmostEqual(run.last("injected_crack_fluid_mass"), 0.16 * 0.020, delta=1e-9)
+        self.assertAlmostEqual(run.last("fluid_mass_gained"), 0.16 * 0.020, delta=1e-9)
 
     def test_hf_storage_points(self):
         """Pumped for a millisecond: the points of fluid stay in the notch, and nothing breaks yet."""
