@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -28,6 +28,7 @@ help:
 	@echo 'make attack     ATTACK_COUNT made-up scenes, run at two spacings and windows: docs/reliability.md'
 	@echo 'make fuzz       scenes and checkpoints made up by a fuzzer, FUZZ_SECONDS each (clang 16)'
 	@echo 'make fuzz-many  FUZZ_INPUTS checkpoints, without the address sanitizer, which is faster (clang 16)'
+	@echo 'make mutants    physics changed by the patches of tests/mutants: the tests named there must fail'
 	@echo 'make sanitize   unit and contract tests under the address, undefined and thread sanitizers (clang 16)'
 
 install:
@@ -110,6 +111,9 @@ sanitize: install
 	for preset in sanitize sanitize-thread; do \
 	  cmake --preset $$preset --log-level=WARNING > /dev/null && cmake --build --preset $$preset && \
 	  ctest --preset $$preset || exit; done
+
+mutants: configure
+	tests/mutants/mutants.py
 
 toughness: configure
 	@cmake --build --preset release --target verification_toughness

@@ -20,8 +20,7 @@ double hardly_any(const Section& scene, const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("solid") || scene.word("solid.type") == "rigid") {
     return 0.0;
   }
-  const double modulus =
-      read_isotropic_elasticity<3>(scene.at("solid"), "material").shear_modulus;
+  const double modulus = read_isotropic_elasticity<3>(scene.at("solid"), "material").shear_modulus;
   return std::visit(
       [&](const auto& body) {
         const auto& volume = body->points().volume;
@@ -45,9 +44,11 @@ std::optional<std::string> start_warning(const Section& scene, const Simulation&
   if (!is_noticeable(scene, simulation, released)) return {};
   return fmt::format(
       "what the scene gives at the start is not in balance: {:.0f} % of its energy is set free at "
-      "once, and moves nothing; an initial pressure of the pores wants the stress that bears it, "
-      "or a schedule that brings it on",
-      100.0 * released);
+      "once, and moves nothing; {}a schedule brings on gradually what acts",
+      100.0 * released,
+      scene.has("pore_flow")
+          ? "an initial pressure of the pores wants the stress that bears it, and "
+          : "");
 }
 
 std::optional<std::string> balance_warning(const Section& scene, const Simulation& simulation) {

@@ -38,9 +38,9 @@ class Ledger {
   /// What is stored now is the start. To be called before all else.
   void start();
 
-  /// What came on at once at the start has been answered. Energy that this set free, which would move
-  /// a body with inertia, is gone: what is left is the start. Returns it, over the largest of what
-  /// was and is stored and what passed; 0 where none was.
+  /// What came on at once at the start has been answered. Energy that this set free, which would
+  /// move a body with inertia, is gone: what is left is the start. Returns it, over the largest of
+  /// what was and is stored and what passed; 0 where none was.
   double settle();
 
   std::optional<Balance> mass() const;    ///< of fluid [kg; in 2D kg/m]

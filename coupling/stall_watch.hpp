@@ -3,8 +3,8 @@
 namespace perifrac {
 
 /// Tells a run that no longer gets on from one whose windows are short: as many in a row as
-/// `patience`, ended early or cut, that together are next to nothing of one as it was to be. A crack
-/// that runs through the body in no time ends as many, but none so early.
+/// `patience`, ended early or cut, that together are next to nothing of one as it was to be. A
+/// crack that runs through the body in no time ends as many, but none so early.
 class StallWatch {
  public:
   static constexpr int patience = 200;

@@ -143,7 +143,7 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<double> unknowns_before_;  ///< at the beginning of the window
   std::vector<double> force_;  ///< external, on every unknown, the fluid's in cracks apart [N/m]
   double load_work_ = 0.0,
-         relief_work_ = 0.0;  ///< of the last window (CrackedBody::Energies) [J/m]
+         relief_work_ = 0.0;    ///< of the last window (CrackedBody::Energies) [J/m]
   std::int64_t has_begun_ = 0;  ///< work has been booked
   double external_work_ = 0.0;
   double spent_energy_ = 0.0;       ///< on new faces [J/m]

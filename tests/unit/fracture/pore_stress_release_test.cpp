@@ -54,19 +54,41 @@ void expect_release_of_growth(double angle, double size, double rise, double fac
     if (k == 0) first_energy = energy;
     sum += (k == 0 || k == steps ? 0.5 : 1.0) * release(plate, pore_stress, angle, half + k, u);
   }
-  EXPECT_NEAR(sum, first_energy - energy, 0.04 * sum)
+  EXPECT_NEAR(sum, first_energy - energy, (rock == Rock::lps ? 0.04 : 0.03) * sum)
       << angle << " " << rise << " " << face_pressure << " " << name(rock);
 }
 
 TEST(PoreStressRelease, IsThePotentialEnergyThatGrowthTakes) {
   for (const Rock rock : rocks) {
     for (const double angle : {0.0, M_PI / 4.0}) {
-      for (const double rise : {0.0, 0.03}) {
+      for (const double rise : {0.0, 0.08}) {
         expect_release_of_growth(angle, 1e-3, rise, 0.0, rock);
         expect_release_of_growth(angle, -1e-3, rise, 2e-3, rock);
       }
     }
   }
+}
+
+/// Growth through intact rock that nothing cuts sets nothing free: what grad a does there is the
+/// other half of what the strains around it say.
+TEST(PoreStressRelease, IsNoneWhereThereIsNoCrack) {
+  CrackedPlate plate(n, {});
+  const double rise = 0.03;
+  std::vector<double> pore_stress;
+  for (Index i = 0; i < plate.family->point_count; ++i) {
+    const Vector<2> x = plate.body->points().at(i);
+    pore_stress.push_back(1e-3 * (1.0 + rise * (x[0] - 0.5 * n)) *
+                          std::exp(-0.005 * std::pow(x[1] - 0.5 * n, 2)));
+  }
+  const Eigen::VectorXd u = plate.solve(pore_stress, 0.0);
+  const double j = release(plate, pore_stress, 0.0, 0.0, u);
+  std::vector<double> force(u.size()), theta(plate.family->point_count);
+  plate.elastic->apply({u.data(), static_cast<std::size_t>(u.size())}, {}, force, theta);
+  const auto middle = static_cast<std::size_t>(n / 2 * n + n / 2);
+  // q is 1 within a spacing and falls to 0 at 4.5.
+  const double by_gradient = theta[middle] * 1e-3 * rise * M_PI * 2.75 * 2.75;
+  ASSERT_GT(by_gradient, 0.0);
+  EXPECT_NEAR(j / by_gradient, 0.0, 0.1);
 }
 
 }  // namespace

@@ -1,0 +1,217 @@
+#!/usr/bin/python3
+"""Runs scenes of fracture, small, and holds their figures to what they reach, within a half of it.
+
+Usage: shipped_fracture.py PERIFRAC [unittest's arguments]
+
+Each is run at a coarser spacing, in a smaller body or for a shorter time than it is shipped with. The
+mutants of tests/mutants are caught here and in unit tests.
+"""
+import csv
+import glob
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.join(HERE, "..", "..")
+PERIFRAC = os.path.abspath(sys.argv.pop(1))
+
+# A quarter of the area that the scenes of a crack alone have: 0.4 m ahead of it.
+SMALL_KGD = {"body.size": "[400 mm, 800 mm]", "cracks[0].path": "[0 mm, 400 mm, 20 mm, 400 mm]",
+             "crack_fluid.inlets[0].at": "[0 mm, 400 mm]"}
+
+
+class Run:
+    """A finished run of a scene under configs/, or of a file."""
+
+    def __init__(self, name, keys):
+        scene = name if name.endswith(".yaml") else os.path.join(ROOT, "configs", name + ".yaml")
+        settings = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([PERIFRAC, "run", scene, "--no-report", "--threads", "1", "--output", folder, *settings],
+                                  capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                raise AssertionError(f"{name}: exit code {done.returncode}\n{done.stderr}")
+            self.log = done.stderr
+            with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+                self.summary = json.load(file)
+            with open(os.path.join(folder, "history.csv"), encoding="utf-8") as file:
+                self.rows = [{name.split(" [")[0]: float(value) for name, value in row.items()}
+                             for row in csv.DictReader(file)]
+
+    def last(self, name):
+        return self.rows[-1][name]
+
+    def ledger(self, name):
+        return self.summary["ledger"][name]
+
+    def figure(self, quantity):
+        """Largest error of a quantity's mean over a step of growth."""
+        name = quantity + " over the exact, mean of a step"
+        return next(q["max_error"] for q in self.summary["reference"]["quantities"] if q["name"] == name)
+
+    def worst(self, quantity, since):
+        """Largest error at the outputs from a time on [s]."""
+        return max(row[quantity + "_error"] for row in self.summary["reference"]["table"]
+                   if row["time"] > 0.999 * since)
+
+
+class ShippedFracture(unittest.TestCase):
+    def run_scene(self, name, keys, energy):
+        run = Run(name, keys)
+        self.assertLessEqual(run.ledger("mass_error"), 1e-12)
+        self.assertLessEqual(run.ledger("energy_error"), energy)
+        return run
+
+    def test_kgd_against_viscosity(self):
+        run = self.run_scene("kgd_viscosity", SMALL_KGD, 0.014)
+        self.assertLessEqual(run.figure("length"), 0.027)
+        self.assertLessEqual(run.figure("pressure"), 0.070)
+        self.assertLessEqual(run.figure("opening"), 0.018)
+
+    def test_kgd_between(self):
+        run = self.run_scene("kgd_mixed", SMALL_KGD, 0.016)
+        self.assertLessEqual(run.figure("length"), 0.037)
+        self.assertLessEqual(run.figure("pressure"), 0.062)
+        self.assertLessEqual(run.figure("opening"), 0.031)
+
+    def test_kgd_against_toughness(self):
+        run = self.run_scene("kgd_toughness", SMALL_KGD, 9e-4)
+        self.assertLessEqual(run.figure("length"), 0.020)
+        self.assertLessEqual(run.figure("pressure"), 0.067)
+        self.assertLessEqual(run.figure("opening"), 0.030)
+
+    def test_long_windows_are_cut_where_a_tip_goes_on(self):
+        """A step of growth comes every two windows."""
+        run = self.run_scene("kgd_toughness", {**SMALL_KGD, "coupling.window.largest": "4 ms"}, 1e-3)
+        self.assertLessEqual(run.figure("length"), 0.019)
+        self.assertLessEqual(run.figure("pressure"), 0.128)
+
+    def test_hf_storage(self):
+        """The fluid lags the tip."""
+        run = self.run_scene("hf_storage", {"body.spacing": "2.5 mm"}, 0.021)
+        self.assertLessEqual(run.worst("crack_length", 0.02), 0.046)
+        self.assertLessEqual(run.worst("inlet_notch_pressure", 0.02), 0.027)
+
+    def test_hf_natural_fracture(self):
+        """Goes down, follows the natural fracture and goes on from its lower end."""
+        run = self.run_scene("hf_natural_fracture", {"body.spacing": "2.5 mm"}, 0.012)
+        self.assertAlmostEqual(run.last("crack_length"), 0.1226, delta=0.0052)  # two steps
+        self.assertAlmostEqual(run.last("wetted_length"), run.last("crack_length"), delta=0.0026)
+        self.assertAlmostEqual(run.last("inlet_notch_pressure"), 1.538e6, delta=0.04e6)
+        self.assertGreater(run.last("inlet_notch_pressure"), 1.5e6)  # the stress that closes both
+
+    def test_hf_leakoff_pores(self):
+        run = self.run_scene("hf_leakoff_pores", {"body.spacing": "5 mm", "time.end": "50 ms"}, 0.0063)
+        self.assertAlmostEqual(run.last("crack_length"), 0.064, delta=0.0051)  # a step
+        self.assertAlmostEqual(run.last("inlet_notch_pressure"), 1.322e6, delta=0.05e6)
+        self.assertEqual(run.last("fluid_lag"), 0.0)
+        # What was pumped in is in the crack and the pores.
+        parts = run.last("crack_volume") + run.last("leak_off_volume")
+        self.assertAlmostEqual(parts, 0.8e-4 * 0.050, delta=1e-3 * 0.8e-4 * 0.050)
+
+    def test_kgd_oblique(self):
+        """Both wings grow alike, straight on, as long as one at rest on the lattice's rows would be."""
+        path = {"cracks[0].path": "[464.223 mm, 482.1115 mm, 535.777 mm, 517.8885 mm]"}
+        run = self.run_scene("kgd_oblique", {"body.spacing": "10 mm", **path}, 0.036)
+        self.assertAlmostEqual(run.last("crack_length"), 0.140, delta=0.0202)  # a step at either end
+        self.assertAlmostEqual(run.last("inlet_well_pressure") - 3e6, 0.306e6, delta=0.03e6)
+
+    def test_notch_slit(self):
+        pins = {"solid.pins": "[{at: [29 mm, 0 mm], axis: x}, {at: [31 mm, 0 mm], axis: x}]"}
+        run = self.run_scene("notch_slit", {"body.spacing": "2 mm", **pins}, 0.0029)
+        self.assertAlmostEqual(run.last("crack_length"), 0.046, delta=0.0041)  # two steps
+        self.assertAlmostEqual(run.last("fracture_energy"), 0.1345, delta=0.02)
+        self.assertAlmostEqual(run.last("fluid_mass_gained"), 0.16 * 0.020, delta=1e-9)
+
+    def test_hf_storage_points(self):
+        """Pumped for a millisecond: the points of fluid stay in the notch, and nothing breaks yet."""
+        run = self.run_scene("hf_storage_points", {"time.end": "6 ms"}, 1e-6)
+        self.assertEqual(run.last("fracture_energy"), 0.0)
+
+    def test_damping_takes_the_pull_at_a_steady_speed(self):
+        """m c v = F: of the pull p h on a body of mass rho b h, v = p / (rho b c)."""
+        run = Run(os.path.join(HERE, "falling.yaml"), {})
+        speed = 10e3 / (1610.0 * 0.1 * 1000.0)
+        exact = 0.5 * 1610.0 * 0.01 * speed**2
+        self.assertAlmostEqual(run.last("kinetic_energy") / exact, 1.0, delta=1e-3)
+
+
+class Start(unittest.TestCase):
+    """What is there at the start has come from somewhere, and the ledger knows from where."""
+    STILL = {"body.spacing": "5 mm", "solid.pins": "[{at: [72.5 mm, 0 mm], axis: x}, {at: [77.5 mm, 0 mm], axis: x}]",
+             "crack_fluid.inlets[0].rate": "0 m^2/s", "time.end": "5 ms", "damage.fracture_energy": "1 MJ/m^2"}
+    FILLED = {"crack_fluid.filled": "[{from: [0 mm, 0 mm], to: [150 mm, 200 mm], pressure: 0.5 MPa}]"}
+    PULLED = {"solid.boundary.left": "{type: pressure, pressure: -0.2 MPa}",
+              "solid.boundary.right": "{type: pressure, pressure: -0.2 MPa}"}
+    SLOPED = {"solid.confining_stress": "[2 MPa, 0.5 MPa]", "cracks[0].path": "[60 mm, 80 mm, 95 mm, 115 mm]",
+              "crack_fluid.inlets[0].at": "[75 mm, 95 mm]"}
+    MOVED = {"solid.boundary.right": "{type: roller, normal_displacement: 0.1 mm}"}
+    PORES = {"crack_fluid.leak_off": "pores",
+             "pore_flow": "{type: darcy, permeability: 1e-14 m^2, biot_coefficient: 1, porosity: 0.1, "
+                          "fluid: {density: 1000 kg/m^3, viscosity: 1 cP, bulk_modulus: 2.2 GPa}}"}
+
+    def test_closes_the_balance_of_energy(self):
+        for name, keys, limit in (("filled", self.FILLED, 1e-9), ("pulled", self.PULLED, 1e-9),
+                                  ("pulled and filled", {**self.FILLED, **self.PULLED}, 1e-9),
+                                  ("filled and sheared", {**self.FILLED, **self.SLOPED}, 1e-9),
+                                  ("filled and moved", {**self.FILLED, **self.MOVED}, 1e-9),
+                                  ("filled beside pores", {**self.FILLED, **self.PORES}, 1e-3)):
+            with self.subTest(name):
+                run = Run("hf_storage", {**self.STILL, **keys})
+                self.assertLessEqual(run.ledger("energy_error"), limit)
+                self.assertGreater(run.last("elastic_energy"), 0.01)
+                self.assertNotIn("warning", run.log)
+
+    def test_has_no_balance_to_close_in_a_body_at_rest(self):
+        self.assertNotIn("warning", Run("hf_storage", self.STILL).log)
+
+    def test_names_pressure_that_no_stress_bears(self):
+        pores = self.PORES["pore_flow"].replace("porosity", "initial_pressure: 0.1 MPa, porosity")
+        run = Run("hf_storage", {**self.STILL, **self.PORES, "pore_flow": pores})
+        self.assertIn("what the scene gives at the start is not in balance", run.log)
+        self.assertNotIn("energy balance", run.log)
+
+
+def sources_of_slow_tests():
+    """Names of the files of verification/ that only the slow suite runs."""
+    with open(os.path.join(HERE, "CMakeLists.txt"), encoding="utf-8") as file:
+        text = file.read()
+    slow = set()
+    for block in re.findall(r"perifrac_test\(([^)]*)\)", text):
+        if "LABELS slow" in block:
+            slow |= set(re.findall(r"\w+_test\.cpp", block))
+    for name in re.findall(r"set_tests_properties\(verification\.(\w+) PROPERTIES\s+LABELS slow", text):
+        slow.add(name + ".py")
+    return slow
+
+
+class EveryScene(unittest.TestCase):
+    # By the slow suite alone: a ball of points, an impact and a long crack have no small scene.
+    ONLY_SLOW = {"cryer", "kalthoff", "kgd_leakoff"}
+
+    def test_is_in_a_test(self):
+        slow = sources_of_slow_tests()
+        quick_text, slow_text = "", ""
+        for kind in ("cpp", "hpp", "py"):
+            for path in glob.glob(os.path.join(ROOT, "tests", "verification", "*." + kind)) + \
+                    glob.glob(os.path.join(ROOT, "tests", "contract", "*." + kind)):
+                with open(path, encoding="utf-8") as file:
+                    text = file.read()
+                if os.path.basename(path) in slow:
+                    slow_text += text
+                else:
+                    quick_text += text
+        for path in sorted(glob.glob(os.path.join(ROOT, "configs", "*.yaml"))):
+            name = os.path.basename(path)[:-len(".yaml")]
+            with self.subTest(name):
+                named = re.compile(rf'"{name}"|\b{name}\.yaml')
+                self.assertRegex(slow_text if name in self.ONLY_SLOW else quick_text, named)
+
+
+if __name__ == "__main__":
+    unittest.main()
