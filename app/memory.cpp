@@ -103,8 +103,9 @@ void keep_to_free_memory() {
 }
 
 std::optional<MemoryEstimate> estimate_memory(const Section& scene) {
+  constexpr double refused_anyway = 1e8;
   const double points = lattice_points(scene);
-  if (points == 0.0) return {};
+  if (points == 0.0 || points > refused_anyway) return {};
   const double bonds =
       std::pow(scene.number("body.horizon_ratio") / 2.5, scene.integer("dimension"));
   double bytes = 0.0;

@@ -157,8 +157,8 @@ double CouplingManager::advance(double stop) {
     } catch (const FinalError&) {
       throw;
     } catch (const NumericalError& error) {
-      // Also where the run ends here: what is left is the state that the window began with.
-      if (!solver_->cut(time_) || retries == options_.retries) throw;
+      if (retries == options_.retries) solver_->give_up(time_);
+      if (retries == options_.retries || !solver_->cut(time_)) throw;
       end = cut(end, stop, error);
       last_cut = error;
       if (end - time_ < StallWatch::shortest * whole) throw stalled(whole, &error);

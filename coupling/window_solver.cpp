@@ -94,6 +94,10 @@ bool WindowSolver::cut(double t) {
   return true;
 }
 
+void WindowSolver::give_up(double t) {
+  if (is_saved_) go_back(t);
+}
+
 double WindowSolver::conclude(const TimeWindow& window, double reached) {
   for (ModuleSlot& slot : modules_) {
     if (reached < window.end) return reached;

@@ -53,6 +53,8 @@ class WindowSolver {
   /// After solve() threw: brings all modules back to `t` [s], where the window began, to be tried
   /// half as long. False where they were not saved.
   bool cut(double t);
+  /// The same where the run ends there: nothing is tried again.
+  void give_up(double t);
 
   /// The last window took no more than half of the passes it was allowed.
   bool was_easy() const { return was_easy_; }

@@ -20,7 +20,7 @@ constexpr std::size_t largest_text = 64 << 20;  // [bytes]
 /// What is in the place of a file; null where it is one.
 const char* kind_of(mode_t mode) {
   if (S_ISREG(mode)) return nullptr;
-  if (S_ISDIR(mode)) return "it is a folder";
+  if (S_ISDIR(mode)) return "Is a directory";
   return S_ISFIFO(mode) ? "it is a pipe" : "it is a device";
 }
 

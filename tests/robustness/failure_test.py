@@ -55,7 +55,7 @@ class Failures(RunTest):
         summary, _, _ = self.run_that_fails(MANDEL, wild, "--no-report")
         self.assertIn("the coupling does not converge", summary["failure"]["error"])
         self.assertIn("coupling.split: automatic", summary["failure"]["advice"])
-        self.assertEqual(summary["coupling"]["window_cuts"], 3)
+        self.assertEqual(summary["coupling"]["window_cuts"], 2)
         self.assertLess(summary["ledger"]["mass_error"], 1e-9)
 
 

@@ -27,7 +27,7 @@ class GivenFiles(RunTest):
         os.symlink(self.folder / "here", self.folder / "there")
         (self.folder / "loop.yaml").symlink_to("loop.yaml")
         return [("/dev/zero", "device"), ("/dev/urandom", "device"), ("/dev/null", "device"),
-                (self.folder / "pipe", "pipe"), (self.folder / "socket", "socket"), (self.folder, "folder"),
+                (self.folder / "pipe", "pipe"), (self.folder / "socket", "socket"), (self.folder, "Is a directory"),
                 (self.folder / "here", "symbolic links"), (self.folder / "loop.yaml", "symbolic links"),
                 (self.folder / "missing", "No such file"), ("/dev/null/below", "Not a directory"),
                 ("n" * 300, "name too long"), ("n/" * 5000, "name too long")]

@@ -131,7 +131,7 @@ TEST(Checkpoint, SaysInOneLineWhatIsWrong) {
   expect("none.h5", "No such file or directory");
   put(folder / "text.h5", "title: a scene, not a checkpoint");
   expect("text.h5", "not a checkpoint");
-  expect("", "not a checkpoint");  // a folder
+  expect("", "Is a directory");  // a folder
   const std::string whole = content_of(write_checkpoint(folder.path(), sample(1)));
   put(folder / "cut.h5", whole.substr(0, whole.size() - 10));
   expect("cut.h5", "damaged or cut short");

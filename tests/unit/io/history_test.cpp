@@ -18,7 +18,7 @@ using testing::ThrowsMessage;
 
 const std::vector<HistoryColumn> columns{{"centre.pressure", "Pa"}, {"iterations", ""}};
 
-void append_rows(const History& history, int first, int last) {
+void append_rows(History history, int first, int last) {
   for (int step = first; step <= last; ++step) {
     history.append(0.1 * step, step, std::array{std::sqrt(step) * 1e5, 1.0 / 3.0});
   }
@@ -76,7 +76,7 @@ TEST(History, DropsARowThatWasCutOff) {
   const std::string whole = content_of(folder / "h.csv");
   for (const std::string half : {"0", "0.5,", "0.5,5", "0.5,5,1.2e"}) {
     put(folder / "h.csv", whole + half);
-    const History history(folder / "h.csv", columns, 100);
+    History history(folder / "h.csv", columns, 100);
     EXPECT_EQ(content_of(folder / "h.csv"), whole);
   }
 }
