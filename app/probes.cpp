@@ -1,7 +1,6 @@
 #include "app/probes.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -27,36 +26,21 @@ bool is_of_body(const Field& field, const Simulation& simulation) {
   return simulation.has_body() && field.points().name == simulation.points().name;
 }
 
-/// Of points equally near the first; `count` where there are none.
-std::size_t nearest_point(const PointSet& points, std::span<const double> place) {
-  std::size_t nearest = points.count;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < points.count; ++i) {
-    double square = 0.0;
-    for (std::size_t a = 0; a < place.size(); ++a) {
-      const double distance = points.position[a][i] - place[a];
-      square += distance * distance;
-    }
-    if (square < least) {
-      least = square;
-      nearest = i;
-    }
-  }
-  return nearest;
-}
-
 }  // namespace
 
-Probes::Probes(const Section& output, const Simulation& simulation) {
+Probes::Probes(const Section& output, const Simulation& simulation, double fluid_spacing) {
   for (const Field& field : fields_of(*simulation.manager)) {
-    if (!has_place(field)) add({field, {}}, "");
+    if (has_place(field)) continue;
+    add_columns(field.port, "");
+    probes_.push_back({{field}, {}});
   }
   for (std::size_t n = 0; n < output.count("probes"); ++n) {
-    read(output, fmt::format("probes[{}]", n), simulation);
+    read(output, fmt::format("probes[{}]", n), simulation, fluid_spacing);
   }
 }
 
-void Probes::read(const Section& output, const std::string& item, const Simulation& simulation) {
+void Probes::read(const Section& output, const std::string& item, const Simulation& simulation,
+                  double fluid_spacing) {
   std::vector<Field> fields = fields_of(*simulation.manager);
   std::erase_if(fields, [](const Field& field) { return !has_place(field); });
   if (output.has(item + ".field")) {
@@ -68,41 +52,45 @@ void Probes::read(const Section& output, const std::string& item, const Simulati
   }
   const auto of_body = [&](const Field& field) { return is_of_body(field, simulation); };
   const std::string at = item + ".at";
-  std::size_t point = 0;
   if (std::ranges::any_of(fields, of_body)) {
-    const auto find_point = [&](const auto& body) {
-      if (std::ranges::all_of(fields, of_body) || is_inside(output, at, *body)) {
-        point = read_point(output, at, *body);
-      } else {
+    const auto check_place = [&](const auto& body) {
+      if (std::ranges::all_of(fields, of_body)) {
+        read_point(output, at, *body);  // refuses a place outside
+      } else if (!is_inside(output, at, *body)) {
         std::erase_if(fields, of_body);
       }
     };
-    std::visit(find_point, simulation.body);
+    std::visit(check_place, simulation.body);
   }
-  for (const Field& field : fields) {
-    const std::vector<double> place = of_body(field) ? std::vector<double>{} : output.numbers(at);
-    add({field, place, point}, " at " + output.text(item + ".name"));
+  const std::string suffix = " at " + output.text(item + ".name");
+  while (!fields.empty()) {
+    const PointSet& points = fields.front().points();
+    const auto others = std::ranges::stable_partition(
+        fields, [&](const Field& field) { return field.points().name == points.name; });
+    Probe probe{{fields.begin(), others.begin()},
+                PlaceReader(simulation, points, output.numbers(at), fluid_spacing)};
+    for (const Field& field : probe.fields) add_columns(field.port, suffix);
+    columns_.push_back({fmt::format("{} points read{}", points.name, suffix), ""});
+    probes_.push_back(std::move(probe));
+    fields.erase(fields.begin(), others.begin());
   }
 }
 
-void Probes::add(Probe probe, const std::string& suffix) {
-  const Port& port = probe.field.port;
+void Probes::add_columns(const Port& port, const std::string& suffix) {
   for (int c = 0; c < port.components; ++c) {
     columns_.push_back({port.name + component_suffix(c, port.components) + suffix, port.unit});
   }
-  probes_.push_back(std::move(probe));
 }
 
-void Probes::append_values(std::vector<double>& row) const {
-  for (const Probe& probe : probes_) {
-    const PointSet& points = probe.field.points();
-    const std::size_t point =
-        probe.place.empty() ? probe.point : nearest_point(points, probe.place);
-    const std::span<const double> values = probe.field.values();
-    for (int c = 0; c < probe.field.port.components; ++c) {
-      row.push_back(point < points.count ? values[c * points.count + point]
-                                         : std::numeric_limits<double>::quiet_NaN());
+void Probes::append_values(std::vector<double>& row) {
+  for (auto& [fields, reader] : probes_) {
+    if (reader) reader->follow(fields.front().points());
+    for (const Field& field : fields) {
+      for (int c = 0; c < field.port.components; ++c) {
+        row.push_back(reader ? reader->value(field, c) : field.values()[c]);
+      }
     }
+    if (reader) row.push_back(static_cast<double>(reader->points_read()));
   }
 }
 

@@ -32,7 +32,7 @@ class Stopwatch {
 
 Probes make_probes(const Section& scene, const Simulation& simulation) {
   const ProfilePart profiled("output");
-  return {scene.at("output"), simulation};
+  return {scene.at("output"), simulation, fluid_spacing(scene)};
 }
 
 }  // namespace

@@ -75,7 +75,9 @@ KeyTable output_keys() {
        .type = KeyType::vector,
        .unit = "m",
        .required = true,
-       .meaning = "Place of the probe; the nearest point is read."},
+       .meaning =
+           "Place of the probe. Fields are interpolated there to second order, never across a "
+           "crack, a cut-out or a border of regions; history.csv says from how many points."},
       {.path = "probes[].field",
        .type = KeyType::text,
        .meaning = "Field to record; all fields where left out."},

@@ -40,14 +40,13 @@ std::unique_ptr<Reference> make_cantilever_reference(const Section& scene,
                                                      const Simulation& simulation) {
   const CantileverProblem problem = read_problem(scene);
   const CantileverSolution solution(problem);
-  const PointSet& points = simulation.points();
-  const std::vector<Index> row = points_along(scene, points, 0, {0.0, 0.5 * problem.height});
+  const Field displacement = field_named(*simulation.manager, "displacement");
+  const std::vector<double> tip = {scene.numbers("body.size")[0], 0.5 * problem.height};
   auto reference =
       std::make_unique<Reference>("cantilever", "Timoshenko's beam, first mode", solution.period());
-  reference->add(
-      Reference::History{"deflection at the tip", "m",
-                         value_at(field_named(*simulation.manager, "displacement"), row.back(), 1),
-                         [=](double t) { return solution.deflection(t); }});
+  reference->add(Reference::History{"deflection at the tip", "m",
+                                    value_at(simulation, displacement, tip, 1),
+                                    [=](double t) { return solution.deflection(t); }});
   const double level = solution.static_deflection();
   const auto measured = [=](auto times, auto values) {
     // Upwards whatever the sign of the load.

@@ -79,27 +79,29 @@ std::unique_ptr<Reference> compare(const Section& scene, const Simulation& simul
   const auto exact_pressure = [=](double at, double t) { return solution.pressure(at, t); };
   // Below the bottom no pore pressure carries: a strip that shortens once.
   const double sunk = solution.drained_strain() * column.floor;
-  const auto exact_displacement = [=](Index i, double t) {
-    return sunk + solution.displacement(z[i], t);
+  const auto exact_displacement = [=](double at, double t) {
+    return sunk + solution.displacement(at, t);
   };
   reference->add(Reference::Error{
       "pressure_error", largest_error(pressure, 0, inside, scale,
                                       [=](Index i, double t) { return exact_pressure(z[i], t); })});
   reference->add(Reference::Error{
       "settlement_error",
-      largest_error(displacement, axis, inside, solution.final_settlement(), exact_displacement)});
+      largest_error(displacement, axis, inside, solution.final_settlement(),
+                    [=](Index i, double t) { return exact_displacement(z[i], t); })});
   const std::vector<Index> row = points_along(scene, points, axis, std::vector(axis + 1, 0.0));
   for (const double part : {0.0, 0.25, 0.5, 0.75}) {
-    const Index point = nearest_in(row, points, axis, part * column.height);
+    const double at = part * column.height;
     reference->add(Reference::History{
         part == 0.0 ? "pore pressure at the floor" : fmt::format("pore pressure at {} H", part),
-        "Pa", value_at(pressure, point),
-        [=, at = z[point]](double t) { return exact_pressure(at, t); }});
+        "Pa", value_at(simulation, pressure, place_on(row, points, axis, at)),
+        [=](double t) { return exact_pressure(at, t); }});
   }
-  const Index top = row.back();
-  reference->add(Reference::History{"vertical displacement at the top", "m",
-                                    value_at(displacement, top, axis),
-                                    [=](double t) { return exact_displacement(top, t); }});
+  const double top = scene.numbers("body.size")[axis];
+  reference->add(
+      Reference::History{"vertical displacement at the top", "m",
+                         value_at(simulation, displacement, place_on(row, points, axis, top), axis),
+                         [=](double t) { return exact_displacement(top, t); }});
   reference->add(profile_along(row, points, axis, "pore pressure", "Pa", pressure, exact_pressure));
   return reference;
 }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "app/place_reader.hpp"
+
 namespace perifrac {
 
 bool writes(const Section& scene, std::string_view path) {
@@ -84,18 +86,20 @@ std::vector<Index> points_along(const Section& scene, const PointSet& points, in
   return row;
 }
 
-Index nearest_in(const std::vector<Index>& row, const PointSet& points, int axis, double x) {
-  Index nearest = row.front();
-  const auto distance = [&](Index i) { return std::abs(points.position[axis][i] - x); };
-  for (const Index i : row) {
-    if (distance(i) < distance(nearest) * (1.0 - 1e-9)) nearest = i;
-  }
-  return nearest;
+std::vector<double> place_on(const std::vector<Index>& row, const PointSet& points, int axis,
+                             double x) {
+  std::vector<double> place;
+  for (int a = 0; a < points.dimension; ++a) place.push_back(points.position[a][row.front()]);
+  place[axis] = x;
+  return place;
 }
 
-Reference::Computed value_at(const Field& field, Index point, int component) {
-  return [field, point, component] {
-    return field.values()[component * field.points().count + point];
+Reference::Computed value_at(const Simulation& simulation, const Field& field,
+                             const std::vector<double>& place, int component) {
+  const auto reader = std::make_shared<PlaceReader>(simulation, field.points(), place, 0.0);
+  return [field, reader, component] {
+    reader->follow(field.points());
+    return reader->value(field, component);
   };
 }
 

@@ -34,11 +34,13 @@ std::vector<Index> points_inside(const Section& scene, const PointSet& points);
 std::vector<Index> points_along(const Section& scene, const PointSet& points, int axis,
                                 const std::vector<double>& origin);
 
-/// The member of `row` nearest to `x` along `axis`, the first where two are as near.
-Index nearest_in(const std::vector<Index>& row, const PointSet& points, int axis, double x);
+/// The place on the line of `row` with the coordinate `x` along `axis`.
+std::vector<double> place_on(const std::vector<Index>& row, const PointSet& points, int axis,
+                             double x);
 
-/// One component at one point.
-Reference::Computed value_at(const Field& field, Index point, int component = 0);
+/// One component of a field of the body at a place, as probes read it.
+Reference::Computed value_at(const Simulation& simulation, const Field& field,
+                             const std::vector<double>& place, int component = 0);
 
 /// Exact values by point and time.
 using ExactField = std::function<double(Index point, double t)>;

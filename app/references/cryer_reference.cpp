@@ -68,17 +68,17 @@ std::unique_ptr<Reference> make_cryer_reference(const Section& scene,
       largest_error(pressure, 0, points_inside(scene, points), solution->initial_pressure(),
                     [=](Index i, double t) { return solution->pressure(radius(i), t); })});
   const std::vector<Index> row = points_along(scene, points, 0, {0.0, 0.0, 0.0});
-  const double size = scene.number("body.radius");
-  for (const double part : {0.0, 0.25, 0.5, 0.75}) {
-    const Index point = nearest_in(row, points, 0, part * size);
-    reference->add(Reference::History{
-        part == 0.0 ? "pore pressure at the middle" : fmt::format("pore pressure at {} a", part),
-        "Pa", value_at(pressure, point),
-        [=, r = radius(point)](double t) { return solution->pressure(r, t); }});
-  }
-  reference->add(peak(*solution));
   // The row lies beside the axis, so that its points have other distances from the middle.
   const double aside = std::hypot(points.position[1][row.front()], points.position[2][row.front()]);
+  const double size = scene.number("body.radius");
+  for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+    const double r = std::hypot(part * size, aside);
+    reference->add(Reference::History{
+        part == 0.0 ? "pore pressure at the middle" : fmt::format("pore pressure at {} a", part),
+        "Pa", value_at(simulation, pressure, place_on(row, points, 0, part * size)),
+        [=](double t) { return solution->pressure(r, t); }});
+  }
+  reference->add(peak(*solution));
   reference->add(profile_along(
       row, points, 0, "pore pressure", "Pa", pressure,
       [=](double x, double t) { return solution->pressure(std::hypot(x, aside), t); }));

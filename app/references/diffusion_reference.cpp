@@ -119,18 +119,17 @@ std::unique_ptr<Reference> make_diffusion_reference(const Section& scene,
                     [=](Index i, double t) { return exact(x[i], t) + slab.by_depth(points, i); })});
   const std::vector<Index> row =
       points_along(scene, points, slab.axis, std::vector(points.dimension, 0.0));
+  const double depth = slab.by_depth(points, row.front());  // gravity is across the row
   for (const double part : {0.25, 0.5, 0.75, 1.0}) {
     const double place = slab.drained + part * (slab.sealed - slab.drained);
-    const Index point = nearest_in(row, points, slab.axis, place);
-    reference->add(Reference::History{part == 1.0 ? "pore pressure at the sealed end"
-                                                  : fmt::format("pore pressure at {} L", part),
-                                      "Pa", value_at(pressure, point),
-                                      [=, at = x[point], depth = slab.by_depth(points, point)](
-                                          double t) { return exact(at, t) + depth; }});
+    reference->add(Reference::History{
+        part == 1.0 ? "pore pressure at the sealed end"
+                    : fmt::format("pore pressure at {} L", part),
+        "Pa", value_at(simulation, pressure, place_on(row, points, slab.axis, place)),
+        [=](double t) { return exact(place, t) + depth; }});
   }
   reference->add(profile_along(row, points, slab.axis, "pore pressure", "Pa", pressure,
-                               [=, depth = slab.by_depth(points, row.front())](
-                                   double at, double t) { return exact(at, t) + depth; }));
+                               [=](double at, double t) { return exact(at, t) + depth; }));
   return reference;
 }
 

@@ -80,12 +80,12 @@ std::unique_ptr<Reference> make_mandel_reference(const Section& scene,
   const double width = scene.numbers("body.size")[0];
   constexpr std::array places = {"the middle", "a/4", "a/2", "3a/4"};
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const Index point = nearest_in(row, points, 0, 0.25 * k * width);
-    reference->add(Reference::History{
-        fmt::format("pore pressure at {}", places[k]), "Pa", value_at(pressure, point),
-        [=, at = x[point]](double t) { return solution->pressure(at, t); }});
+    const double at = 0.25 * k * width;
+    reference->add(Reference::History{fmt::format("pore pressure at {}", places[k]), "Pa",
+                                      value_at(simulation, pressure, place_on(row, points, 0, at)),
+                                      [=](double t) { return solution->pressure(at, t); }});
   }
-  reference->add(peak(*solution, x[row.front()]));
+  reference->add(peak(*solution, 0.0));
   reference->add(profile_along(row, points, 0, "pore pressure", "Pa", pressure,
                                [=](double at, double t) { return solution->pressure(at, t); }));
   return reference;

@@ -44,6 +44,10 @@ const std::vector<ReferenceType>& reference_types() {
 
 std::unique_ptr<Reference> make_reference(const Section& scene, const Simulation& simulation) {
   if (!scene.has("reference")) return nullptr;
+  if (scene.word("reference.type") != "table" && scene.has("body.from") &&
+      std::ranges::any_of(scene.numbers("body.from"), [](double x) { return x != 0.0; })) {
+    scene.fail("body.from", "the reference's body begins at the origin", "this left out");
+  }
   const auto type =
       std::ranges::find(reference_types(), scene.word("reference.type"), &ReferenceType::name);
   return type->make(scene, simulation);

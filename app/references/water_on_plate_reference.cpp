@@ -49,11 +49,8 @@ std::unique_ptr<Reference> make_water_on_plate_reference(const Section& scene,
                                                          const Simulation& simulation) {
   const double deflection = read_deflection(scene);
   const std::vector<double> size = scene.numbers("body.size");
-  const PointSet& points = simulation.points();
   const Field displacement = field_named(*simulation.manager, "displacement");
-  const std::vector<Index> row = points_along(scene, points, 0, {0.0, 0.5 * size[1]});
-  const Index middle = nearest_in(row, points, 0, 0.5 * size[0]);
-  const auto computed = value_at(displacement, middle, 1);
+  const auto computed = value_at(simulation, displacement, {0.5 * size[0], 0.5 * size[1]}, 1);
 
   auto reference =
       std::make_unique<Reference>("water_on_plate", "Timoshenko's beam, clamped at both ends", 0.0);

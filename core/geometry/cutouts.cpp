@@ -49,7 +49,7 @@ KeyTable cutout_keys() {
 }
 
 template <int D>
-std::vector<Region<D>> read_cutouts(const Section& body, double spacing) {
+std::vector<Region<D>> read_cutouts(const Section& body, const Vector<D>& origin, double spacing) {
   std::vector<Region<D>> cutouts;
   if (!body.has("cutouts")) return cutouts;
   for (const std::string& name : body.names("cutouts")) {
@@ -62,7 +62,7 @@ std::vector<Region<D>> read_cutouts(const Section& body, double spacing) {
     if (body.has(path + ".to")) std::ranges::copy(body.numbers(path + ".to"), box.to.begin());
     for (int a = 0; a < D; ++a) {
       for (const auto& [corner, x] : {std::pair{".from", box.from[a]}, {".to", box.to[a]}}) {
-        const double cells = x / spacing;
+        const double cells = (x - origin[a]) / spacing;
         if (!std::isfinite(cells) || std::abs(cells - std::round(cells)) < 1e-6) continue;
         body.fail(path + corner, fmt::format("{:g} m is not a whole number of spacings", x),
                   fmt::format("multiples of body.spacing, {:g} m", spacing));
@@ -140,8 +140,8 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
   family.weight.resize(kept);
 }
 
-template std::vector<Region<2>> read_cutouts<2>(const Section&, double);
-template std::vector<Region<3>> read_cutouts<3>(const Section&, double);
+template std::vector<Region<2>> read_cutouts<2>(const Section&, const Vector<2>&, double);
+template std::vector<Region<3>> read_cutouts<3>(const Section&, const Vector<3>&, double);
 template void cut_out<2>(const Section&, const std::vector<Region<2>>&, Points<2>&);
 template void cut_out<3>(const Section&, const std::vector<Region<3>>&, Points<3>&);
 template bool passes_through<2>(const Region<2>&, const Vector<2>&, const Vector<2>&);

@@ -15,10 +15,10 @@ namespace perifrac {
 KeyTable cutout_keys();
 
 /// Boxes that are not part of the body: notches, boreholes. Each corner lies between points of its
-/// lattice, so that walls are half a spacing off the points beside them, as faces are. Throws
-/// InputError.
+/// lattice, whose lowest corner is `origin`, so that walls are half a spacing off the points beside
+/// them, as faces are. Throws InputError.
 template <int D>
-std::vector<Region<D>> read_cutouts(const Section& body, double spacing);
+std::vector<Region<D>> read_cutouts(const Section& body, const Vector<D>& origin, double spacing);
 
 /// Takes out the points that lie in a cut-out; throws InputError where one holds none, or all.
 template <int D>

@@ -72,16 +72,20 @@ std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double
   const int rows = layer_rows(horizon, spacing);
   std::array<int, D> first, counts;
   std::vector<Face> faces;
-  Vector<D> low, high;
+  Vector<D> from{}, low, high;
+  if (section.has("from")) std::ranges::copy(section.numbers("from"), from.begin());
   for (int a = 0; a < D; ++a) {
     first[a] = contains(layered, 2 * a) ? -rows : 0;
     counts[a] = cells[a] - first[a] + (contains(layered, 2 * a + 1) ? rows : 0);
-    low[a] = first[a] * spacing;
-    high[a] = (first[a] + counts[a]) * spacing;
-    add_faces<D>(faces, a, 0.0, cells[a] * spacing);
+    low[a] = from[a] + first[a] * spacing;
+    high[a] = from[a] + (first[a] + counts[a]) * spacing;
+    add_faces<D>(faces, a, from[a], from[a] + cells[a] * spacing);
   }
   Points<D> points = box_lattice<D>(counts, spacing, first);
-  std::vector<Region<D>> cutouts = read_cutouts<D>(section, spacing);
+  for (int a = 0; a < D; ++a) {
+    for (double& x : points.position[a]) x += from[a];
+  }
+  std::vector<Region<D>> cutouts = read_cutouts<D>(section, from, spacing);
   if (!cutouts.empty()) refuse_beside_cutouts(section, layered);
   cut_out<D>(section, cutouts, points);
   const double jitter = section.number("jitter");
@@ -167,7 +171,7 @@ KeyTable body_keys() {
        .type = KeyType::word,
        .required = true,
        .words = {"box", "ball", "points"},
-       .meaning = "A box from the origin with edges `size`, a ball about the origin, or a box "
+       .meaning = "A box with edges `size`, a ball about the origin, or a box "
                   "filled with the points of a `file`."},
       {.path = "size",
        .type = KeyType::vector,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@
 
 namespace perifrac {
 namespace {
+
+/// A hundred thousand steps in one window mean that something else is wrong.
+constexpr long most_steps = 100'000;
 
 std::span<double> span_of(N_Vector v) {
   return {N_VGetArrayPointer(v), static_cast<std::size_t>(N_VGetLength(v))};
@@ -66,6 +70,8 @@ class CvodeIntegrator::Cvode {
 
  private:
   void create(double t);
+  double first_step(double t_end);
+  bool stop_before(double t_end);
   void attach_direct_solver();
   void attach_krylov_solver();
   IntegratorStatistics since_reset() const;
@@ -103,6 +109,7 @@ class CvodeIntegrator::Cvode {
   SUNMatrix no_matrix_ = nullptr;  // the NewtonMatrix holds it; CVODE only wants to see one
   SUNLinearSolver solver_ = nullptr;
   double t_ = 0.0;
+  bool is_fresh_ = true;  ///< no step since the last start
   struct NotFinite {
     std::size_t entry;
     double t;
@@ -127,14 +134,11 @@ CvodeIntegrator::Cvode::~Cvode() {
 }
 
 void CvodeIntegrator::Cvode::create(double t) {
-  // Without end: a hundred thousand steps in one window mean that something else is wrong.
-  constexpr long most_steps = 100'000;
   memory_ = allocated(CVodeCreate(CV_BDF, context_));
   CVodeSetErrHandlerFn(
       memory_, [](int, const char*, const char*, char*, void*) {}, nullptr);
   CVodeSetUserData(memory_, this);
   if (const int flag = CVodeInit(memory_, &Cvode::rhs, t, y_); flag != CV_SUCCESS) fail(flag);
-  CVodeSetMaxNumSteps(memory_, most_steps);
   CVodeWFtolerances(memory_, &Cvode::error_weights);
   if (newton_matrix_.exact())
     attach_direct_solver();
@@ -164,6 +168,7 @@ void CvodeIntegrator::Cvode::attach_krylov_solver() {
 
 void CvodeIntegrator::Cvode::reset(double t, std::span<const double> y) {
   t_ = t;
+  is_fresh_ = true;
   if (!context_) {
     SUNContext_Create(nullptr, &context_);
     y_ = allocated(N_VNew_Serial(static_cast<sunindextype>(system_.size()), allocated(context_)));
@@ -181,11 +186,64 @@ void CvodeIntegrator::Cvode::advance(double t_end, std::span<double> y) {
   if (t_end == t_) return;
   not_finite_.reset();
   thrown_ = nullptr;
-  CVodeSetStopTime(memory_, t_end);
-  const int flag = CVode(memory_, t_end, y_, &t_, CV_NORMAL);
-  if (flag < 0) fail(flag);
+  for (long steps = 0; t_ != t_end; ++steps) {
+    if (steps == most_steps) fail(CV_TOO_MUCH_WORK);
+    const bool is_last = stop_before(t_end);
+    const int flag = CVode(memory_, t_end, y_, &t_, CV_ONE_STEP);
+    if (flag < 0) fail(flag);
+    if (is_last && flag == CV_TSTOP_RETURN) t_ = t_end;
+  }
   const auto reached = span_of(y_);
   std::copy(reached.begin(), reached.end(), y.begin());
+}
+
+/// Sets where CVODE must stop; false: on its way to t_end. A rest of less than two steps is halved:
+/// CVODE alone would leave a sliver, whose length is noise and from which its next steps grow, so
+/// that rounding would decide on them, and where windows end. It also forgets that it means to
+/// change its order where the step to the stop is to the bit as long as the last one.
+bool CvodeIntegrator::Cvode::stop_before(double t_end) {
+  constexpr double rounding = 1e-6;  // of a step: a rest of one step is one step
+  constexpr double held_back = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();  // as CVODE does
+  double step = 0.0, last = 0.0, now = t_;
+  if (is_fresh_) {
+    step = first_step(t_end);
+    CVodeSetInitStep(memory_, step);
+  } else {
+    CVodeGetCurrentStep(memory_, &step);
+    CVodeGetLastStep(memory_, &last);
+    CVodeGetCurrentTime(memory_, &now);
+  }
+  is_fresh_ = false;
+  const double rest = t_end - t_;
+  const bool leaves_sliver = rest > step * (1.0 + rounding) && rest < 2.0 * step;
+  double stop = leaves_sliver ? t_ + 0.5 * rest : t_end;
+  while ((stop - now) * held_back == last) stop = std::nextafter(stop, now);
+  CVodeSetStopTime(memory_, stop);
+  return !leaves_sliver;
+}
+
+/// One whose error, half the second derivative times its square, is an eighth of what is allowed.
+/// CVODE's own guess takes that derivative from steps so short that rounding decides on it, and
+/// with it on all steps to come; here the state moves by what is allowed, which is no noise.
+double CvodeIntegrator::Cvode::first_step(double t_end) {
+  const double whole = t_end - t_;
+  const auto like_y = [&] {
+    return std::unique_ptr<_generic_N_Vector, void (*)(N_Vector)>(allocated(N_VClone(y_)),
+                                                                  &N_VDestroy);
+  };
+  const auto rate = like_y(), later = like_y(), weight = like_y();
+  if (rhs(t_, y_, rate.get(), this) != 0 || error_weights(y_, weight.get(), this) != 0) {
+    fail(CV_RHSFUNC_FAIL);
+  }
+  const double speed = N_VWrmsNorm(rate.get(), weight.get());
+  const double ahead = speed * whole > 1.0 ? 1.0 / speed : whole;
+  N_VLinearSum(1.0, y_, ahead, rate.get(), later.get());
+  const auto rate_later = like_y();
+  if (rhs(t_ + ahead, later.get(), rate_later.get(), this) != 0) fail(CV_RHSFUNC_FAIL);
+  N_VLinearSum(1.0 / ahead, rate_later.get(), -1.0 / ahead, rate.get(), later.get());
+  const double curvature = N_VWrmsNorm(later.get(), weight.get());
+  const double step = 0.5 * std::sqrt(2.0 / curvature);
+  return step < whole ? step : whole;
 }
 
 void CvodeIntegrator::Cvode::fail(int flag) {

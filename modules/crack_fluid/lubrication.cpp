@@ -10,8 +10,8 @@ namespace perifrac {
 
 namespace {
 
-/// Below this a pressure that an inlet holds is as good as none [Pa].
-constexpr double smallest_pressure = 1e3;
+/// Of the fluid's bulk modulus: below this a pressure that an inlet holds is as good as none.
+constexpr double smallest_pressure = 5e-7;
 
 }  // namespace
 
@@ -190,7 +190,7 @@ void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) 
     const double without = residual_[f];
     inflow_[f] = std::clamp(without, least, most);
     const double weight = liquid_.density * graph_.area(f) * graph_.area(f) /
-                          std::max(std::abs(target), smallest_pressure);
+                          std::max(std::abs(target), smallest_pressure * liquid_.bulk_modulus);
     const double held = weight * (v[f] - target + stiffness * without);
     residual_[f] = std::clamp(held, without - most, without - least);
     rounding_[f] += std::abs(inflow_[f]);

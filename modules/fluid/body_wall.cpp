@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/geometry/cell_grid.hpp"
+#include "modules/fluid/wall_surface.hpp"
 
 namespace perifrac {
 
@@ -12,8 +13,7 @@ namespace {
 template <int D>
 struct NearFace {
   Index point;
-  double depth;  ///< below the face [m]
-  Vector<D> normal;
+  WallSurface<D> surface;
 };
 
 /// The wall of a cut-out that a point lies behind, if not deeper than `reach` [m]: of the axis
@@ -22,15 +22,13 @@ template <int D>
 void append_walls_near(const Region<D>& box, const Body<D>& body, Index point, double reach,
                        std::vector<NearFace<D>>& result) {
   const Vector<D> x = body.points().at(point);
-  double depth = 0.0;
-  int axis = -1, direction = 0;
+  DeepestSurface<D> deepest(depth_rounding * body.spacing());
   for (int a = 0; a < D; ++a) {
     const double below = box.from[a] - x[a], above = x[a] - box.to[a];
-    if (below > depth) axis = a, direction = +1, depth = below;
-    if (above > depth) axis = a, direction = -1, depth = above;
+    if (below > 0.0) deepest.offer({unit_vector<D>(a, +1), below});
+    if (above > 0.0) deepest.offer({unit_vector<D>(a, -1), above});
   }
-  if (depth > reach) return;
-  result.push_back({.point = point, .depth = depth, .normal = unit_vector<D>(axis, direction)});
+  if (deepest.surface().depth <= reach) result.push_back({point, deepest.surface()});
 }
 
 /// All pairs not farther apart than `reach` [m], but for faces where space goes on by its period.
@@ -44,14 +42,14 @@ std::vector<NearFace<D>> faces_near_points(const Body<D>& body, const Period<D>&
     for (const double component : x) radius += component * component;
     radius = std::sqrt(radius);
     for (const Face& face : body.faces()) {
-      NearFace<D> near{.point = i, .depth = face.coordinate - radius, .normal = x};
+      WallSurface<D> near{.normal = x, .depth = face.coordinate - radius};
       for (double& component : near.normal) component /= radius;
       if (!face.curved()) {
         if (period.ends[face.axis]) continue;
         near.depth = face.direction * (face.coordinate - x[face.axis]);
         near.normal = unit_vector<D>(face.axis, face.direction);
       }
-      if (near.depth <= reach) result.push_back(near);
+      if (near.depth <= reach) result.push_back({i, near});
     }
     for (const Region<D>& box : body.cutouts()) append_walls_near(box, body, i, reach, result);
   }
@@ -78,7 +76,7 @@ void add_body(const Body<D>& body, bool slips, double spacing, double horizon,
   for (const NearFace<D>& face : faces) {
     const Vector<D> x = body.points().at(face.point);
     for (int a = 0; a < D; ++a) {
-      beyond[a].push_back(x[a] + (face.depth + 0.5 * spacing) * face.normal[a]);
+      beyond[a].push_back(x[a] + (face.surface.depth + 0.5 * spacing) * face.surface.normal[a]);
     }
   }
   CellGrid<D> grid;
@@ -87,15 +85,13 @@ void add_body(const Body<D>& body, bool slips, double spacing, double horizon,
   grid.find(positions_of(beyond), 0.75 * spacing, rigid);
   const auto covered = [&](std::size_t k) { return rigid.offset[k] < rigid.offset[k + 1]; };
   for (std::size_t k = 0; k < faces.size();) {
-    std::size_t best = k;
+    NearestSurface<D> bare(depth_rounding * spacing), nearest(depth_rounding * spacing);
     const Index point = faces[k].point;
     for (; k < faces.size() && faces[k].point == point; ++k) {
-      if (std::pair(covered(k), faces[k].depth) < std::pair(covered(best), faces[best].depth)) {
-        best = k;
-      }
+      (covered(k) ? nearest : bare).offer(faces[k].surface);
     }
-    cloud.add(body.points().at(point), faces[best].normal, faces[best].depth,
-              body.points().volume[point], slips, point);
+    const auto [normal, depth] = (bare.found() ? bare : nearest).surface();
+    cloud.add(body.points().at(point), normal, depth, body.points().volume[point], slips, point);
   }
 }
 

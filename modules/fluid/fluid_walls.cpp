@@ -9,6 +9,7 @@
 #include "core/geometry/lattice.hpp"
 #include "modules/fluid/body_wall.hpp"
 #include "modules/fluid/fluid_blocks.hpp"
+#include "modules/fluid/wall_surface.hpp"
 
 namespace perifrac {
 
@@ -59,17 +60,16 @@ void read_container(const Section& section, double spacing, double horizon, Flui
   const bool slips = section.word("container.slip") == "free";
   for (Index i = 0; i < lattice.size(); ++i) {
     Vector<D> x = lattice.at(i);
-    int axis = -1, direction = 0;
-    double depth = 0.0;
+    DeepestSurface<D> deepest(depth_rounding * spacing);
     for (int a = 0; a < D; ++a) {
       x[a] += from[a];
       const double below = from[a] - x[a], above = x[a] - to[a];
-      if (words[2 * a] == "wall" && below > depth) axis = a, direction = +1, depth = below;
-      if (words[2 * a + 1] == "wall" && above > depth) axis = a, direction = -1, depth = above;
+      if (words[2 * a] == "wall" && below > 0.0) deepest.offer({unit_vector<D>(a, +1), below});
+      if (words[2 * a + 1] == "wall" && above > 0.0) deepest.offer({unit_vector<D>(a, -1), above});
     }
-    if (axis >= 0) {
-      walls.cloud.add(x, unit_vector<D>(axis, direction), depth, lattice.volume[i], slips, owner);
-    }
+    if (!deepest.found()) continue;
+    const auto [normal, depth] = deepest.surface();
+    walls.cloud.add(x, normal, depth, lattice.volume[i], slips, owner);
   }
   walls.rigid.push_back({.name = "container"});
 }
@@ -99,15 +99,14 @@ void read_wall(const Section& section, const std::string& path, double spacing, 
   const Points<D> lattice = box_points<D>(section, path, spacing);
   for (Index i = 0; i < lattice.size(); ++i) {
     const Vector<D> x = lattice.at(i);
-    int axis = 0, direction = 0;
-    double depth = std::numeric_limits<double>::infinity();
+    NearestSurface<D> nearest(depth_rounding * spacing);
     for (int a = 0; a < D; ++a) {
-      const double low = x[a] - from[a], high = to[a] - x[a];
-      if (low < depth) axis = a, direction = -1, depth = low;
-      if (high < depth) axis = a, direction = +1, depth = high;
+      nearest.offer({unit_vector<D>(a, -1), x[a] - from[a]});
+      nearest.offer({unit_vector<D>(a, +1), to[a] - x[a]});
     }
+    const auto [normal, depth] = nearest.surface();
     if (depth > horizon) continue;
-    walls.cloud.add(x, unit_vector<D>(axis, direction), depth, lattice.volume[i], slips,
+    walls.cloud.add(x, normal, depth, lattice.volume[i], slips,
                     static_cast<Index>(walls.rigid.size()));
   }
   walls.rigid.push_back(std::move(wall));

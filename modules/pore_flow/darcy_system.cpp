@@ -274,9 +274,10 @@ double DarcySystem<D>::jacobian_growth(double t, std::span<const double> y) {
 
 template <int D>
 void DarcySystem<D>::magnitudes(double t, std::span<const double> y, std::span<double> magnitude) {
-  constexpr double negligible = 1e-3;  // [Pa], where a run starts from no pressure at all
+  // Where a run starts from no pressure at all: what strains the fluid by so little.
+  constexpr double negligible = 1e-12;
   pressure(t, y, potential_);
-  double largest = std::max(negligible, largest_face_pressure_);
+  double largest = std::max(negligible * fluid_.bulk_modulus, largest_face_pressure_);
   for (Index i = 0; i < points_; ++i) largest = std::max(largest, std::abs(potential_[i]));
   const std::span<const double> storage = effective_storage(t, y);
   for (Index i = 0; i < points_; ++i) magnitude[i] = storage[i] * largest;

@@ -16,6 +16,10 @@ constexpr double reach_of_tips = 4.5;
 /// `gap` along it, the body ends [spacings].
 constexpr double beside = 0.75, gap = 1.6;
 
+/// Readiness that differs by less than this part of the largest is the same: in uniform stress
+/// rounding must not say where a crack begins. Lengths likewise [spacings].
+constexpr double tie = 1e-7;
+
 double distance(const Vector<2>& x, const CrackFacet<2>& facet) {
   const double t = std::clamp(place_within<2>(facet, x)[0], 0.0, 1.0);
   return std::hypot(x[0] - facet[0][0] - t * (facet[1][0] - facet[0][0]),
@@ -33,9 +37,13 @@ struct PlaneStress {
     xy = 0.5 * (stress[points + i] + stress[2 * points + i]);
   }
   double largest() const { return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy); }
+  /// Its larger component is positive.
   Vector<2> largest_direction() const {
-    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-    return {std::cos(angle), std::sin(angle)};
+    const bool is_even = std::hypot(xx - yy, 2.0 * xy) < tie * std::abs(xx + yy);
+    const double angle = is_even ? 0.0 : 0.5 * std::atan2(2.0 * xy, xx - yy);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double sign = std::copysign(1.0, std::abs(c) > (1.0 + tie) * std::abs(s) ? c : s);
+    return {sign * c, sign * s};
   }
   double across(const Vector<2>& n) const {
     return n[0] * n[0] * xx + n[1] * n[1] * yy + 2.0 * n[0] * n[1] * xy;
@@ -72,12 +80,20 @@ double CrackNucleation::find_readiness(std::span<const double> stress) {
   const Index points = body_.points().size();
   for_each_point(points,
                  [&](Index i) { readiness_[i] = PlaneStress(stress, i).largest() / strength_[i]; });
+  unit_ = tie * std::max(std::ranges::max(readiness_), 0.0);
   readiest_ = {};
+  if (unit_ == 0.0) return 0.0;
+  for_each_point(points,
+                 [&](Index i) { readiness_[i] = unit_ * std::round(readiness_[i] / unit_); });
   for (Index i = 0; i < points; ++i) {
     // The mean over a line is no more than the largest along it.
-    if (near_[i] != 0 || readiness_[i] <= readiest_.readiness || !is_largest(i)) continue;
+    if (near_[i] != 0 || readiness_[i] < readiest_.readiness || !is_largest(i)) continue;
     const Nucleus nucleus = nucleus_at(i, stress);
-    if (nucleus.readiness > readiest_.readiness) readiest_ = nucleus;
+    const bool is_as_ready = nucleus.readiness == readiest_.readiness;
+    if (nucleus.readiness > readiest_.readiness ||
+        (is_as_ready && nucleus.facets < readiest_.facets)) {
+      readiest_ = nucleus;
+    }
   }
   return readiest_.readiness;
 }
@@ -125,6 +141,7 @@ CrackNucleation::Nucleus CrackNucleation::nucleus_at(Index i,
   const double edge = dx * facets(edge_nucleus * length, least_edge_facets);
   const double clear = dx * least_edge_facets;
   Nucleus best{};
+  const double same = tie * dx;
   for (const double side : {0.5 * dx, -0.5 * dx}) {
     const Vector<2> x = {at[0] + side * normal[0], at[1] + side * normal[1]};
     const std::vector<LinePoint> line = points_along(x, normal, stress);
@@ -142,13 +159,13 @@ CrackNucleation::Nucleus CrackNucleation::nucleus_at(Index i,
     if (first == last) continue;
     const double low = first->along - 0.5 * dx, high = std::prev(last)->along + 0.5 * dx;
     double begin = -0.5 * inner, end = 0.5 * inner;
-    if (-low <= high && -low < edge) {
+    if (-low <= high + same && -low <= edge + same) {
       begin = low;
       end = low + edge;
-    } else if (high < edge) {
+    } else if (high <= edge + same) {
       begin = high - edge;
       end = high;
-    } else if (high - low >= inner + 2.0 * clear) {
+    } else if (high - low >= inner + 2.0 * clear - same) {
       // What remains between it and a face is not to be too thin for J.
       begin = std::clamp(begin, low + clear, high - clear - inner);
       end = begin + inner;
@@ -159,19 +176,21 @@ CrackNucleation::Nucleus CrackNucleation::nucleus_at(Index i,
     int count = 0, above = 0;
     bool near = false;
     for (auto point = first; point != last; ++point) {
-      if (point->along < begin || point->along > end) continue;
+      if (point->along < begin - same || point->along > end + same) continue;
       sum += point->readiness;
       ++count;
       above += point->is_above ? 1 : 0;
       near = near || point->near_crack;
     }
     const bool is_inside = 4 * above > count && 4 * above < 3 * count;
-    if (near || !is_inside || sum / count <= best.readiness) continue;
+    if (near || !is_inside) continue;
+    const double mean = unit_ * std::round(sum / count / unit_);
+    if (mean <= best.readiness) continue;
     const auto place = [&](double s) {
       return Vector<2>{x[0] - s * normal[1], x[1] + s * normal[0]};
     };
     best = {place(begin), place(end),
-            std::max(1, static_cast<int>(std::lround((end - begin) / dx))), sum / count};
+            std::max(1, static_cast<int>(std::lround((end - begin) / dx))), mean};
   }
   return best;
 }

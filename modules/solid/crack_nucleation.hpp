@@ -22,7 +22,8 @@ inline constexpr int least_inner_facets = 5, least_edge_facets = 3;
 /// stress across it, in its mean over the piece, reaches the tensile strength (finite fracture
 /// mechanics with the mean stress, Cornetti et al. 2006; Taylor's line method). It is as long as
 /// uniform tension pays for, normal to the largest principal stress at a point where that is
-/// largest; at a face it opens to outside.
+/// largest; at a face it opens to outside. Of places that are as ready the shortest nucleus is cut,
+/// and of those the first along the body's order.
 class CrackNucleation {
  public:
   CrackNucleation(const Body<2>& body, CutBody<2>& cracked, FractureEnergy<2> fracture_energy,
@@ -59,7 +60,8 @@ class CrackNucleation {
   CutBody<2>& cracked_;
   FractureEnergy<2> fracture_energy_;
   std::vector<double> strength_;    ///< by point [Pa]
-  std::vector<double> readiness_;   ///< by point, of the largest principal stress
+  std::vector<double> readiness_;   ///< by point, of the largest principal stress, in whole units
+  double unit_ = 0.0;               ///< of readiness: less is rounding
   std::vector<std::uint8_t> near_;  ///< by point: a crack is
   std::uint64_t looked_at_ = 0;     ///< version of the cracks
   Nucleus readiest_{};

@@ -208,15 +208,13 @@ double CrackTips::grow(const CrackState<2>& state) {
   return energy;
 }
 
-double CrackTips::excess_release() const {
+std::optional<double> CrackTips::excess_release() const {
   double sum = 0.0;
   for (const Tip& tip : tips_) {
     if (tip.spent == 0.0) continue;
-    double at_end = tip.released;
-    if (tip.grows) {
-      at_end = tip.readiness * tip.readiness * energy_to_cut(next_facet(tip.at, 0.0)) *
-               cracked_.jumps()[tip.at.facet].area;
-    }
+    if (!tip.grows) return std::nullopt;
+    const double at_end = tip.readiness * tip.readiness * energy_to_cut(next_facet(tip.at, 0.0)) *
+                          cracked_.jumps()[tip.at.facet].area;
     sum += 0.5 * (tip.released + at_end) - tip.spent;
   }
   return sum;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,8 @@ class CrackTips {
   double grow(const CrackState<2>& state);
   /// What the rock set free in that growth beyond the energy of the new facets, by the mean of J at
   /// their beginning and end; asked once readiness has been found again, in rock without fluid in
-  /// its cracks [J/m].
-  double excess_release() const;
+  /// its cracks [J/m]. Nothing where a tip ended: of the rock that it parted last J says nothing.
+  std::optional<double> excess_release() const;
 
   void visit_state(StateVisitor& visitor);
 

@@ -34,7 +34,8 @@ namespace perifrac {
 /// `open_crack_area` [m^2], and `fracture_energy` [J], what new faces took, in 2D per metre.
 /// `radiated_energy` [J/m] is what unstable growth sets free beyond that, by J: a body with inertia
 /// would move by it. In 2D, where no fluid is in the cracks.
-/// A crack that begins by itself sets free what the balance of energy says. With friction between
+/// Where a crack begins by itself or ends, at a face or another crack, that is what the balance of
+/// energy says. With friction between
 /// faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip of all facets, counted
 /// positive, times their length.
 template <int D>
@@ -103,6 +104,7 @@ class FracturingSolid final : public PhysicsModule {
   void derive();
   void book_work();
   double elastic_energy_now();
+  double released_energy();
   void find_effective_stress();
   bool grow(double most);
   double find_nucleus_readiness();

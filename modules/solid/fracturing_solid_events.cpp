@@ -83,6 +83,7 @@ template <int D>
 bool FracturingSolid<D>::grow(double most) {
   bool has_grown = false;
   while (most >= ready) {
+    const double before = wet() ? 0.0 : released_energy();
     const double spent = tips_.grow(crack_state());
     has_grown = has_grown || spent > 0.0;
     spent_energy_ += spent;
@@ -92,7 +93,10 @@ bool FracturingSolid<D>::grow(double most) {
     book_work();
     if (wet() || spent == 0.0) break;
     most = tips_.find_readiness(crack_state());
-    if constexpr (D == 2) radiated_energy_ += tips_.excess_release();
+    if constexpr (D == 2) {
+      const std::optional<double> excess = tips_.excess_release();
+      radiated_energy_ += excess ? *excess : released_energy() - before - spent;
+    }
   }
   return has_grown;
 }
@@ -101,6 +105,19 @@ template <int D>
 double FracturingSolid<D>::elastic_energy_now() {
   if (!is_steady()) derive();
   return elastic_energy_;
+}
+
+/// What loads have done beyond what the rock holds: it grows by what growth sets free [J/m].
+template <int D>
+double FracturingSolid<D>::released_energy() {
+  double sum = external_work_ - elastic_energy_now();
+  if constexpr (D == 2) {
+    if (friction_) sum -= friction_->dissipation();
+  }
+  for (std::size_t i = 0; i < pore_stress_.size(); ++i) {
+    sum += pore_stress_[i] * dilatation_[i] * body_->points().volume[i];
+  }
+  return sum;
 }
 
 template <int D>
@@ -124,15 +141,7 @@ void FracturingSolid<D>::begin_cracks(bool has_grown) {
 template <int D>
 bool FracturingSolid<D>::begin_crack() {
   if constexpr (D == 2) {
-    const auto released = [this] {
-      double sum = external_work_ - elastic_energy_now();
-      if (friction_) sum -= friction_->dissipation();
-      for (std::size_t i = 0; i < pore_stress_.size(); ++i) {
-        sum += pore_stress_[i] * dilatation_[i] * body_->points().volume[i];
-      }
-      return sum;
-    };
-    const double before = released();
+    const double before = released_energy();
     const std::size_t facets = cracked_.facets().size();
     const double spent = nucleation_->cut();
     if (spent == 0.0) return false;
@@ -142,7 +151,7 @@ bool FracturingSolid<D>::begin_crack() {
     readiness_before_ = 0.0;
     solve_faces();
     book_work();
-    if (!wet()) radiated_energy_ += released() - before - spent;
+    if (!wet()) radiated_energy_ += released_energy() - before - spent;
     return true;
   }
   return false;

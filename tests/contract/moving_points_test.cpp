@@ -50,25 +50,29 @@ TEST(MovingPoints, AreCountedWhereThereIsNoBody) {
   EXPECT_THROW(simulation.points(), std::logic_error);
 }
 
-TEST(MovingPoints, AProbeReadsTheNearestPointOfEveryMoment) {
+TEST(MovingPoints, AProbeReadsWhatIsAroundItAtEveryMoment) {
   const Line few(3, "fluid"), more(6, "fluid"), none(0, "fluid");
   auto module = pressure_on(few);
   Socket& fluid = *module;
   const Simulation simulation = without_body(std::move(module));
   const Section scene =
       read_scene_text(no_body, {"output.probes=[{name: tank, at: [4.4 m, 0.3 m]}]"});
-  const Probes probes(scene.at("output"), simulation);
-  ASSERT_EQ(probes.columns().size(), 1u);
+  Probes probes(scene.at("output"), simulation, 1.0);
+  ASSERT_EQ(probes.columns().size(), 2u);
   EXPECT_EQ(probes.columns()[0].name, "fluid_pressure at tank");
   std::vector<double> row;
   fluid.at[0].value = {1.0, 2.0, 3.0};
   probes.append_values(row);
   fluid.at[0] = {more.set(), {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, {}, {}};
   probes.append_values(row);
-  EXPECT_THAT(row, ElementsAre(3.0, 5.0));
+  ASSERT_EQ(row.size(), 4u);
+  EXPECT_TRUE(std::isnan(row[0]));  // dry: the nearest fluid is two spacings away
+  EXPECT_EQ(row[1], 0.0);
+  EXPECT_NEAR(row[2], 5.4, 1e-12);
+  EXPECT_EQ(row[3], 3.0);
   fluid.at[0] = {none.set(), {}, {}, {}};
   probes.append_values(row);
-  EXPECT_TRUE(std::isnan(row.back()));
+  EXPECT_TRUE(std::isnan(row[4]));
 }
 
 /// A rock from 0 to 12 m, and fluid that reaches beyond it.
@@ -89,14 +93,16 @@ TEST(MovingPoints, AProbeOutsideTheBodyLeavesOutItsFields) {
       .end = 1.0};
   simulation.manager->initialize(0.0);
   std::vector<std::string> names;
-  const Probes probes(scene.at("output"), simulation);
+  const Probes probes(scene.at("output"), simulation, 1.0);
   for (const HistoryColumn& column : probes.columns()) names.push_back(column.name);
-  EXPECT_THAT(names, ElementsAre("fluid_pressure at in", "displacement_x at in",
-                                 "displacement_y at in", "fluid_pressure at out"));
+  EXPECT_THAT(names,
+              ElementsAre("fluid_pressure at in", "fluid points read at in", "displacement_x at in",
+                          "displacement_y at in", "body points read at in", "fluid_pressure at out",
+                          "fluid points read at out"));
   const Section named =
       read_scene_text(box_2d + quasi_static_2d,
                       {"output.probes=[{name: out, at: [20 m, 1 m], field: displacement}]"});
-  EXPECT_THROW(Probes(named.at("output"), simulation), InputError);
+  EXPECT_THROW(Probes(named.at("output"), simulation, 1.0), InputError);
 }
 
 std::int64_t points_in_frame(const std::string& folder, int number) {
