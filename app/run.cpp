@@ -133,8 +133,8 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, std::span<const d
   return 0;
 }
 
-void start(const Section& scene, Simulation& simulation, Recorder& recorder, const OutputFolder& folder,
-           const std::optional<Checkpoint>& restart) {
+void start(const Section& scene, Simulation& simulation, Recorder& recorder,
+           const OutputFolder& folder, const std::optional<Checkpoint>& restart) {
   CouplingManager& manager = *simulation.manager;
   for (const std::string& warning : manager.warnings()) log_warning(warning);
   if (restart) {
