@@ -246,7 +246,6 @@ int run_scene(const RunRequest& request) {
         read_output_times(scene.at("output"), scene.number("time.end"), read_until(request.until));
   });
   mistakes.throw_if_any();
-  if (!request.json) fmt::print("{}\n", fmt::join(what_was_read(scene, simulation), "\n"));
   const auto warnings = scene_warnings(scene, regime_of(scene, simulation));
   simulation.end = outputs.back();
   Recorder recorder(scene, text, simulation);
@@ -254,6 +253,7 @@ int run_scene(const RunRequest& request) {
   if (restart) refuse_other_results(request, folder_of(request));
   const OutputFolder folder(folder_of(request), request.overwrite);
   if (!restart) replace_earlier_results(folder);
+  if (!request.json) fmt::print("{}\n", fmt::join(what_was_read(scene, simulation), "\n"));
   log_all(warnings);
 
   ValidityWatch watch(scene, simulation);

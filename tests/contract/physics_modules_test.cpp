@@ -54,7 +54,7 @@ const std::string nested_left = "pore_flow.boundary.left={type: sealed}";
 
 const std::string cracked = "cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]";
 const std::string cracked_3d =
-    "cracks=[{name: cut, centre: [4 m, 2 m, 2 m], normal: [0, 0, 1], sides: [4 m, 2 m]}]";
+    "cracks=[{name: cut, centre: [4 m, 2 m, 2 m], normal: [0, 0, 1], sides: [4 m, 4 m]}]";
 
 const std::string inlet_3d =
     "crack_fluid.inlets=[{name: pump, at: [2 m, 2 m, 2 m], volume_rate: 5e-5 m^3/s}]";

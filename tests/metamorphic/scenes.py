@@ -141,7 +141,7 @@ def stretched():
     return {
         "dimension": 2,
         "body": {"shape": "box", "size": [0.06, 0.06], "spacing": 0.002, "horizon_ratio": 3},
-        "cracks": [{"name": "notch", "path": [-0.01, 0.032, 0.03, 0.032]}],
+        "cracks": [{"name": "notch", "path": [0.0, 0.032, 0.03, 0.032]}],
         "solid": {
             "type": "dynamic", "density": 8000.0, "material": {"youngs_modulus": 1.9e11, "poisson_ratio": 0.25},
             "boundary": {"top": {"type": "traction", "traction": [1e8, 6e8]},

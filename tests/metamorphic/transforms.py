@@ -137,6 +137,8 @@ class Scaled(Transform):
             factor = self.factor(keys.unit(path, scene)) if path[-1] not in WALL_TIME else 1.0
             if isinstance(value, (bool, str)) or factor == 1.0:
                 return value
+            if path[-1] == "permeability":  # a bare one so large is refused
+                return f"{value * factor!r} m^2"
             return [one * factor for one in value] if isinstance(value, list) else value * factor
 
         return walk(keys.with_defaults(scene), change)

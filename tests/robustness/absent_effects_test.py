@@ -28,7 +28,7 @@ CRACKS = {"solid/relief_work": 1, "solid/fracture_energy": 1, "solid/crack_facet
           "solid/broken_bonds": 3 * 222, "solid/tips": 2 * 8, "solid/tip_facets": 2 * 3}
 CRACKS_IN_MOTION = {**CRACKS, "solid/contact_loss": 1, "solid/given_impulse": FACETS,
                     "solid/given_contact_impulse": FACETS}
-CRACKS_AT_REST = {**CRACKS, "solid/radiated_energy": 1, "solid/readiness": 1, "solid/last_growth": 1,
+CRACKS_AT_REST = {**CRACKS, "solid/has_begun": 1, "solid/radiated_energy": 1, "solid/readiness": 1, "solid/last_growth": 1,
                   "solid/crack_opening": FACETS, "solid/face_pressure": FACETS, "solid/closed_faces": FACETS}
 
 

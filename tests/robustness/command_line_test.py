@@ -70,7 +70,7 @@ class CommandLine(RunTest):
 
     def test_check_and_run_say_what_was_read(self):
         scene = CONFIGS / "hf_leakoff_pores.yaml"
-        sets = settings({"body.spacing": "10 mm", "pore_flow.initial_pressure": "1 MPa", "damage": "{type: "
+        sets = settings({"body.spacing": "5 mm", "pore_flow.initial_pressure": "1 MPa", "damage": "{type: "
                          "energy_release, fracture_toughness: 0.1 MPa*sqrt(m)}"})
         said = json.loads(perifrac("check", scene, *sets, "--trial", "0", "--json").stdout)["read"]
         self.assertIn("crack 'notch' is closed by 1.9 MPa", said, "0.9 MPa of the rock, 1 of the pores")
@@ -104,7 +104,7 @@ class CommandLine(RunTest):
         # regime says: 0.1457 m it would be of the first.
         coarse = foretold(CONFIGS / "hf_storage.yaml", "--trial", "1", "--set", "body.spacing=2.5 mm")
         self.assertAlmostEqual(coarse["crack_length"]["value"], 0.113, delta=0.011)
-        infinite = foretold(CONFIGS / "kgd_mixed.yaml", "--trial", "0.001", "--set", "body.spacing=20 mm")
+        infinite = foretold(CONFIGS / "kgd_mixed.yaml", "--trial", "0.001", "--set", "body.spacing=10 mm")
         self.assertAlmostEqual(infinite["crack_length"]["value"], 0.1014, delta=1e-4)
         # What stops a run stops the trial.
         wild = foretold(MANDEL, "--trial", "100", "--set", "coupling.split=drained", "--set", "coupling.iterations.max=3",
@@ -119,7 +119,7 @@ class CommandLine(RunTest):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             return json.loads(done.stdout)
 
-        coarse = "body.spacing=20 mm"
+        coarse = "body.spacing=10 mm"
         said = check("kgd_mixed.yaml", coarse)
         self.assertEqual(said["regime"]["corner"], "viscosity and toughness; storage")
         self.assertAlmostEqual(said["regime"]["dimensionless_toughness"], 1.16, delta=1e-3)

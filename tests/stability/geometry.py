@@ -35,19 +35,19 @@ def box(x, y, half=0.5):
 # Cracks lie half-way between points. The body is pulled along y and drains at its bottom and top.
 SHAPES = {
     "free corners": [],
-    "thin neck of 3 points": [[-1, 8, 5, 8], [8, 8, 13, 8]],
-    "thin neck of 2 points": [[-1, 8, 5, 8], [7, 8, 13, 8]],
-    "one-point bridge": [[-1, 8, 5, 8], [6, 8, 13, 8]],
+    "thin neck of 3 points": [[0, 8, 5, 8], [8, 8, 12, 8]],
+    "thin neck of 2 points": [[0, 8, 5, 8], [7, 8, 12, 8]],
+    "one-point bridge": [[0, 8, 5, 8], [6, 8, 12, 8]],
     "crossing cracks": [[2, 8, 10, 8], [6, 4, 6, 12]],
     "oblique crossing cracks": [[2.2, 5.1, 9.7, 10.8], [2.3, 11.2, 9.6, 4.9]],
-    "crack that reaches a boundary": [[-1, 8, 6, 8]],
-    "re-entrant notch": [[-1, 8, 4, 8], [4, 8, 4, 13]],
-    "families with two bonds": [[3, -1, 3, 17], [4, -1, 4, 6], [4, 7, 4, 17]],
+    "crack that reaches a boundary": [[0, 8, 6, 8]],
+    "re-entrant notch": [[0, 8, 4, 8], [4, 8, 4, 13]],
+    "families with two bonds": [[3, 0, 3, 16], [4, 0, 4, 6], [4, 7, 4, 16]],
 }
 PIECES = {
     "isolated point": box(5.5, 8.5),
     "island of four points": box(6.0, 9.0, 1.0),
-    "crack that splits the body": [[-1, 8, 13, 8]],
+    "crack that splits the body": [[0, 8, 12, 8]],
 }
 
 

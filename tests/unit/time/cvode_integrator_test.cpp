@@ -1,5 +1,6 @@
 #include "core/time/cvode_integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -75,8 +76,9 @@ TEST_P(CvodeIntegratorTest, GoesOnWithItsHistoryFromWindowToWindow) {
   const std::vector<double> exact = line_.exact(line_.start(), 0.5);
   EXPECT_LT(largest_difference(b, exact), 1e-4);
   EXPECT_LT(largest_difference(c, exact), 1e-4);
-  EXPECT_LT(in_windows.statistics().steps, at_once.statistics().steps + 40);
-  EXPECT_GT(afresh.statistics().steps, in_windows.statistics().steps);
+  // Numbers of steps follow the last digits: by 10 % or so, as by what the tolerance is rounded to.
+  EXPECT_LT(in_windows.statistics().steps, 1.4 * at_once.statistics().steps);
+  EXPECT_GT(afresh.statistics().steps, 1.1 * in_windows.statistics().steps);
 }
 
 TEST_P(CvodeIntegratorTest, EndsAtTheEndOfTheWindowNotBeyond) {
@@ -214,6 +216,66 @@ TEST(CvodeIntegrator, MeasuresErrorsAgainstTheSystemsMagnitudes) {
   EXPECT_LT(fine, 1e-4);
   EXPECT_GT(coarse, 3.0 * fine);
   EXPECT_LT(few, many);
+}
+
+/// Two unknowns that fade towards `target`, one of them at once; small beside what they fade to.
+struct Fading final : OdeSystem {
+  std::string_view name() const override { return "fading"; }
+  std::size_t size() const override { return 2; }
+  std::uint64_t jacobian_version() const override { return 0; }
+  void rhs(double, std::span<const double> y, std::span<double> dydt) override {
+    for (std::size_t i = 0; i < 2; ++i) dydt[i] = -rate[i] * (y[i] - target[i]);
+  }
+  void jacobian_times(double, std::span<const double>, std::span<const double> v,
+                      std::span<double> product) override {
+    for (std::size_t i = 0; i < 2; ++i) product[i] = -rate[i] * v[i];
+  }
+  void magnitudes(double, std::span<const double> y, std::span<double> magnitude) override {
+    const double left = std::max(std::abs(y[0] - target[0]), std::abs(y[1] - target[1]));
+    std::ranges::fill(magnitude, std::max(left, 1e-14));
+  }
+
+  std::vector<double> rate = {1.0, 1e10};
+  std::vector<double> target = {1.0, 1.0};
+};
+
+struct FadingMatrix final : NewtonMatrix {
+  explicit FadingMatrix(const Fading& of) : system(of) {}
+  bool exact() const override { return true; }
+  void set_up(double, std::span<const double>, double new_gamma) override { gamma = new_gamma; }
+  void solve(std::span<const double> r, std::span<double> solution) override {
+    for (std::size_t i = 0; i < 2; ++i) solution[i] = r[i] / (1.0 + gamma * system.rate[i]);
+  }
+  const Fading& system;
+  double gamma = 0.0;
+};
+
+/// From a step as long as the slow unknown lasts to one as short as the fast: ten decades.
+TEST(CvodeIntegrator, FollowsAnInputThatJumpsInTheFastestMode) {
+  Fading system;
+  FadingMatrix matrix(system);
+  CvodeIntegrator cvode(system, matrix, 1e-6);
+  std::vector<double> y = {2.0, 1.0};
+  cvode.reset(0.0, y);
+  cvode.advance(1.0, y);
+  system.target[1] = 1.5;
+  cvode.advance(2.0, y);
+  EXPECT_NEAR(y[0], 1.0 + std::exp(-2.0), 1e-4);
+  EXPECT_NEAR(y[1], 1.5, 1e-5);
+}
+
+/// What is left is below what y can hold: nothing more is asked of it than that.
+TEST(CvodeIntegrator, GoesOnAfterAllButRoundingHasFaded) {
+  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
+    Fading system;
+    FadingMatrix matrix(system);
+    CvodeIntegrator cvode(system, matrix, tolerance);
+    std::vector<double> y = {2.0, 1.0};
+    cvode.reset(0.0, y);
+    for (double t = 1.0; t <= 100.0; t += 1.0) ASSERT_NO_THROW(cvode.advance(t, y)) << tolerance;
+    EXPECT_NEAR(y[0], 1.0, 1e-11);
+    EXPECT_LT(cvode.statistics().steps, 2000);
+  }
 }
 
 }  // namespace
