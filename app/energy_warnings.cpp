@@ -54,6 +54,11 @@ std::optional<std::string> start_warning(const Section& scene, const Simulation&
 std::optional<std::string> balance_warning(const Section& scene, const Simulation& simulation) {
   const auto energy = simulation.manager->ledger().energy();
   if (!energy || !is_noticeable(scene, simulation, energy->relative_error)) return {};
+  if (simulation.manager->is_unstable()) {  // shorter windows would make it worse
+    return fmt::format(
+        "the energy balance is {:.0f} % open; leave coupling.split and coupling.iterations out",
+        100.0 * energy->relative_error);
+  }
   return fmt::format("the energy balance is {:.0f} % open; shorter windows{} may close it",
                      100.0 * energy->relative_error,
                      scene.has("damage")

@@ -82,7 +82,7 @@ void Link::predict(double length) {
     for (std::size_t i = 0; i < value_.size(); ++i) {
       rate_[i] = length > 0.0 ? value_[i] / length : 0.0;
     }
-  } else if (hold_) {
+  } else if (hold_ || !extrapolates_) {
     std::ranges::fill(rate_, 0.0);
   } else {
     for (std::size_t i = 0; i < value_.size(); ++i) value_[i] += rate_[i] * length;

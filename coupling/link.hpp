@@ -70,6 +70,8 @@ class Link {
     hold_ = hold;
   }
   bool uses_slope() const { return counter_.has_value(); }
+  /// Predict from now on that the intercept stays, over a window, what it is at its beginning.
+  void predict_no_change() { extrapolates_ = false; }
   bool holds() const { return hold_; }
 
   /// Reads the source as it stands, at rest: the first exchange, before any window.
@@ -126,6 +128,7 @@ class Link {
   bool lagged_;
   std::optional<PortId> counter_;
   bool hold_ = false;
+  bool extrapolates_ = true;
   bool is_foretold_ = false;
 
   Sample accepted_;

@@ -35,8 +35,8 @@ class CouplingManager {
   /// True where modules depend on each other and none of them can use the split that was asked for.
   bool split_is_unusable() const;
 
-  /// The first pair for which one pass a window will probably not hold; nothing where it will.
-  std::optional<CoupledPair> too_strong_for_one_pass() const;
+  /// For which one pass a window on extrapolated inputs may not hold.
+  std::vector<CoupledPair> pairs_too_strong_for_one_pass() const;
 
   /// What will probably fail, one sentence each, from the state as initialised.
   std::vector<std::string> warnings() const;
@@ -53,6 +53,9 @@ class CouplingManager {
 
   /// Said once, when windows of one pass are seen not to be stable; nothing otherwise.
   std::optional<std::string> new_warning();
+
+  /// Windows of one pass were seen not to be stable: shorter ones would make it worse.
+  bool is_unstable() const { return solver_->unstable_link() != nullptr; }
 
   /// From here a run that was saved now, and restored, goes on bit for bit as this one does: both
   /// call this after saving or restoring. Every module drops what it derived from the past; inputs,
@@ -75,6 +78,8 @@ class CouplingManager {
 
  private:
   void start_links();
+  void let_modules_see_slopes();
+  void predict_no_change();
   /// Half of the window that began at time() and was to reach `end` is left; returns its end.
   double cut(double end, double stop, const NumericalError& error);
   /// What a run says that no longer gets on; `cut` is what the last window was cut for, or null.

@@ -33,6 +33,14 @@ double ForwardEuler::limit_at(double t, double growth) const {
   return std::clamp(0.5 * (t - jump_), 0.125 * longest, longest);
 }
 
+/// Of steps beyond half of the stable limit, which turn the sign of the fastest modes, an even
+/// number where that matters.
+std::int64_t ForwardEuler::steps_over(double length, double limit) const {
+  const std::int64_t steps = equal_steps(length, limit);
+  const bool turns = steps % 2 == 1 && length > 0.5 * static_cast<double>(steps) * stable_step_;
+  return turns && system_.is_answered_late() ? steps + 1 : steps;
+}
+
 void ForwardEuler::advance(double t_end, std::span<double> y) {
   if (t_end == t_) return;
   double begin = t_, step = 0.0, limit = 0.0;  // equal steps from `begin` while it is the same
@@ -43,7 +51,7 @@ void ForwardEuler::advance(double t_end, std::span<double> y) {
       begin = t;
       n = 0;
       limit = now;
-      steps = equal_steps(t_end - begin, limit);
+      steps = steps_over(t_end - begin, limit);
       step = (t_end - begin) / static_cast<double>(steps);
     }
     system_.rhs(t + step, y, rate_);

@@ -34,6 +34,7 @@ class ForwardEuler final : public Integrator {
 
  private:
   double limit_at(double t, double growth) const;
+  std::int64_t steps_over(double length, double limit) const;
 
   OdeSystem& system_;
   double safety_;

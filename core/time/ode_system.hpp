@@ -43,6 +43,10 @@ class OdeSystem {
   /// one is derived anew at the next reset.
   virtual std::uint64_t jacobian_version() const = 0;
 
+  /// Others answer y, and what they answer comes only when y is asked to go on: a mode must not
+  /// come back from an advance with its sign turned, or the two feed each other.
+  virtual bool is_answered_late() const { return false; }
+
   /// At most so many times the spectral radius at the state of reference is that of J(t, y); 1
   /// where J does not depend on y. Stable steps are shorter by it.
   virtual double jacobian_growth(double, std::span<const double>) { return 1.0; }

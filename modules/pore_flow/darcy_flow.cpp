@@ -85,6 +85,7 @@ PortView DarcyFlow<D>::port(PortId id) {
       if (pressure_slope_.empty()) find_pressure_slope();
       return {points, pressure_, {}, pressure_slope_};
     case pore_stress:
+      if (!system_->storage().is_local()) return {points, pore_stress_};
       return {points, pore_stress_, {}, pore_stress_slope_};
     case fluid_content:
       return {points, content()};
@@ -143,6 +144,11 @@ template <int D>
 double DarcyFlow<D>::stable_time_step() const {
   if (restart_integrator_) integrator_->reset(time_, unknowns_);
   return integrator_->longest_step();
+}
+
+template <int D>
+void DarcyFlow<D>::prepare(const TimeWindow&) {
+  if (system_->choose_storage(dilatation_slope_)) restart_integrator_ = true;
 }
 
 template <int D>

@@ -30,7 +30,8 @@ struct InitialPressure {
 ///
 /// Ports: in `dilatation`, `exchanged_mass` [kg] that others hand over to each point; out
 /// `pore_pressure` [Pa] with its slope d(pore_pressure)/d(exchanged_mass), `pore_stress` (alpha p)
-/// with its undrained slope d(pore_stress)/d(dilatation) [Pa], `fluid_content`, `darcy_velocity`
+/// with its undrained slope d(pore_stress)/d(dilatation) [Pa] where storage is local,
+/// `fluid_content`, `darcy_velocity`
 /// [m/s], the property `pore_mobility` [m^2/(Pa s)], and for the ledger `pore_fluid_mass`,
 /// `pore_fluid_gained` [kg], `pore_fluid_energy`, `pore_fluid_work`, `darcy_dissipation` [J] (per
 /// metre in 2D); `artificial_fluid_mass` [kg] where pressures are smoothed.
@@ -44,6 +45,7 @@ class DarcyFlow final : public PhysicsModule {
   PortView port(PortId id) override;
   void initialize(double t) override;
   double stable_time_step() const override;
+  void prepare(const TimeWindow& window) override;
   double advance(const TimeWindow& window) override;
   void visit_state(StateVisitor& visitor) override;
   void on_restored(double t) override;

@@ -24,12 +24,12 @@ void DarcyNewtonMatrix<D>::assemble() {
   face_flow_ = all.bottomLeftCorner(all.rows() - system_.points(), system_.points());
   matrix_ = flow_;
   face_outflow_.resize(face_flow_.rows());
-  bond_version_ = system_.bond_version();
+  pattern_version_ = system_.pattern_version();
 }
 
 template <int D>
 void DarcyNewtonMatrix<D>::set_up(double t, std::span<const double> y, double gamma) {
-  if (bond_version_ != system_.bond_version()) assemble();
+  if (pattern_version_ != system_.pattern_version()) assemble();
   gamma_ = gamma;
   matrix_.coeffs() = gamma * flow_.coeffs();
   for (const HeldPoint& held : system_.held_points()) uncouple(held.point);

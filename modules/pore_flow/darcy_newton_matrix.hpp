@@ -12,10 +12,10 @@ namespace perifrac {
 /// I - gamma J of Darcy flow by way of the symmetric V S + gamma H in the potential. For a
 /// compressible fluid S follows the pressure and H is that of no pressure.
 ///
-/// Directly, H is assembled, anew where bonds broke, and factored. As a preconditioner, the bonds'
-/// own part of the flow stands in for H: it has a third of the entries and the same spectrum up to
-/// a factor. Either way the solution is put together from fluxes between points and faces, so that
-/// no volume is lost whatever the accuracy of the solve.
+/// Directly, H is assembled, anew where bonds broke or storage is another, and factored. As a
+/// preconditioner, the bonds' own part of the flow stands in for H: it has a third of the entries
+/// and the same spectrum up to a factor. Either way the solution is put together from fluxes
+/// between points and faces, so that no volume is lost whatever the accuracy of the solve.
 template <int D>
 class DarcyNewtonMatrix final : public NewtonMatrix {
  public:
@@ -35,7 +35,7 @@ class DarcyNewtonMatrix final : public NewtonMatrix {
 
   DarcySystem<D>& system_;
   Method method_;
-  std::uint64_t bond_version_ = 0;         ///< of the bonds that are assembled
+  std::uint64_t pattern_version_ = 0;      ///< of what is assembled; 0: nothing yet
   Eigen::SparseMatrix<double> flow_;       ///< H or what stands in for it
   Eigen::SparseMatrix<double> face_flow_;  ///< its rows of the faces
   Eigen::SparseMatrix<double> matrix_;     ///< V S + gamma H

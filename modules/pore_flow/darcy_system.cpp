@@ -63,6 +63,19 @@ std::string DarcySystem<D>::place(std::size_t unknown) const {
 template <int D>
 void DarcySystem<D>::set_dilatation(const DilatationInput& input) {
   if (storage_->set_dilatation(input)) ++version_;
+  is_answered_late_ = !input.slope.empty() && input.slope[0] != 0.0;
+}
+
+template <int D>
+bool DarcySystem<D>::choose_storage(std::span<const double> slope) {
+  if (!choice_) return false;
+  std::unique_ptr<PoreStorage> chosen = choice_(slope);
+  if (!chosen) return false;
+  storage_ = std::move(chosen);
+  choice_ = {};
+  ++version_;
+  ++pattern_version_;
+  return true;
 }
 
 template <int D>
@@ -84,6 +97,7 @@ bool DarcySystem<D>::follow(const BondState<D>& bonds) {
   if (smoothing_) smoothing_->take_bonds(cut_family_);
   storage_->take_bonds(bonds.broken());
   ++version_;
+  ++pattern_version_;
   return true;
 }
 

@@ -58,16 +58,23 @@ class DarcySystem final : public OdeSystem {
                       std::span<double> product) override;
   std::uint64_t jacobian_version() const override { return version_; }
   double jacobian_growth(double t, std::span<const double> y) override;
+  bool is_answered_late() const override { return is_answered_late_; }
   void magnitudes(double t, std::span<const double> y, std::span<double> magnitude) override;
 
   /// Takes the input of the next window; spans must stay valid while it is integrated.
   void set_dilatation(const DilatationInput& input);
+  /// Asked by choose_storage() until it makes one.
+  void let_storage_be_chosen(StorageChoice choice) { choice_ = std::move(choice); }
+  /// Takes the storage that suits a dilatation of this slope; true where it is another now.
+  bool choose_storage(std::span<const double> slope);
 
   /// Takes the bonds that broke in the body, or mended as a state was restored, out of the flow;
   /// true where any did.
   bool follow(const BondState<D>& bonds);
   /// Of the bonds that flow follows: H is another matrix where it is another.
   std::uint64_t bond_version() const { return bond_version_; }
+  /// Rises where H, or which points storage ties to each other, changes.
+  std::uint64_t pattern_version() const { return pattern_version_; }
 
   /// What other modules hand over within windows.
   MassExchange& exchange() { return exchange_; }
@@ -151,6 +158,7 @@ class DarcySystem final : public OdeSystem {
 
   std::unique_ptr<FlowOperator<D>> flow_;
   std::unique_ptr<PoreStorage> storage_;
+  StorageChoice choice_;
   PoreFluid fluid_;
   ScheduledVector face_pressures_;
   ScheduledVector sources_;
@@ -164,6 +172,7 @@ class DarcySystem final : public OdeSystem {
   std::vector<double> break_points_;
   double largest_face_pressure_ = 0.0;  ///< of all times [Pa]
   std::uint64_t version_ = 0;
+  bool is_answered_late_ = false;
   Eigen::VectorXd face_potential_;
   Eigen::VectorXd source_rate_;
   std::vector<double> potential_;  ///< workspace: pressures, then psi, of points and face values
@@ -171,6 +180,7 @@ class DarcySystem final : public OdeSystem {
   std::vector<double> mobility_;   ///< (rho/rho_0)^2; empty for a linear fluid
   std::optional<PressureSmoothing<D>> smoothing_;
   std::uint64_t bond_version_ = 0;
+  std::uint64_t pattern_version_ = 1;
   std::shared_ptr<Family<D>> cut_family_;  ///< made when the first bond breaks
   std::vector<double> intact_weight_;      ///< likewise: of its bonds
   std::vector<Index> cut_points_;          ///< ascending: whose bonds ever broke

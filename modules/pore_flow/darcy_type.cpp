@@ -12,14 +12,12 @@
 #include "modules/pore_flow/anisotropic_darcy_law.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
-#include "modules/pore_flow/linear_storage.hpp"
 #include "modules/pore_flow/make_flow.hpp"
 #include "modules/pore_flow/mobility.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "modules/pore_flow/pore_gravity.hpp"
 #include "modules/pore_flow/smoothed_euler.hpp"
-#include "modules/pore_flow/stabilised_storage.hpp"
-#include "modules/pore_flow/tait_storage.hpp"
+#include "modules/pore_flow/storage_choice.hpp"
 
 namespace perifrac {
 
@@ -137,51 +135,6 @@ Discretisation<D> discretise(const Section& section, const Body<D>& body,
   return discretise(scheme, body, boundary, ScaledDarcyLaw<D>{std::move(law), std::move(ones)});
 }
 
-/// What stabilised storage does not cover. It takes its size from the slope of the dilatation,
-/// which a quasi-static solid sends.
-template <int D>
-void check_stabilised(const Section& section, const Body<D>& body) {
-  const char* const key = "undrained_stabilisation";
-  const Section scene = section.scene();
-  if (!scene.has("solid") || scene.word("solid.type") != "quasi_static") {
-    section.fail(key, "no solid of type quasi_static, whose answer it makes up for",
-                 "0, or such a solid");
-  }
-  if (const std::string split = scene.word("coupling.split");
-      split == "drained" || split == "undrained") {
-    section.fail(key, fmt::format("coupling.split '{}' sends no slope of the dilatation", split),
-                 "0, or coupling.split: automatic");
-  }
-  if (section.word("fluid.equation_of_state") == "tait") {
-    section.fail(key, "storage after Tait is different at every pressure",
-                 "0, or fluid.equation_of_state: linear");
-  }
-  if (section.word("operator") == "nested") {
-    section.fail(key, "operator 'nested' is for comparison as published",
-                 "0, or operator conservative or bond");
-  }
-  for (std::size_t face = 0; face < body.faces().size(); ++face) {
-    if (body.layer(face).empty()) continue;
-    section.fail(key, fmt::format("a bonded layer behind face '{}'", body.faces()[face].name),
-                 "0, or a body without layers");
-  }
-}
-
-/// zeta by pressure and dilatation. What is stabilised has no ghosts: a mirror would make fluid of
-/// linear pressures.
-template <int D>
-std::unique_ptr<PoreStorage> make_storage(const Section& section, const Body<D>& body,
-                                          const PoreFluid& fluid, PoreMaterials materials) {
-  const double strength = section.number("undrained_stabilisation");
-  if (strength > 0.0) {
-    check_stabilised(section, body);
-    return std::make_unique<StabilisedStorage<D>>(std::move(materials), body.family(0), strength,
-                                                  body.spacing());
-  }
-  if (fluid.is_linear()) return std::make_unique<LinearStorage>(std::move(materials));
-  return std::make_unique<TaitStorage>(std::move(materials), fluid);
-}
-
 template <int D>
 InitialPressure<D> read_initial_pressure(const Section& section) {
   InitialPressure<D> initial{.value = section.number("initial_pressure"),
@@ -212,7 +165,7 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
     section.fail("boundary", "bonds that break beside a mirrored sphere",
                  "a sphere that it does not name");
   }
-  auto storage = make_storage(section, *body, fluid, std::move(materials));
+  auto storage = make_storage(section, *body, fluid, materials);
   const auto mirror = boundary.mirror_condition(space.flow->family());
   Eigen::VectorXd gravity;
   if (const Vector<D> g = read_gravity<D>(section); g != Vector<D>{}) {
@@ -222,6 +175,7 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
   const std::vector<HeldPoint> held = boundary.held_points(mirror);
   DarcySystem<D> system(std::move(space.flow), std::move(storage), fluid,
                         boundary.face_pressures(mirror), std::move(space.sources), gravity, held);
+  system.let_storage_be_chosen(storage_choice(section, body, std::move(materials)));
   if (auto smoothing = read_smoothing(section, *body, family, mirror, held)) {
     system.set_smoothing(std::move(*smoothing));
   }
@@ -277,18 +231,10 @@ KeyTable darcy_keys() {
        .when = "initial_state=linear",
        .meaning = "Pressure grows by it along each axis."},
   };
-  for (const KeyTable& part :
-       {permeability_keys(), pore_material_keys(), pore_fluid_keys(), pore_boundary_keys()}) {
+  for (const KeyTable& part : {permeability_keys(), pore_material_keys(), pore_fluid_keys(),
+                               pore_boundary_keys(), storage_choice_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
-  keys.push_back(
-      {.path = "undrained_stabilisation",
-       .range = "[0, 1]",
-       .fallback = "0",
-       .meaning =
-           "Storage of what varies from point to point, for fluid that enters nearly "
-           "undrained rock in times short against dx^2/c: 0.25 keeps pressure from "
-           "undershooting. 0: none. Beside a quasi-static solid, a linear fluid, no layers."});
   keys.push_back({.path = "nested.smoothing",
                   .type = KeyType::word,
                   .fallback = "boundary",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -39,6 +41,10 @@ class PoreStorage {
   /// These bonds are broken, and no others; for storage that reaches from point to point.
   virtual void take_bonds(std::span<const BrokenBond>) {}
 
+  /// False: a point's pressure follows from its neighbours' fluid content too, and by so much that
+  /// no single pressure answers its own dilatation much; undrained_slope() does not say it.
+  virtual bool is_local() const { return true; }
+
   /// Pressure p at fluid content zeta [Pa].
   virtual void pressure(double t, std::span<const double> zeta, std::span<double> p) const = 0;
 
@@ -76,5 +82,8 @@ class PoreStorage {
  private:
   PoreMaterials materials_;
 };
+
+/// Makes the storage for a dilatation of this slope; null where what there is will do.
+using StorageChoice = std::function<std::unique_ptr<PoreStorage>(std::span<const double> slope)>;
 
 }  // namespace perifrac

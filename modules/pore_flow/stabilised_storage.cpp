@@ -1,5 +1,7 @@
 #include "modules/pore_flow/stabilised_storage.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/geometry/bond_state.hpp"
@@ -29,6 +31,25 @@ struct RoughnessLaws {
   const RoughnessLaw<D>& at(Index i) const { return laws[i]; }
 };
 
+/// From here on the roughest pressures hold 0.5 alpha^2 times the slope and more (decision 17).
+constexpr double enough_to_split = 0.1;
+
+/// The cube of what a point's bonds weigh inside the body over what they weigh.
+template <int D>
+std::vector<double> raise_near_faces(const Family<D>& family) {
+  std::vector<double> weight(family.point_count, 0.0);
+  for (Index i = 0; i < family.point_count; ++i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      weight[i] += family.weight[bond];
+    }
+  }
+  std::vector<double> sorted = weight;
+  std::ranges::sort(sorted);
+  const double inside = sorted[sorted.size() * 3 / 4];
+  for (double& w : weight) w = std::clamp(std::pow(inside / w, 3), 1.0, 20.0);
+  return weight;
+}
+
 Eigen::Map<Eigen::VectorXd> view(std::span<double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
@@ -38,11 +59,13 @@ Eigen::Map<Eigen::VectorXd> view(std::span<double> values) {
 template <int D>
 StabilisedStorage<D>::StabilisedStorage(PoreMaterials materials,
                                         std::shared_ptr<const Family<D>> family, double strength,
-                                        double spacing)
+                                        double spacing, bool irregular)
     : LinearStorage(std::move(materials)),
       intact_(std::move(family)),
       scale_(strength * spacing * spacing),
+      splits_well_(strength >= enough_to_split),
       answer_(intact_->point_count, 0.0),
+      raise_(irregular ? raise_near_faces(*intact_) : std::vector<double>()),
       right_side_(intact_->point_count) {
   assemble();
   factor();
@@ -62,6 +85,7 @@ bool StabilisedStorage<D>::set_dilatation(const DilatationInput& input) {
 
 template <int D>
 void StabilisedStorage<D>::take_bonds(std::span<const BrokenBond> broken) {
+  if (broken.empty() && broken_.empty()) return;
   broken_.assign(broken.begin(), broken.end());
   assemble();
   factor();
@@ -71,7 +95,9 @@ template <int D>
 void StabilisedStorage<D>::assemble() {
   const ProfileScope profiled("assembly");
   RoughnessLaws<D> laws;
-  for (const double answer : answer_) laws.laws.push_back({scale_ * answer});
+  for (std::size_t i = 0; i < answer_.size(); ++i) {
+    laws.laws.push_back({scale_ * answer_[i] * (raise_.empty() ? 1.0 : raise_[i])});
+  }
   LinearExactOperator<D, RoughnessLaws<D>> op(intact_, MirrorCondition<D, 1>(*intact_),
                                               std::move(laws));
   if (!broken_.empty()) {

@@ -22,12 +22,14 @@ namespace perifrac {
 template <int D>
 class StabilisedStorage final : public LinearStorage {
  public:
-  /// `family` without ghosts; `spacing` dx [m].
+  /// `family` without ghosts; `spacing` dx [m]. `irregular`: points are no lattice, and those near
+  /// faces, whose gradients fit what few bonds they have, get more of it.
   StabilisedStorage(PoreMaterials materials, std::shared_ptr<const Family<D>> family,
-                    double strength, double spacing);
+                    double strength, double spacing, bool irregular = false);
 
   bool set_dilatation(const DilatationInput& input) override;
   void take_bonds(std::span<const BrokenBond> broken) override;
+  bool is_local() const override { return !splits_well_; }
   void pressure(double t, std::span<const double> zeta, std::span<double> p) const override;
   void pressure_change(double t, std::span<const double> zeta, std::span<const double> change,
                        std::span<double> dp) override;
@@ -42,7 +44,9 @@ class StabilisedStorage final : public LinearStorage {
 
   std::shared_ptr<const Family<D>> intact_;
   double scale_;                         ///< strength dx^2 [m^2]
+  bool splits_well_;                     ///< what a pass leaves of any error is below 0.68 of it
   std::vector<double> answer_;           ///< alpha^2 slope by point [1/Pa]
+  std::vector<double> raise_;            ///< a factor by point; empty: 1
   std::vector<BrokenBond> broken_;       ///< of the bonds in between_
   Eigen::SparseMatrix<double> between_;  ///< B
   SparseCholesky factor_;                ///< of V (S + alpha^2 slope) + B

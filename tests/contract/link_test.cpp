@@ -90,6 +90,24 @@ TEST(Link, ValueAndRateRunFromTheLastWindowsEndToThisOnes) {
   EXPECT_EQ(pair.told(1.0, {3.0, 2.0}), (Values{14.0, 26.0}));
 }
 
+TEST(Link, PredictsNoChangeWhereItIsTold) {
+  Pair pair;
+  pair.link.use_slope(0);
+  pair.link.predict_no_change();
+  pair.source.at[0].slope = {0.0, 0.0};
+  pair.source.at[1].value = {10.0, 20.0};
+  pair.link.start();
+  pair.link.predict(2.0);
+  pair.link.deliver();
+  pair.source.at[1].value = {14.0, 26.0};
+  pair.link.collect(2.0);
+  pair.link.accept();
+  pair.link.predict(1.0);
+  pair.link.deliver();
+  EXPECT_EQ(pair.told(0.0, {0.0, 0.0}), (Values{14.0, 26.0}));
+  EXPECT_EQ(pair.told(1.0, {0.0, 0.0}), (Values{14.0, 26.0}));
+}
+
 /// What answers a total over the window answers what of it differs from the last window's pace.
 TEST(Link, ATotalBeginsEveryWindowAtNothing) {
   const Line points{1};

@@ -1,9 +1,13 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <omp.h>
 
 #include "tests/verification/mandel_run.hpp"
+#include "tests/verification/scene_run.hpp"
 
 namespace perifrac::test {
 namespace {
@@ -53,6 +57,64 @@ TEST(Mandel, StabilisedStorageMeetsTheSameLimits) {
         .largest_pressure_error(0.01, 0.01);
   };
   EXPECT_LT(early_error("0.25"), 0.5 * early_error("0"));
+}
+
+constexpr double undrained_pressure = 106.29;  // [Pa]
+constexpr double diffusion_time = 0.41333;     // dx^2/c at 2 m [s]
+
+std::string even_windows(double window, const std::string& passes) {
+  return fmt::format("coupling={{window: {{first: {0} s, growth: 1, largest: {0} s}}{1}}}", window,
+                     passes);
+}
+
+/// Before diffusion has come far, the middle is at the undrained pressure, or 7.6 % above it.
+void expect_stable(double part, const Overrides& words, const std::string& passes) {
+  const double window = part * diffusion_time;
+  const double end = (part > 1.0 ? 20 : 150) * window;
+  Overrides all = {"body.spacing=2 m", "output.times=[]", fmt::format("time.end={} s", end),
+                   even_windows(window, passes)};
+  all.insert(all.end(), words.begin(), words.end());
+  const SceneRun run = run_config("mandel", all);
+  EXPECT_EQ(run.exit_code, 0);
+  const double most = part > 1.0 ? 1.11 : 1.08;  // long windows see the peak less well
+  for (const char* const place : {"the middle", "a/2", "3a/4"}) {
+    const auto pressures = run.column(fmt::format("pore_pressure at {} [Pa]", place));
+    EXPECT_LT(*std::ranges::max_element(pressures), most * undrained_pressure) << place;
+    EXPECT_GT(*std::ranges::min_element(pressures), -0.01 * undrained_pressure) << place;
+  }
+  EXPECT_LT(std::abs(run.summary["ledger"]["energy_error"].get<double>()), 0.015);
+}
+
+/// From 1e-4 to 1e4 of dx^2/c, in one pass and as windows are by default, stabilised and not.
+TEST(Mandel, WindowsOfAnyLengthAreStable) {
+  const std::string one_pass = ", iterations: {max: 1}", open;
+  const Overrides plain = {"pore_flow.undrained_stabilisation=0"};
+  for (const double part : {1e-4, 1e-2, 0.1, 0.15, 0.3, 1.0, 10.0, 1e4}) {
+    SCOPED_TRACE(fmt::format("windows of {} dx^2/c", part));
+    expect_stable(part, {}, one_pass);
+    if (part > 0.01) expect_stable(part, plain, one_pass);
+    if (part > 0.01 && part < 1.0) expect_stable(part, plain, open);
+    if (part == 0.15 || part == 0.3) {
+      expect_stable(part, {"pore_flow.integrator.type=explicit"}, one_pass);
+    }
+  }
+}
+
+/// Pressures at the end of windows that are shorter and shorter, over 200 of the longest and more.
+TEST(Mandel, ShorterWindowsAreAtLeastFirstOrderBetter) {
+  for (const std::string strength : {"0.25", "0"}) {
+    const auto pressure = [&](double part) {
+      return run_config("mandel", {"body.spacing=2 m", "output.times=[]", "time.end=80 s",
+                                   "pore_flow.integrator.tolerance=1e-7",
+                                   "pore_flow.undrained_stabilisation=" + strength,
+                                   even_windows(part * 0.4, ", iterations: {max: 1}")})
+          .column("pore_pressure at 3a/4 [Pa]")
+          .back();
+    };
+    const double finest = pressure(0.125), coarse = std::abs(pressure(1.0) - finest);
+    EXPECT_LT(coarse, 2e-3 * undrained_pressure);
+    EXPECT_LT(std::abs(pressure(0.5) - finest), coarse / 1.8) << strength;
+  }
 }
 
 struct Variant {

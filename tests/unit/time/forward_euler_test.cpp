@@ -220,5 +220,32 @@ TEST(ForwardEuler, NamesFieldEntryAndTimeOfANumberThatIsNotFinite) {
   }
 }
 
+/// The fastest mode, which a step of 1.8 / rate takes from 1 to -0.8, comes back with its own sign
+/// where others answer it late; steps that turn no sign are as many as they were.
+TEST(ForwardEuler, TakesAnEvenNumberOfLongStepsWhereItIsAnsweredLate) {
+  struct Answered final : LineDiffusion {
+    using LineDiffusion::LineDiffusion;
+    bool is_answered_late() const override { return late; }
+    bool late = true;
+  } line(30);
+  for (const bool late : {true, false}) {
+    line.late = late;
+    ForwardEuler euler(line);
+    std::vector<double> y = line.start();
+    euler.reset(0.0, y);
+    const auto steps_in = [&](double begin, double end) {
+      const auto before = euler.statistics().steps;
+      euler.reset(begin, y);
+      euler.advance(end, y);
+      return euler.statistics().steps - before;
+    };
+    const double step = euler.longest_step();
+    EXPECT_EQ(steps_in(0.0, step), late ? 2 : 1);
+    EXPECT_EQ(steps_in(step, 3.9 * step), late ? 4 : 3);
+    EXPECT_EQ(steps_in(3.9 * step, 4.4 * step), 1);
+    EXPECT_EQ(steps_in(4.4 * step, 6.4 * step), 2);
+  }
+}
+
 }  // namespace
 }  // namespace perifrac

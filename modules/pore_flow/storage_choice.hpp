@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "core/config/key.hpp"
+#include "core/config/section.hpp"
+#include "core/geometry/body.hpp"
+#include "modules/pore_flow/pore_fluid.hpp"
+#include "modules/pore_flow/pore_storage.hpp"
+
+namespace perifrac {
+
+/// `undrained_stabilisation`.
+KeyTable storage_choice_keys();
+
+/// The storage that the scene asks for; where it leaves that open, the points' own.
+/// Throws InputError.
+template <int D>
+std::unique_ptr<PoreStorage> make_storage(const Section& section, const Body<D>& body,
+                                          const PoreFluid& fluid, PoreMaterials materials);
+
+/// Where the scene leaves it open: stabilises as soon as the slope of the dilatation calls for it.
+/// Empty where it does not, or stabilised storage cannot be.
+template <int D>
+StorageChoice storage_choice(const Section& section, std::shared_ptr<const Body<D>> body,
+                             PoreMaterials materials);
+
+}  // namespace perifrac
