@@ -22,6 +22,7 @@ constexpr Advice known[] = {
      "`crack_fluid.residual_aperture`, or shorten `coupling.window.largest`"},
     {"serves another inlet", "place the inlets at facets of their own"},
     {"left a piece that nothing holds", "hold it by `solid.boundary` or `solid.pins`"},
+    {"windows of one pass", "leave `coupling.iterations.max` and `coupling.split` out"},
     {"the coupling ",
      "raise `coupling.iterations.max`, or take `coupling.split: automatic`; after a sudden load "
      "shorten `coupling.window.first`"},

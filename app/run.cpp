@@ -115,6 +115,18 @@ void log_all(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) log_warning(warning);
 }
 
+/// Ends a run whose windows were seen not to be stable once nothing is left of its answer.
+void require_balance(const CouplingManager& manager) {
+  if (!manager.is_unstable()) return;
+  constexpr double nonsense = 0.5;
+  const auto energy = manager.ledger().energy();
+  if (!energy || energy->relative_error < nonsense) return;
+  throw NumericalError("energy", "the ledger", manager.time(),
+                       fmt::format("windows of one pass are not stable: the balance is {:.0f} % "
+                                   "open",
+                                   100.0 * energy->relative_error));
+}
+
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
 int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& watch,
                    std::span<const double> outputs) {
@@ -127,6 +139,7 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& wa
     if (const auto warning = manager.new_warning()) log_warning(*warning);
     recorder.check_finite();
     recorder.record_window();
+    require_balance(manager);
     const bool is_output = manager.time() == *output;
     const bool is_restart_point = is_output || manager.step() % windows_between_restart_points == 0;
     if (is_restart_point || ValidityWatch::is_due(manager.step())) log_all(watch.look());

@@ -133,8 +133,12 @@ void Link::relax(std::span<const double> value, double length) {
   }
 }
 
+std::string Link::state_name() const {
+  return fmt::format("{}.{}.{}", source_.module_name, name_, target_.module_name);
+}
+
 void Link::visit_state(StateVisitor& visitor) {
-  visitor.enter(fmt::format("{}.{}.{}", source_.module_name, name_, target_.module_name));
+  visitor.enter(state_name());
   visitor.visit("output", accepted_.output);
   visitor.visit("output_rate", accepted_.output_rate);
   visitor.visit("counter", accepted_.counter);

@@ -54,7 +54,8 @@ class Link {
 
   const std::string& name() const { return name_; }
   PortKind kind() const { return kind_; }
-  std::string path() const;  ///< `solid.dilatation -> pore_flow`, for people
+  std::string path() const;        ///< `solid.dilatation -> pore_flow`, for people
+  std::string state_name() const;  ///< `solid.dilatation.pore_flow`, for checkpoints
   const LinkEnd& source() const { return source_; }
   const LinkEnd& target() const { return target_; }
   bool lagged() const { return lagged_; }

@@ -55,10 +55,10 @@ void CouplingManager::start_links() {
   for (Link& link : links_) link.start();
 }
 
-/// What answers them depends on how strongly.
+/// How they store may depend on how strongly they are answered within a window.
 void CouplingManager::let_modules_see_slopes() {
   for (Link& link : links_) {
-    if (!link.uses_slope()) continue;
+    if (!link.uses_slope() || link.holds()) continue;
     link.predict(0.0);
     link.deliver();
     link.target().module->prepare({time_, time_});
@@ -252,6 +252,7 @@ std::optional<std::string> CouplingManager::new_warning() {
 
 void CouplingManager::restart_point() {
   for (ModuleSlot& slot : modules_) slot.module->on_restored(time_);
+  let_modules_see_slopes();
 }
 
 void CouplingManager::visit_state(StateVisitor& visitor) {
@@ -262,6 +263,7 @@ void CouplingManager::visit_state(StateVisitor& visitor) {
   schedule_.visit_state(visitor);
   ledger_.visit_state(visitor);
   for (Link& link : links_) link.visit_state(visitor);
+  solver_->visit_state(visitor);
   visitor.leave();
 }
 

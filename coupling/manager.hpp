@@ -59,7 +59,8 @@ class CouplingManager {
 
   /// From here a run that was saved now, and restored, goes on bit for bit as this one does: both
   /// call this after saving or restoring. Every module drops what it derived from the past; inputs,
-  /// which are no one's state, are written again by the next window.
+  /// which are no one's state, are written again: slopes at once, since modules may hold energy by
+  /// them, all else by the next window.
   void restart_point();
 
   /// All modules' fields as `<module>/<field>` and the manager's own as `coupling/<field>`.

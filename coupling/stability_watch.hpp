@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+
+#include "core/state/state_visitor.hpp"
 #include "coupling/link.hpp"
 
 namespace perifrac {
@@ -16,19 +19,26 @@ namespace perifrac {
 ///   from block to block; or
 /// - forty.
 /// A shock, a resonance, a load that rises do none of these, nor does a wave that comes to where
-/// all was at rest: what announces it grows long, but ever slower.
+/// all was at rest: what announces it grows long, but ever slower. What was found once stays.
 class StabilityWatch {
  public:
-  /// A one-pass window of `length` [s] has passed; true where it is unstable.
-  bool finds_growth(const Link::Mismatch& mismatch, double length);
+  /// A one-pass window of `length` [s] has passed.
+  void look(const Link::Mismatch& mismatch, double length);
+
+  bool has_found_growth() const { return has_found_growth_ != 0; }
+
+  /// A run that is restarted ends where the whole one does.
+  void visit_state(StateVisitor& visitor);
 
  private:
+  using Count = std::int64_t;
+
   /// Largest values over a block of windows.
   struct Block {
-    int windows = 0;
+    Count windows = 0;
     double mismatch = 0.0;
-    double growing = 0.0;        ///< mismatch over length^4
-    bool exceeds_values = true;  ///< in all windows
+    double growing = 0.0;      ///< mismatch over length^4
+    Count exceeds_values = 1;  ///< in all windows
   };
   void end_block();
 
@@ -36,11 +46,12 @@ class StabilityWatch {
   double last_ = 0.0;           ///< `growing` of the last block
   double largest_value_ = 0.0;  ///< so far
   double values_before_ = 0.0;  ///< the same before the growth began
-  bool was_predicted_ = false;  ///< these values
-  int growing_ = 0;             ///< blocks
+  Count was_predicted_ = 0;     ///< whether these values were
+  Count growing_ = 0;           ///< blocks
   double last_factor_ = 0.0;    ///< logarithm of the growth from block to block
-  int steady_ = 0;              ///< blocks that grew as the one before
-  int exceeding_ = 0;           ///< blocks
+  Count steady_ = 0;            ///< blocks that grew as the one before
+  Count exceeding_ = 0;         ///< blocks
+  Count has_found_growth_ = 0;
 };
 
 }  // namespace perifrac

@@ -198,8 +198,23 @@ bool WindowSolver::is_enough_at_once(double tolerance) const {
 
 void WindowSolver::watch(double length) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (links_[i].predicts()) watches_[i].look(links_[i].mismatch(), length);
+  }
+}
+
+const Link* WindowSolver::unstable_link() const {
+  const auto found = std::ranges::find_if(watches_, &StabilityWatch::has_found_growth);
+  return found == watches_.end() ? nullptr
+                                 : &links_[static_cast<std::size_t>(found - watches_.begin())];
+}
+
+void WindowSolver::visit_state(StateVisitor& visitor) {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
-    if (link.predicts() && watches_[i].finds_growth(link.mismatch(), length)) unstable_ = &link;
+    if (!link.lagged()) continue;
+    visitor.enter(link.state_name());
+    watches_[i].visit_state(visitor);
+    visitor.leave();
   }
 }
 

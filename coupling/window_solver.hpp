@@ -64,7 +64,10 @@ class WindowSolver {
 
   /// A lagged link whose prediction was seen to grow apart from the answer, over windows of one
   /// pass; null until then.
-  const Link* unstable_link() const { return unstable_; }
+  const Link* unstable_link() const;
+
+  /// What the next windows are judged by.
+  void visit_state(StateVisitor& visitor);
 
   /// The module that ended a window early last; empty: none has.
   const std::string& ended_by() const { return ended_by_; }
@@ -108,7 +111,6 @@ class WindowSolver {
   Eigen::Index accelerated_size_ = 0;
   std::vector<double> weights_;          ///< one a link; of use for the lagged ones
   std::vector<StabilityWatch> watches_;  ///< likewise
-  const Link* unstable_ = nullptr;
   Snapshot begin_;
   CouplingWork work_;
 };

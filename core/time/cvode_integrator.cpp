@@ -20,8 +20,8 @@
 namespace perifrac {
 namespace {
 
-/// A hundred thousand steps in one window mean that something else is wrong.
-constexpr long most_steps = 100'000;
+/// So many steps in one window mean that something else is wrong.
+constexpr long most_steps = 10'000;
 
 std::span<double> span_of(N_Vector v) {
   return {N_VGetArrayPointer(v), static_cast<std::size_t>(N_VGetLength(v))};

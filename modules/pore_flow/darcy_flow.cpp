@@ -147,8 +147,10 @@ double DarcyFlow<D>::stable_time_step() const {
 }
 
 template <int D>
-void DarcyFlow<D>::prepare(const TimeWindow&) {
+void DarcyFlow<D>::prepare(const TimeWindow& window) {
   if (system_->choose_storage(dilatation_slope_)) restart_integrator_ = true;
+  // Fluid may hold energy by the slope, which is asked for before any window too.
+  system_->set_dilatation({dilatation_, dilatation_rate_, dilatation_slope_, window.begin});
 }
 
 template <int D>

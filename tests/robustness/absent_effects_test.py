@@ -32,26 +32,33 @@ CRACKS_AT_REST = {**CRACKS, "solid/has_begun": 1, "solid/radiated_energy": 1, "s
                   "solid/crack_opening": FACETS, "solid/face_pressure": FACETS, "solid/closed_faces": FACETS}
 
 
-def link(path, count, slope=False):
+# What tells whether one pass a window is stable, of a link that starts on a prediction.
+WATCH = ("windows", "mismatch", "growing_mismatch", "exceeds_values", "last_block", "largest_value", "values_before",
+         "was_predicted", "growing_blocks", "last_factor", "steady_blocks", "exceeding_blocks", "has_found_growth")
+
+
+def link(path, count, slope=False, lagged=False):
     arrays = ("output", "output_rate") + (("counter", "counter_rate") if slope else ())
-    return {f"coupling/{path}/{array}": count for array in arrays}
+    return {**{f"coupling/{path}/{array}": count for array in arrays},
+            **({f"coupling/{path}/stability/{number}": 1 for number in WATCH} if lagged else {})}
 
 
 PORES = {"pore_flow/fluid_content": POINTS + 1, "pore_flow/pore_pressure": POINTS, "pore_flow/start": 1, "pore_flow/last_jump": 1,
          "pore_flow/accumulated": 2, "coupling/mass_at_start": 1}
-PORES_FIRST = {**PORES, "solid/pore_stress": POINTS, **link("solid.dilatation.pore_flow", POINTS, slope=True),
+PORES_FIRST = {**PORES, "solid/pore_stress": POINTS,
+               **link("solid.dilatation.pore_flow", POINTS, slope=True, lagged=True),
                **link("pore_flow.pore_stress.solid", POINTS)}
-PORES_LAST = {**PORES, **link("pore_flow.pore_stress.solid", POINTS, slope=True),
+PORES_LAST = {**PORES, **link("pore_flow.pore_stress.solid", POINTS, slope=True, lagged=True),
               **link("solid.dilatation.pore_flow", POINTS)}
 FLUID_POINTS = {f"fluid/{name}": FLUID
                 for name in ("position_x", "position_y", "velocity_x", "velocity_y", "density", "mass", "id")}
-FILM = {**FLUID_POINTS, "fluid/next_id": 1, **link("solid.displacement.fluid", 2 * POINTS),
+FILM = {**FLUID_POINTS, "fluid/next_id": 1, **link("solid.displacement.fluid", 2 * POINTS, lagged=True),
         **link("fluid.interface_impulse.solid", 2 * POINTS)}
 
 
 def exchange(fluid):
-    return {**link(f"pore_flow.pore_pressure.{fluid}", POINTS, slope=True),
-            **link(f"pore_flow.pore_mobility.{fluid}", POINTS), **link(f"{fluid}.exchanged_mass.pore_flow", POINTS)}
+    return {**link(f"pore_flow.pore_pressure.{fluid}", POINTS, slope=True, lagged=True),
+            **link(f"pore_flow.pore_mobility.{fluid}", POINTS, lagged=True), **link(f"{fluid}.exchanged_mass.pore_flow", POINTS)}
 
 
 SEEPAGE = {"pore_flow/pore_pressure_slope": POINTS, **exchange("fluid")}
@@ -60,7 +67,7 @@ NETWORK = {**{f"crack_fluid/{name}": FACETS
               for name in ("crack_fluid_mass", "crack_pressure", "crack_pressure_settled", "crack_aperture")},
            "crack_fluid/crack_has_begun": 1, **{f"crack_fluid/{name}": 1 for name in TOTALS},
            **{f"crack_fluid/{name}_lost": 1 for name in TOTALS},
-           **link("solid.free_crack_opening.crack_fluid", FACETS, slope=True),
+           **link("solid.free_crack_opening.crack_fluid", FACETS, slope=True, lagged=True),
            **link("crack_fluid.crack_pressure.solid", FACETS), **link("crack_fluid.crack_viscosity.solid", FACETS)}
 LEAK_OFF = {"crack_fluid/leak_off_rate": 1, **exchange("crack_fluid")}
 
@@ -82,6 +89,7 @@ HEAP_OF_MOTION = 759.9
 
 
 class AbsentEffects(RunTest):
+
     def test_what_is_there_is_what_was_called_for(self):
         self.assertEqual(EXPECTED.keys(), effects.CHAINS.keys())
         for name, chain in effects.CHAINS.items():

@@ -6,7 +6,8 @@ import unittest
 
 from perifrac_runs import MANDEL, RunTest, SMALL, checkpoints, listed_frames, perifrac, settings
 
-# What is pumped in grows until its square overflows, long after the frames at 0 and 2 s.
+# What is pumped in grows from window to window, until nothing is left of the balance of energy after the frames at 0
+# and 2 s.
 LATE = SMALL | {"coupling.split": "drained", "pore_flow.integrator.type": "explicit", "time.end": "1000 s",
                 "output.interval": "900 s", "output.times": "[2 s]"}
 
@@ -36,6 +37,12 @@ class Failures(RunTest):
         for words in ("Why it failed", failure["place"], "To change: ", "<h2 id=\"warnings-title\">"):
             self.assertIn(words, page)
         self.assertTrue((self.folder / "run" / "report.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_windows_that_are_not_stable_end_a_run_whose_balance_is_lost(self):
+        """Pressures had come to 1e18 times what is right, with exit code 0."""
+        summary, said, _ = self.run_that_fails(MANDEL, LATE, "--no-report")
+        self.assertRegex(said, r"^windows of one pass are not stable: the balance is \d+ % open in energy at the ledger")
+        self.assertIn("leave `coupling.iterations.max`", summary["failure"]["advice"])
 
     def test_leaves_a_frame_of_the_moment(self):
         summary, _, _ = self.run_that_fails(MANDEL, LATE, "--no-report")
