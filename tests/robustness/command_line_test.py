@@ -4,7 +4,7 @@ import json
 import os
 import unittest
 
-from perifrac_runs import CONFIGS, HERE, MANDEL, PERIFRAC, RunTest, SMALL, STILL, perifrac, settings
+from perifrac_runs import CONFIGS, HERE, MANDEL, PERIFRAC, RunTest, SMALL, perifrac, settings
 
 
 class CommandLine(RunTest):
@@ -41,7 +41,7 @@ class CommandLine(RunTest):
                 self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_run_prints_one_document(self):
-        done = perifrac("run", MANDEL, *settings(SMALL | STILL), "--json", "--output", self.folder / "run")
+        done = perifrac("run", MANDEL, *settings(SMALL), "--json", "--output", self.folder / "run")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(json.loads(done.stdout), json.loads((self.folder / "run" / "summary.json").read_text()))
 

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import h5py
 
-from perifrac_runs import STILL, RunTest, checkpoints
+from perifrac_runs import RunTest, checkpoints
 
 FRAMES_EVERY = 10.0  # [s]
 LONG = {"body.spacing": "2 m", "time.end": "50000 s", "output.times": "[]", "output.interval": f"{FRAMES_EVERY} s",
-        "output.checkpoint_interval": "0 s"} | STILL
+        "output.checkpoint_interval": "0 s"}
 
 
 def rows(folder):

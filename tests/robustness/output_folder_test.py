@@ -9,7 +9,7 @@ import subprocess
 import unittest
 
 from long_runs import LONG
-from perifrac_runs import CONFIGS, MANDEL, PATIENCE, RunTest, SMALL, STILL, checkpoints, listed_frames, perifrac, run_command, settings
+from perifrac_runs import CONFIGS, MANDEL, PATIENCE, RunTest, SMALL, checkpoints, listed_frames, perifrac, run_command, settings
 
 
 def limit_files_to(size):
@@ -61,8 +61,8 @@ class OutputFolder(RunTest):
 
     def test_says_in_one_line_what_it_replaces(self):
         folder = self.folder / "run"
-        self.assertEqual(self.run_into(folder, *settings(STILL)).stderr, "")
-        self.assertRegex(self.run_into(folder, *settings(STILL)).stderr,
+        self.assertEqual(self.run_into(folder).stderr, "")
+        self.assertRegex(self.run_into(folder).stderr,
                          r"^\d\d:\d\d:\d\d info: .*run: \d+ files of an earlier run are replaced\n$")
 
     def test_files_of_others_stay(self):
@@ -74,7 +74,7 @@ class OutputFolder(RunTest):
                 (folder / name).parent.mkdir(parents=True)
                 (folder / name).write_text("mine")
                 of_study = name in ("table.md", "study.csv")
-                words = ["study", CONFIGS / "studies" / "coupling_scheme.yaml"] if of_study else ["run", MANDEL, *settings(SMALL | STILL)]
+                words = ["study", CONFIGS / "studies" / "coupling_scheme.yaml"] if of_study else ["run", MANDEL, *settings(SMALL)]
                 for _ in range(2):  # a refusal leaves nothing that would let the next one pass
                     done = perifrac(*words, "--no-report", "--output", folder, cwd=self.folder)
                     self.assert_refused(done, str(folder / name), "--overwrite")
@@ -143,7 +143,7 @@ class OutputFolder(RunTest):
 
     def test_a_full_disk_in_the_midst_of_a_row(self):
         probes = "[" + ", ".join(f"{{name: {n}, at: [1 m, {n} m]}}" for n in range(1, 20)) + "]"
-        keys = SMALL | STILL | {"output.probes": probes}
+        keys = SMALL | {"output.probes": probes}
         whole = self.run_scene(keys, "whole")
         size = (whole / "history.csv").stat().st_size
         self.assertEqual(size, max(len(content) for content in files(whole).values()))

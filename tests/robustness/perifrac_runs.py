@@ -17,9 +17,6 @@ MANDEL = HERE.parents[1] / "configs" / "mandel.yaml"
 SMALL = {"body.spacing": "2 m", "output.times": "[2 s, 5 s, 9 s]", "output.checkpoint_interval": "0 s",
          "time.end": "20 s"}
 
-# Beside SMALL, where nothing is to be warned of: on points so far apart pressures swing after the sudden load.
-STILL = {"pore_flow.undrained_stabilisation": "1"}
-
 # What the scenes of the other modules have that Mandel's has not: (scene, keys).
 CONFIGS = MANDEL.parent
 VARIANTS = {

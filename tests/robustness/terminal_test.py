@@ -9,15 +9,15 @@ import subprocess
 import termios
 import unittest
 
-from perifrac_runs import MANDEL, PATIENCE, SMALL, STILL, RunTest, perifrac, run_command, settings
+from perifrac_runs import MANDEL, PATIENCE, SMALL, RunTest, perifrac, run_command, settings
 
 # Long enough for several updates, five a second.
-SLOW = SMALL | STILL | {"time.end": "1500 s"}
+SLOW = SMALL | {"time.end": "1500 s"}
 
 
 class Terminal(RunTest):
     def test_quiet_in_a_pipe(self):
-        done = perifrac("run", MANDEL, "--no-report", "--output", self.folder / "run", *settings(SMALL | STILL))
+        done = perifrac("run", MANDEL, "--no-report", "--output", self.folder / "run", *settings(SMALL))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for control in ("\r", "\x1b"):
             self.assertNotIn(control, done.stdout)
