@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/verification/scene_run.hpp"
@@ -43,6 +44,29 @@ TEST(Terzaghi, ConvergesWithTheSquareOfTheSpacing) {
       EXPECT_GT(first, least * second) << error << ", stabilised by " << strength;
       EXPECT_GT(second, least * fine.largest(error, 0.01, 0.01)) << error << ' ' << strength;
     }
+  }
+}
+
+/// In one dimension as in two (Mandel): pressures after 200 windows of dx^2/c, and of parts of it.
+TEST(Terzaghi, ShorterWindowsAreAtLeastFirstOrderBetter) {
+  constexpr double diffusion_time = 0.0231245;  // dx^2/c [s]
+  for (const std::string strength : {"0", "0.25"}) {
+    const auto pressure = [&](double part) {
+      return run_config(
+                 "terzaghi",
+                 {"output.times=[]", fmt::format("time.end={} s", 200 * diffusion_time),
+                  "output.probes=[{name: below, at: [2 m, 40 m], field: pore_pressure}]",
+                  "pore_flow.integrator.tolerance=1e-8",
+                  "pore_flow.undrained_stabilisation=" + strength,
+                  fmt::format("coupling={{window: {{first: {0} s, growth: 1, largest: {0} s}}, "
+                              "iterations: {{max: 1}}}}",
+                              part * diffusion_time)})
+          .column("pore_pressure at below [Pa]")
+          .back();
+    };
+    const double finest = pressure(0.25), coarse = std::abs(pressure(1.0) - finest);
+    EXPECT_LT(coarse, 2.5e-6 * finest);
+    EXPECT_LT(std::abs(pressure(0.5) - finest), coarse / 2.5) << strength;  // 3 at first order
   }
 }
 
