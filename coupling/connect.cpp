@@ -61,7 +61,7 @@ void link_writer(std::span<ModuleSlot> modules, std::size_t target, PortId in,
                          static_cast<PortId>(out)};
       const LinkEnd to{modules[target].name, modules[target].module.get(), in};
       links.emplace_back(from, to, source > target);
-      to.module->port(in);  // a module may do without inputs that nobody asks for
+      to.module->connect(in);
       check_ports(links.back());
     }
   }

@@ -18,12 +18,17 @@ class PhysicsModule {
   /// The ports, in an order that never changes.
   virtual std::span<const Port> ports() const = 0;
 
-  /// Values of one port as they stand now. Only the coupling manager writes inputs. Spans stay
-  /// valid until the next advance, visit_state or on_restored.
+  /// Values of one port as they stand now; to read them changes nothing. Only the coupling manager
+  /// writes inputs; one that is not connected has no values. Spans stay valid until the next
+  /// advance, visit_state or on_restored.
   virtual PortView port(PortId id) = 0;
 
   /// Makes the state ready at time t [s], before anything is exchanged.
   virtual void initialize(double t) = 0;
+
+  /// After initialize: some module writes this in-port from now on. Effects of inputs that are not
+  /// connected are absent.
+  virtual void connect([[maybe_unused]] PortId in) {}
 
   /// The longest stable step of its own [s], with which it sub-cycles in any window; infinity where
   /// implicit. A scene may ask for windows of one such step.

@@ -38,19 +38,20 @@ PoreLeakOff<D>::PoreLeakOff(std::shared_ptr<const Body<D>> body, double density,
       density_(density),
       vapour_pressure_(vapour_pressure),
       sealed_(std::move(sealed)),
-      received_(body_->points().size()) {}
+      received_(body_->points().size()) {
+  // Where nobody writes them, the pores are empty and closed.
+  for (auto* input : {&pressure_, &pressure_rate_, &pressure_slope_, &mobility_}) {
+    input->resize(body_->points().size());
+  }
+}
 
 template <int D>
 PortView PoreLeakOff<D>::pore_pressure() {
-  for (auto* input : {&pressure_, &pressure_rate_, &pressure_slope_}) {
-    input->resize(body_->points().size());
-  }
   return {&body_->point_set(), pressure_, pressure_rate_, pressure_slope_};
 }
 
 template <int D>
 PortView PoreLeakOff<D>::pore_mobility() {
-  mobility_.resize(body_->points().size());
   return {&body_->point_set(), mobility_};
 }
 
@@ -90,8 +91,6 @@ template <int D>
 void PoreLeakOff<D>::begin_window(const TimeWindow& window) {
   window_ = window;
   std::ranges::fill(received_, 0.0);
-  pore_pressure();  // where nobody links them, the pores are empty and closed
-  pore_mobility();
 }
 
 template <int D>

@@ -52,6 +52,11 @@ SemiLagrangianFluid<D>::SemiLagrangianFluid(std::shared_ptr<const Body<D>> body,
                {"mass_made_by_exchange", total("kg"), out, extensive, PortRole::mass_artificial});
     }
     add_port(Quantity::merged, {"merged_points", "1", out, extensive, PortRole::work});
+    // Where nobody writes them, the pores are empty and closed.
+    for (auto* input :
+         {&pore_pressure_, &pore_pressure_rate_, &pore_pressure_slope_, &pore_mobility_}) {
+      input->resize(body_->points().size());
+    }
   }
   if (openings.mouths) {
     using enum PortRole;
@@ -160,7 +165,6 @@ PortView SemiLagrangianFluid<D>::mouth_port(Quantity quantity) {
 template <int D>
 PortView SemiLagrangianFluid<D>::port(PortId id) {
   const Quantity quantity = quantities_[id];
-  const std::size_t body_points = body_ ? body_->points().size() : 0;
   const PointSet* const body = body_ ? &body_->point_set() : nullptr;
   switch (quantity) {
     case Quantity::pressure:
@@ -171,20 +175,12 @@ PortView SemiLagrangianFluid<D>::port(PortId id) {
       return {&moving_points(), values};
     }
     case Quantity::displacement:
-      displacement_.resize(D * body_points);
-      displacement_rate_.resize(D * body_points);
       return {body, displacement_, displacement_rate_};
     case Quantity::damage:
-      damage_.resize(body_points);
-      damage_rate_.resize(body_points);
       return {body, damage_, damage_rate_};
     case Quantity::pore_pressure:
-      pore_pressure_.resize(body_points);
-      pore_pressure_rate_.resize(body_points);
-      pore_pressure_slope_.resize(body_points);
       return {body, pore_pressure_, pore_pressure_rate_, pore_pressure_slope_};
     case Quantity::pore_mobility:
-      pore_mobility_.resize(body_points);
       return {body, pore_mobility_};
     case Quantity::interface_impulse:
       impulse_ = dynamics_->impulse();
@@ -216,6 +212,22 @@ template <int D>
 void SemiLagrangianFluid<D>::initialize(double t) {
   time_ = t;
   dynamics_->start_totals();
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::connect(PortId in) {
+  const auto make_room = [](std::size_t count, std::initializer_list<std::vector<double>*> inputs) {
+    for (std::vector<double>* input : inputs) input->resize(count);
+  };
+  const std::size_t points = body_ ? body_->points().size() : 0;
+  switch (quantities_[in]) {
+    case Quantity::displacement:
+      return make_room(D * points, {&displacement_, &displacement_rate_});
+    case Quantity::damage:
+      return make_room(points, {&damage_, &damage_rate_});
+    default:  // others have room from the start
+      return;
+  }
 }
 
 template <int D>

@@ -32,6 +32,7 @@ class SemiLagrangianFluid final : public PhysicsModule {
   std::span<const Port> ports() const override { return ports_; }
   PortView port(PortId id) override;
   void initialize(double t) override;
+  void connect(PortId in) override;
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
   void visit_state(StateVisitor& visitor) override;
@@ -80,7 +81,7 @@ class SemiLagrangianFluid final : public PhysicsModule {
   std::uint64_t restored_ = 0;  ///< how often
 
   PointSet point_set_;
-  // Inputs and their companions; empty until somebody links them.
+  // Inputs and their companions; empty until they are connected.
   std::vector<double> displacement_, displacement_rate_;
   std::vector<double> pore_pressure_, pore_pressure_rate_, pore_pressure_slope_;
   std::vector<double> pore_mobility_;

@@ -75,14 +75,10 @@ PortView DarcyFlow<D>::port(PortId id) {
   const std::size_t count = system_->points();
   switch (id) {
     case dilatation:
-      dilatation_.resize(count);
-      dilatation_rate_.resize(count);
-      dilatation_slope_.resize(count);
       return {points, dilatation_, dilatation_rate_, dilatation_slope_};
     case exchanged_mass:
-      return {points, system_->exchange().mass(count)};
+      return {points, system_->exchange().mass()};
     case pore_pressure:
-      if (pressure_slope_.empty()) find_pressure_slope();
       return {points, pressure_, {}, pressure_slope_};
     case pore_stress:
       if (!system_->storage().is_local()) return {points, pore_stress_};
@@ -126,6 +122,19 @@ void DarcyFlow<D>::initialize(double t) {
   update_pore_stress();
   restart_integrator_ = true;
   note_jump(t);
+}
+
+template <int D>
+void DarcyFlow<D>::connect(PortId in) {
+  if (in == dilatation) {
+    for (auto* input : {&dilatation_, &dilatation_rate_, &dilatation_slope_}) {
+      input->resize(system_->points());
+    }
+  }
+  if (in == exchanged_mass) {
+    system_->exchange().connect(system_->points());
+    find_pressure_slope();
+  }
 }
 
 template <int D>

@@ -44,6 +44,7 @@ class DarcyFlow final : public PhysicsModule {
   std::span<const Port> ports() const override;
   PortView port(PortId id) override;
   void initialize(double t) override;
+  void connect(PortId in) override;
   double stable_time_step() const override;
   void prepare(const TimeWindow& window) override;
   double advance(const TimeWindow& window) override;
@@ -98,7 +99,7 @@ class DarcyFlow final : public PhysicsModule {
   double last_jump_ = 0.0;        ///< of what drives the flow [s]
   bool restart_integrator_ = true;
 
-  std::vector<double> dilatation_;  ///< input and its companions; empty until somebody links it
+  std::vector<double> dilatation_;  ///< input and its companions; empty until it is connected
   std::vector<double> dilatation_rate_;
   std::vector<double> dilatation_slope_;
   std::vector<double> content_;  ///< empty where it is the unknowns' own

@@ -4,11 +4,6 @@
 
 namespace perifrac {
 
-std::vector<double>& MassExchange::mass(std::size_t points) {
-  mass_.resize(points);
-  return mass_;
-}
-
 void MassExchange::begin(const TimeWindow& window, Way way, const std::vector<double>& volume,
                          double density) {
   way_ = way;

@@ -16,9 +16,10 @@ class MassExchange {
  public:
   enum class Way { by_rate, beside };
 
-  /// The input: of every point over the next window [kg, per metre in 2D].
-  std::vector<double>& mass(std::size_t points);
-  bool is_linked() const { return !mass_.empty(); }  ///< somebody asked for the input
+  void connect(std::size_t points) { mass_.resize(points); }
+  bool is_linked() const { return !mass_.empty(); }
+  /// The input: of every point over the next window [kg, per metre in 2D]; empty until connected.
+  std::span<double> mass() { return mass_; }
 
   /// A window begins; volumes and density [kg/m^3] make fluid content of mass.
   void begin(const TimeWindow& window, Way way, const std::vector<double>& volume, double density);
@@ -46,7 +47,7 @@ class MassExchange {
 
  private:
   Way way_ = Way::beside;
-  std::vector<double> mass_;     ///< input; empty until somebody links it
+  std::vector<double> mass_;     ///< input
   std::vector<double> added_;    ///< in this window; 0 between windows
   std::vector<double> content_;  ///< beside y, of earlier windows; empty where it goes by rate
   std::vector<double> energy_;   ///< one value once there was a window

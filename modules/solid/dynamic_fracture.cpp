@@ -69,18 +69,26 @@ DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
   }
 }
 
+void DynamicFracture::connect(PortId in) {
+  if (in < first_port_) return DynamicSolid<2>::connect(in);
+  connected_.set(in - first_port_);
+}
+
+/// An input on facets, to which cracks that grow have added.
+std::span<double> DynamicFracture::of_facets(PortId in, std::vector<double>& values) {
+  if (connected_[in - first_port_]) values.resize(bonds_.facet_points().count);
+  return values;
+}
+
 PortView DynamicFracture::port(PortId id) {
   const PointSet* const facets = &bonds_.facet_points();
   switch (id - first_port_) {
     case crack_pressure:
-      crack_pressure_.resize(facets->count);
-      return {facets, crack_pressure_};
+      return {facets, of_facets(id, crack_pressure_)};
     case crack_viscosity:
-      crack_viscosity_.resize(facets->count);
-      return {facets, crack_viscosity_};
+      return {facets, of_facets(id, crack_viscosity_)};
     case crack_leak_off:
-      crack_leak_off_.resize(facets->count);
-      return {facets, crack_leak_off_};
+      return {facets, of_facets(id, crack_leak_off_)};
     case damage:
       damage_.resize(body_->points().size());
       find_damage(cracks_.family(), damage_);

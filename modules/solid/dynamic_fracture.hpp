@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bitset>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "modules/solid/crack_dynamics.hpp"
@@ -28,6 +30,7 @@ class DynamicFracture final : public DynamicSolid<2> {
 
   PortView port(PortId id) override;
   void initialize(double t) override;
+  void connect(PortId in) override;
   void prepare(const TimeWindow& window) override;
   double advance(const TimeWindow& window) override;
   double conclude(const TimeWindow& window) override;
@@ -38,6 +41,7 @@ class DynamicFracture final : public DynamicSolid<2> {
   double scalar(PortId id) override;
   CrackState<2> crack_state();
   void foretell(double t, double step);
+  std::span<double> of_facets(PortId in, std::vector<double>& values);
 
   double damping_;
   std::vector<CrackFacet<2>> seeds_;
@@ -46,10 +50,9 @@ class DynamicFracture final : public DynamicSolid<2> {
   CrackTips tips_;
   PortId first_port_;  ///< of those that cracks add
 
-  std::vector<double> crack_pressure_;   ///< empty until somebody links it
-  std::vector<double> crack_viscosity_;  ///< likewise
-  std::vector<double> crack_leak_off_;   ///< likewise
-  double crack_length_ = 0.0;            ///< made when it is asked for
+  std::bitset<3> connected_;  ///< of the in-ports that cracks add
+  std::vector<double> crack_pressure_, crack_viscosity_, crack_leak_off_;
+  double crack_length_ = 0.0;  ///< made when it is asked for
 };
 
 }  // namespace perifrac

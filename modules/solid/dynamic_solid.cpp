@@ -73,12 +73,9 @@ PortView DynamicSolid<D>::port(PortId id) {
   const std::size_t count = body_->points().size();
   switch (id) {
     case pore_stress:
-      pore_stress_.resize(count);
-      pore_stress_rate_.resize(count);
-      pore_stress_slope_.resize(count);
       return {points, pore_stress_, pore_stress_rate_, pore_stress_slope_};
     case interface_impulse:
-      return {points, interface_.impulse(D * count)};
+      return {points, interface_.impulse()};
     case displacement:
       return {points, std::span(system_->unknowns()).first(D * count)};
     case velocity:
@@ -125,6 +122,17 @@ void DynamicSolid<D>::initialize(double t) {
   system_->start();
   const std::size_t size = system_->mass().size();
   motion_ = {std::vector<double>(size, 0.0), std::vector<double>(size, 0.0), {}};
+}
+
+template <int D>
+void DynamicSolid<D>::connect(PortId in) {
+  const std::size_t count = body_->points().size();
+  if (in == pore_stress) {
+    for (auto* input : {&pore_stress_, &pore_stress_rate_, &pore_stress_slope_}) {
+      input->resize(count);
+    }
+  }
+  if (in == interface_impulse) interface_.connect(D * count);
 }
 
 template <int D>

@@ -37,6 +37,7 @@ class DynamicSolid : public PhysicsModule {
   std::span<const Port> ports() const override;
   PortView port(PortId id) override;
   void initialize(double t) override;
+  void connect(PortId in) override;
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
   bool may_end_windows() const override { return false; }
@@ -71,7 +72,7 @@ class DynamicSolid : public PhysicsModule {
   double time_ = 0.0;  ///< [s]
   Motion motion_;      ///< no acceleration until the first window finds it
 
-  std::vector<double> pore_stress_;  ///< input and its companions; empty until somebody links it
+  std::vector<double> pore_stress_;  ///< input and its companions; empty until it is connected
   std::vector<double> pore_stress_rate_;
   std::vector<double> pore_stress_slope_;
   InterfaceForce interface_;

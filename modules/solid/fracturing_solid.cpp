@@ -128,7 +128,7 @@ Eigen::VectorXd FracturingSolid<D>::find_load() {
 template <int D>
 Eigen::VectorXd FracturingSolid<D>::in_cracks() {
   const auto count = static_cast<Eigen::Index>(bonds_.facet_points().count);
-  if (crack_pressure_.empty()) return Eigen::VectorXd::Zero(count);
+  if (!wet()) return Eigen::VectorXd::Zero(count);
   crack_pressure_.resize(count, 0.0);
   return view(crack_pressure_);
 }
@@ -164,10 +164,15 @@ void FracturingSolid<D>::find_unknowns() {
   derived_ = false;
 }
 
-/// Those named of an array of all, which the next call may write to again.
+/// Those named of an array of all, which the next call may write to again. All are found where the
+/// books ask for them anyway; else never taken from all, though these may be known: another way
+/// rounds otherwise, and who looks on would decide it.
 template <int D>
 std::span<const double> FracturingSolid<D>::find_unknowns(const UnknownNames& names) {
-  if (unknowns_are_current_) return unknowns_;
+  if (!is_steady()) {
+    find_unknowns();
+    return unknowns_;
+  }
   const std::vector<Index> named = names();
   take_load();
   some_unknowns_.resize(unknowns_.size());

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bitset>
 #include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -61,6 +63,7 @@ class FracturingSolid final : public PhysicsModule {
   }
 
   void initialize(double t) override;
+  void connect(PortId in) override;
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
   double conclude(const TimeWindow& window) override;
@@ -92,7 +95,7 @@ class FracturingSolid final : public PhysicsModule {
     first_plate
   };
 
-  bool wet() const { return !crack_pressure_.empty(); }  ///< fluid may be in the cracks
+  bool wet() const { return connected_[crack_pressure]; }  ///< fluid may be in the cracks
   /// Nothing of the solid's comes from others: it may take a window back by itself.
   bool is_alone() const { return !wet() && pore_stress_.empty() && !interface_.is_linked(); }
   /// Nothing but the faces' pressure changes: then displacements are found only when asked for.
@@ -103,6 +106,7 @@ class FracturingSolid final : public PhysicsModule {
   std::span<const double> added_pore_stress();
   Eigen::VectorXd find_load();
   Eigen::VectorXd in_cracks();
+  std::span<double> of_facets(PortId in, std::vector<double>& values);
   void take_load();
   void solve_faces();
   void find_unknowns();
@@ -158,6 +162,7 @@ class FracturingSolid final : public PhysicsModule {
   double last_growth_ = 0.0;        ///< [s]
   int cuts_ = 0;                    ///< of the window at hand
 
+  std::bitset<displacement> connected_;  ///< in-ports
   std::vector<double> pore_stress_;
   std::vector<double> pore_stress_at_rest_;  ///< empty: none
   std::vector<double> added_pore_stress_;    ///< beyond that at rest, where there is any

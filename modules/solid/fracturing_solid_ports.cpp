@@ -81,24 +81,35 @@ FracturingSolid<D>::FracturingSolid(
 }
 
 template <int D>
+void FracturingSolid<D>::connect(PortId in) {
+  const std::size_t count = body_->points().size();
+  connected_.set(in);
+  if (in == pore_stress) pore_stress_.resize(count);
+  if (in == interface_impulse) interface_.connect(D * count);
+}
+
+/// An input on facets, to which cracks that grow have added.
+template <int D>
+std::span<double> FracturingSolid<D>::of_facets(PortId in, std::vector<double>& values) {
+  if (connected_[in]) values.resize(bonds_.facet_points().count);
+  return values;
+}
+
+template <int D>
 PortView FracturingSolid<D>::port(PortId id) {
   const PointSet* const points = &body_->point_set();
   const PointSet* const facets = &bonds_.facet_points();
   switch (id) {
     case pore_stress:
-      pore_stress_.resize(body_->points().size());
       return {points, pore_stress_};
     case interface_impulse:
-      return {points, interface_.impulse(D * body_->points().size())};
+      return {points, interface_.impulse()};
     case crack_pressure:
-      crack_pressure_.resize(facets->count);
-      return {facets, crack_pressure_};
+      return {facets, of_facets(id, crack_pressure_)};
     case crack_viscosity:
-      crack_viscosity_.resize(facets->count);
-      return {facets, crack_viscosity_};
+      return {facets, of_facets(id, crack_viscosity_)};
     case crack_leak_off:
-      crack_leak_off_.resize(facets->count);
-      return {facets, crack_leak_off_};
+      return {facets, of_facets(id, crack_leak_off_)};
     case displacement:
       find_unknowns();
       return {points, std::span(unknowns_).first(D * body_->points().volume.size())};

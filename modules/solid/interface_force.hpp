@@ -20,11 +20,9 @@ class InterfaceForce {
             PortRole::field,     dimension};
   }
 
-  /// The input, empty until it is asked for.
-  std::vector<double>& impulse(std::size_t size) {
-    impulse_.resize(size);
-    return impulse_;
-  }
+  void connect(std::size_t size) { impulse_.resize(size); }
+  /// The input, empty until it is connected.
+  std::span<double> impulse() { return impulse_; }
   bool is_linked() const { return !impulse_.empty(); }
 
   void begin(const TimeWindow& window) {

@@ -86,10 +86,9 @@ PortView QuasiStaticSolid<D>::port(PortId id) {
   const PointSet* const points = &body_->point_set();
   switch (id) {
     case pore_stress:
-      pore_stress_.resize(body_->points().size());
       return {points, pore_stress_};
     case interface_impulse:
-      return {points, interface_.impulse(D * body_->points().size())};
+      return {points, interface_.impulse()};
     case displacement:
       return {points, std::span(unknowns_).first(D * body_->points().volume.size())};
     case dilatation:
@@ -120,6 +119,13 @@ void QuasiStaticSolid<D>::initialize(double) {
   force_.assign(stiffness_.rows(), 0.0);
   external_work_ = 0.0;
   derive_from_unknowns();
+}
+
+template <int D>
+void QuasiStaticSolid<D>::connect(PortId in) {
+  const std::size_t count = body_->points().size();
+  if (in == pore_stress) pore_stress_.resize(count);
+  if (in == interface_impulse) interface_.connect(D * count);
 }
 
 template <int D>

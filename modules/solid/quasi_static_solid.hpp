@@ -46,6 +46,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   }
 
   void initialize(double t) override;
+  void connect(PortId in) override;
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
   void visit_state(StateVisitor& visitor) override;
@@ -84,7 +85,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   std::vector<double> force_;     ///< external force on every unknown, reactions included [N]
   double external_work_ = 0.0;
 
-  std::vector<double> pore_stress_;          ///< input; empty until somebody links it
+  std::vector<double> pore_stress_;          ///< input; empty until it is connected
   std::vector<double> pore_stress_at_rest_;  ///< empty: none
   InterfaceForce interface_;
   std::vector<double> dilatation_;

@@ -38,10 +38,27 @@ class ModuleContract : public testing::TestWithParam<ModuleCase> {
  protected:
   using Outputs = std::vector<std::vector<double>>;
 
+  /// Initialised, and all its in-ports connected.
   std::unique_ptr<PhysicsModule> make() const {
     auto module = GetParam().make();
     module->initialize(0.0);
+    connect_all(*module);
     return module;
+  }
+
+  static void connect_all(PhysicsModule& module) {
+    const auto ports = module.ports();
+    for (std::size_t id = 0; id < ports.size(); ++id) {
+      if (ports[id].direction == PortDirection::in) module.connect(static_cast<PortId>(id));
+    }
+  }
+
+  /// Every port, from the last to the first, and some twice.
+  static void read_all(PhysicsModule& module) {
+    for (auto id = static_cast<PortId>(module.ports().size()); id-- > 0;) {
+      module.port(id);
+      module.port(id / 2);
+    }
   }
 
   /// Feeds every in-port a field that varies over the points and, over `length` [s], in time.
@@ -160,6 +177,42 @@ TEST_P(ModuleContract, PortsHaveAsManyValuesAsTheirPoints) {
     if (port.role != PortRole::field && port.role != PortRole::property) {
       EXPECT_EQ(values, 1u) << port.name;
     }
+  }
+}
+
+TEST_P(ModuleContract, ReadingPortsChangesNothing) {
+  for (const bool connected : {false, true}) {
+    const auto module = GetParam().make(), read = GetParam().make();
+    double t = 0.0;
+    for (PhysicsModule* each : {module.get(), read.get()}) {
+      const auto look = [&] {
+        if (each == read.get()) read_all(*each);
+      };
+      each->initialize(0.0);
+      look();
+      if (connected) connect_all(*each);
+      look();
+      feed(*each, 0.0);
+      look();
+      each->advance({0.0, 0.0});
+      look();
+      each->conclude({0.0, 0.0});
+      look();
+      t = 0.0;
+      for (int n = 0; n < 3; ++n) {
+        const double reached = advance(*each, t);
+        look();
+        each->conclude({t, reached});
+        look();
+        t = reached;
+        const Snapshot now = save(*each);
+        look();
+        restore(*each, now, t);
+        look();
+      }
+    }
+    expect_same(save(*module), save(*read), connected ? "connected" : "not connected");
+    EXPECT_EQ(outputs(*module), outputs(*read));
   }
 }
 

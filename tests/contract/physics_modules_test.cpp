@@ -5,6 +5,7 @@
 #include "core/errors.hpp"
 #include "tests/contract/module_contract.hpp"
 #include "tests/contract/scene_text.hpp"
+#include "tests/port_named.hpp"
 
 namespace perifrac {
 namespace {
@@ -391,11 +392,7 @@ TEST(StabilisedPoreFlow, LeavesFluidAtRest) {
                      "pore_flow.boundary={left: {type: sealed}}",
                      std::string("pore_flow.operator=") + operator_name});
     flow->initialize(0.0);
-    const auto port = [&](const std::string& name) {
-      const auto ports = flow->ports();
-      return flow->port(
-          static_cast<PortId>(std::ranges::find(ports, name, &Port::name) - ports.begin()));
-    };
+    const auto port = [&](const std::string& name) { return test::port_named(*flow, name); };
     const std::span<const double> pressure = port("pore_pressure").value;
     const std::vector<double> before(pressure.begin(), pressure.end());
     const PortView dilatation = port("dilatation");

@@ -7,6 +7,7 @@
 
 #include "app/simulation.hpp"
 #include "tests/contract/scene_text.hpp"
+#include "tests/port_named.hpp"
 
 namespace perifrac::test {
 namespace {
@@ -34,10 +35,7 @@ struct PoreRun {
     return field_named(*simulation.manager, name).values();
   }
   double scalar(const std::string& name) const {
-    PhysicsModule& module = *simulation.manager->modules()[0].module;
-    const auto ports = module.ports();
-    const auto found = std::ranges::find(ports, name, &Port::name);
-    return module.port(static_cast<PortId>(found - ports.begin())).value[0];
+    return test::port_named(*simulation.manager->modules()[0].module, name).value[0];
   }
   double mass_error() const { return simulation.manager->ledger().mass()->relative_error; }
   double energy_error() const { return simulation.manager->ledger().energy()->relative_error; }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/port_named.hpp"
 #include "tests/unit/crack_fluid/crack_run.hpp"
 
 namespace perifrac {
@@ -27,11 +28,7 @@ struct GrownSlit {
     add(5, reach);
   }
   void add(double from, double to) { bonds.add_facet({{{from, 2.0}, {to, 2.0}}}, {}); }
-  PortView port(const std::string& name) {
-    const auto ports = module.ports();
-    return module.port(
-        static_cast<PortId>(std::ranges::find(ports, name, &Port::name) - ports.begin()));
-  }
+  PortView port(const std::string& name) { return test::port_named(module, name); }
   /// Pressures after three seconds.
   std::vector<double> pressures() {
     std::ranges::fill(port("free_crack_opening").value, 1e-4);

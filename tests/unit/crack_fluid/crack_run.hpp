@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "modules/crack_fluid/crack_network.hpp"
+#include "tests/port_named.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac::test {
@@ -49,11 +50,7 @@ class CrackRun {
   }
 
   CrackNetwork<2>& module() { return *module_; }
-  PortView port(const std::string& name) {
-    const auto ports = module_->ports();
-    const auto found = std::ranges::find(ports, name, &Port::name);
-    return module_->port(static_cast<PortId>(found - ports.begin()));
-  }
+  PortView port(const std::string& name) { return test::port_named(*module_, name); }
   std::vector<double> values(const std::string& name) {
     const auto value = port(name).value;
     return {value.begin(), value.end()};

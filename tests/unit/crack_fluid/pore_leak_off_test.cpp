@@ -8,6 +8,7 @@
 #include "coupling/coupling_keys.hpp"
 #include "coupling/manager.hpp"
 #include "tests/contract/scene_text.hpp"
+#include "tests/port_named.hpp"
 
 namespace perifrac {
 namespace {
@@ -86,10 +87,7 @@ struct LeakingStrip {
     }
   }
   double scalar(int module, const std::string& name) {
-    PhysicsModule& physics = *manager->modules()[module].module;
-    const auto ports = physics.ports();
-    const auto found = std::ranges::find(ports, name, &Port::name);
-    return physics.port(static_cast<PortId>(found - ports.begin())).value[0];
+    return test::port_named(*manager->modules()[module].module, name).value[0];
   }
   double leaked() { return -scalar(0, "leaked_crack_fluid_mass"); }
 };

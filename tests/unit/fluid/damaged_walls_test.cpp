@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/port_named.hpp"
 #include "tests/unit/fluid/fluid_run.hpp"
 
 /// Rock that fluid may enter where its bonds are broken, as published.
@@ -41,10 +42,8 @@ struct Outcome {
 /// damaged so far.
 Outcome thrown(const std::string& interface, double damage, int steps = 200) {
   FluidRun run(scene(interface));
-  const auto ports = run.module().ports();
-  const auto id = std::ranges::find(ports, "damage", &Port::name) - ports.begin();
-  if (id < std::ssize(ports)) {
-    const PortView view = run.module().port(static_cast<PortId>(id));
+  if (run.has("damage")) {
+    const PortView view = test::port_named(run.module(), "damage");
     for (std::size_t i = 0; i < view.value.size(); ++i) {
       view.value[i] = view.points->position[1][i] > 0.4 ? damage : 0.0;
     }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/lattice.hpp"
+#include "tests/port_named.hpp"
 #include "tests/unit/fluid/fluid_run.hpp"
 
 namespace perifrac {
@@ -156,11 +157,7 @@ fluid:
   container: {from: [0 m, 0 m], to: [0.8 m, 1 m], faces: {left: periodic, right: periodic, bottom: open, top: open}}
   blocks: [{name: pool, from: [0 m, 0.4 m], to: [0.8 m, 0.8 m]}]
 )");
-  const auto input = [&](const char* name) {
-    const auto ports = run.module().ports();
-    const auto found = std::ranges::find(ports, name, &Port::name);
-    return run.module().port(static_cast<PortId>(found - ports.begin())).value;
-  };
+  const auto input = [&](const char* name) { return test::port_named(run.module(), name).value; };
   std::ranges::fill(input("pore_pressure"), 20e3);
   std::ranges::fill(input("pore_mobility"), 1e-5);
   const double before = run.value("free_fluid_mass");

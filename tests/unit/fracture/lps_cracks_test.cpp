@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "modules/solid/fracturing_solid.hpp"
+#include "tests/port_named.hpp"
 #include "tests/unit/fracture/breaking_solid.hpp"
 #include "tests/unit/fracture/cracked_plate.hpp"
 #include "tests/unit/solid/elastic_solid.hpp"
@@ -24,9 +25,7 @@ PlaneStiffness stiffness_of_the_lattice() {
 }
 
 std::vector<double> port_of(PhysicsModule& module, const std::string& name) {
-  const auto ports = module.ports();
-  const auto found = std::ranges::find(ports, name, &Port::name);
-  const auto value = module.port(static_cast<PortId>(found - ports.begin())).value;
+  const auto value = test::port_named(module, name).value;
   return {value.begin(), value.end()};
 }
 
@@ -54,7 +53,7 @@ TEST(LpsCracks, LeaveASolidWithoutThemAsItIs) {
   const std::vector<double> pore = random_values(body->points().volume.size());
   for (PhysicsModule* module :
        {static_cast<PhysicsModule*>(&cracking), static_cast<PhysicsModule*>(&plain)}) {
-    const PortView pores = module->port(0);
+    const PortView pores = test::port_named(*module, "pore_stress");
     std::ranges::copy(pore, pores.value.begin());
     module->initialize(0.0);
     module->advance({0.0, 1.0});

@@ -13,6 +13,7 @@
 #include "modules/pore_flow/make_flow.hpp"
 #include "modules/pore_flow/pore_boundary.hpp"
 #include "modules/pore_flow/smoothed_euler.hpp"
+#include "tests/port_named.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac::test {
@@ -101,9 +102,7 @@ DarcyIntegratorMaker<D> integrator_maker(Method method, double tolerance, double
 }
 
 inline PortView port(PhysicsModule& module, const std::string& name) {
-  const auto ports = module.ports();
-  const auto found = std::ranges::find(ports, name, &Port::name);
-  return module.port(static_cast<PortId>(found - ports.begin()));
+  return test::port_named(module, name);
 }
 
 inline double scalar(PhysicsModule& module, const std::string& name) {

@@ -8,6 +8,7 @@
 
 #include "core/state/snapshot.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
+#include "tests/port_named.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 #include "tests/unit/solid/elastic.hpp"
 
@@ -29,11 +30,7 @@ struct Solid {
 
   Index points() const { return body->points().size(); }
 
-  PortView port(const std::string& name) {
-    const auto ports = module->ports();
-    const auto found = std::ranges::find(ports, name, &Port::name);
-    return module->port(static_cast<PortId>(found - ports.begin()));
-  }
+  PortView port(const std::string& name) { return test::port_named(*module, name); }
 
   void start() {
     module = std::make_unique<QuasiStaticSolid<D>>(body, elastic<D>(*body, boundary, {lambda, mu}),

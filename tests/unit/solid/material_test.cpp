@@ -15,6 +15,7 @@
 #include "modules/solid/linear_exact_elasticity.hpp"
 #include "modules/solid/lps_elasticity.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
+#include "tests/port_named.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {
@@ -71,9 +72,7 @@ std::string layers(const std::string& type) {
 
 /// The value of the port of that name.
 std::span<double> value_of(PhysicsModule& module, const std::string& name) {
-  const auto ports = module.ports();
-  const auto found = std::ranges::find(ports, name, &Port::name);
-  return module.port(static_cast<PortId>(found - ports.begin())).value;
+  return test::port_named(module, name).value;
 }
 
 /// Uniaxial strain under 1 Pa is 1 / modulus in each layer; returns the settlement of the plate

@@ -9,6 +9,7 @@
 
 #include "core/state/snapshot.hpp"
 #include "modules/solid/dynamic_solid.hpp"
+#include "tests/port_named.hpp"
 #include "tests/unit/solid/elastic_solid.hpp"
 
 namespace perifrac::test {
@@ -35,11 +36,7 @@ struct Moving {
                                                density, damping, safety);
     module->initialize(0.0);
   }
-  PortView port(const std::string& name) {
-    const auto ports = module->ports();
-    const auto found = std::ranges::find(ports, name, &Port::name);
-    return module->port(static_cast<PortId>(found - ports.begin()));
-  }
+  PortView port(const std::string& name) { return test::port_named(*module, name); }
   double value(const std::string& name) { return port(name).value[0]; }
   std::vector<double> field(const std::string& name) {
     Snapshot state;
