@@ -164,7 +164,7 @@ CrackState<2> DynamicFracture::crack_state() {
           .pressure = cracks_.pressure(),
           .viscosity = crack_viscosity_,
           .leak_off = crack_leak_off_,
-          .pore_stress = {},
+          .pore_stress = system_->acting_pore_stress(),
           .unknowns = [this](const UnknownNames&) -> std::span<const double> {
             return system_->unknowns();
           },

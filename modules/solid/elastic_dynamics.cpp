@@ -248,6 +248,17 @@ void ElasticDynamics<D>::find_pore_stress(double t) {
 }
 
 template <int D>
+std::span<const double> ElasticDynamics<D>::acting_pore_stress() {
+  acting_pore_stress_.resize(pore_stress_.size());
+  with_pore_stress({pore_stress_, pore_slope_}, [&](auto&& at) {
+    for (std::size_t i = 0; i < pore_stress_.size(); ++i) {
+      acting_pore_stress_[i] = at(static_cast<Index>(i), dilatation_[i]);
+    }
+  });
+  return acting_pore_stress_;
+}
+
+template <int D>
 void ElasticDynamics<D>::find_acted_on() {
   acted_on_.clear();
   const Index points = D * body_.points().size();

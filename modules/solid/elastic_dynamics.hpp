@@ -89,6 +89,10 @@ class ElasticDynamics final : public SecondOrderSystem {
   /// is part of the stiffness.
   void set_pore_stress(const PoreStressInput& input);
 
+  /// That which acts on every point now, with what the rock's dilatation answers [Pa]; empty: none.
+  /// Valid until the next call.
+  std::span<const double> acting_pore_stress();
+
   /// Takes a steady force on the points, D blocks [N]; it must stay valid until the next. Empty:
   /// none.
   void set_interface_force(std::span<const double> force);
@@ -178,6 +182,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   std::vector<double> noted_slope_;  ///< the one that version_ belongs to
   double growth_ = 1.0;
   std::vector<double> no_pore_stress_;
+  std::vector<double> acting_pore_stress_;
 
   Eigen::VectorXd prescribed_now_, load_now_;                          // workspace
   std::vector<double> before_, trial_, inner_, scratch_, block_sums_;  // workspace

@@ -117,6 +117,31 @@ TEST(DynamicFracture, KeepsClosedFacesApart) {
   EXPECT_LE(std::abs(solid.energy_error()), 0.01 * solid.value("external_work") + within_step);
 }
 
+/// Where pores swell a free body evenly no total stress comes of it: the crack goes on at the
+/// pressure of one in dry rock, whatever its effective stress is.
+TEST(DynamicFracture, GrowsAtThePressureOfDryRockUnderAnEvenPoreStress) {
+  const auto pressure_at_growth = [](double pore_stress) {
+    Cracking solid({32, 32}, straight_crack({16.0, 16.0}, 0.0, 8));
+    solid.fracture_energy = 1.0;
+    solid.damping = 0.3;
+    solid.start();
+    double pressure = 0.0;
+    for (int n = 0; solid.value("crack_length") < 8.5 && n < 4000; ++n) {
+      if (pore_stress != 0.0) {
+        std::ranges::fill(solid.port("pore_stress").value, pore_stress * std::min(1.0, n / 400.0));
+      }
+      pressure = n < 600 ? 0.0 : 5e-4 * (n - 600);
+      solid.press(Eigen::VectorXd::Constant(8, pressure));
+    }
+    return pressure;
+  };
+  const double dry = pressure_at_growth(0.0);
+  ASSERT_GT(dry, 0.0);
+  for (const double pore_stress : {0.4, -0.4}) {
+    EXPECT_NEAR(pressure_at_growth(pore_stress), dry, 0.01 * dry) << pore_stress;
+  }
+}
+
 /// Freund (1990), section 2.5: faces of a semi-infinite crack under a sudden uniform pressure,
 ///   K_I = 2 p / (1 - nu) sqrt(c_d t (1 - 2 nu) / pi)
 /// until waves come back. The crack goes on when that has reached the toughness.
