@@ -25,8 +25,9 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
+import mutate  # first: it says where the others are
 import answers
-import mutate
+import small
 from transforms import Keys
 
 SEED = 20
@@ -48,14 +49,14 @@ class Attack:
         self.folder = Path(arguments.folder)
         listed = subprocess.run([self.perifrac, "list", "--json"], capture_output=True, text=True, check=True)
         self.keys = Keys(json.loads(listed.stdout))
-        self.scenes = mutate.shipped()
+        self.scenes = small.shipped()
 
     def scene(self, number):
         """Of that number: small enough, or made up anew."""
         for attempt in range(100):
             chance = random.Random(f"{self.seed}/{number}/{attempt}")
             name, changes, scene = mutate.made_up(chance, self.scenes, self.keys)
-            if mutate.points_of(scene) <= MOST_POINTS and changes:
+            if 1 < mutate.points_of(scene) <= MOST_POINTS and changes:
                 return name, changes, scene
         raise RuntimeError(f"no scene of number {number}")
 
@@ -63,7 +64,7 @@ class Attack:
         """Ended after so many seconds of processor time: a machine busy with other things needs the room."""
         limit = int(patience) + 1
         try:
-            done = subprocess.run(["nice", self.perifrac, *words], capture_output=True, text=True, errors="replace",
+            done = subprocess.run(["nice", "-n", "5", self.perifrac, *words], capture_output=True, text=True, errors="replace",
                                   timeout=20.0 * patience,
                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)))
         except subprocess.TimeoutExpired:
@@ -110,13 +111,12 @@ class Attack:
             until, foretold = scene["time"]["end"] * DEAR / foretold, DEAR
         if code in (0, 1):
             code, said, folder = self.run(scene, file, foretold, until)
-        ended = ending(code, said)
+        ended = {**ending(code, said), "foretold": foretold, "until": until}
         if ended["outcome"] != "right":
             return ended
         return {**ended, **self.comparison(scene, work, answers.Answer(folder), foretold, until)}
 
     def comparison(self, scene, work, answer, foretold, until):
-        spacing = scene.get("body", {}).get("spacing")
         dear = 2**(scene["dimension"] + 2)
         result = {"difference": 0.0, "figure": "", "compared": []}
         for word, other, cost in (("spacing", mutate.finer(scene), dear), ("window", mutate.shorter_windows(scene), 2)):
@@ -127,7 +127,7 @@ class Attack:
                 result[f"at half the {word}"] = ending(code, said)["said"]
                 continue
             result["compared"].append(word)
-            far, figure = answers.farthest(answer, answers.Answer(folder), spacing)
+            far, figure = answers.farthest(answer, answers.Answer(folder), scene)
             if far > result["difference"]:
                 result.update(difference=far, figure=f"{figure} at half the {word}")
         return result
