@@ -6,7 +6,7 @@ import numpy
 import scene_values
 
 FOR_SIZE = re.compile(r" at size\d+$")  # probes that only say how large a field gets
-FIGURES = re.compile(r"(pore_pressure|displacement|fluid_pressure|effective_stress)\S* at |_plate_displacement$|crack_length$|"
+FIGURES = re.compile(r"(pore_pressure|displacement|fluid_pressure|fluid_velocity|effective_stress)\S* at |_plate_displacement$|crack_length$|"
                      r"inlet_\S*_(pressure|opening)$|mean_crack_pressure$|energy_stored$|energy_gained$|fluid_mass_gained$|"
                      r"fracture_energy$|leak_off_volume$")
 NOTHING = 1e-12  # of the body's size, of the stiffest modulus, of all mass: as good as none of a quantity
@@ -38,8 +38,8 @@ class Answer:
 
 
 def quantity(name):
-    """All places and directions of a field are one, and all energies."""
-    if name.startswith(("energy_", "fracture_energy")):
+    """All places and directions of a field are one, and all energies and works, whose differences some are."""
+    if name != "energy_error" and re.search(r"energy|_work$", name):
         return "energy"
     return re.sub(r"(_[xyz]+)?( at .*)?$", "", name)
 
@@ -49,7 +49,7 @@ def least_sizes(answer, scene):
     moduli = [value for path, value in scene_values.leaves(scene) if "modulus" in str(path[-1]) or "lame" in str(path[-1])]
     size = [*scene.get("body", {}).get("size", []), scene.get("body", {}).get("radius", 0.0)]
     pressure = NOTHING * max(moduli, default=0.0)
-    return {"displacement": NOTHING * max(size), "pore_pressure": pressure, "effective_stress": pressure,
+    return {"displacement": NOTHING * max(size, default=0.0), "pore_pressure": pressure, "effective_stress": pressure,
             "fluid_pressure": pressure, "mean_crack_pressure": pressure,
             "fluid_mass_gained": NOTHING * largest(answer.columns.get("fluid_mass_stored", numpy.zeros(1)))}
 

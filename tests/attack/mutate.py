@@ -22,6 +22,7 @@ import transforms  # noqa: E402
 FIXED = ("dimension", "title", "seed", "name", "output", "reference", "ledger")
 # Another word of these calls for other keys, beside them or in another section.
 OTHER_KEYS = ("shape", "holds", "motion", "initial_state", "axis", "leak_off", "exchange", "part", "damaged_rock")
+OTHERWISE = ("times", "normal", "radius", "sides", "spacing", "size", "window")  # changed in ways of their own, or not
 SPACINGS = (0.5, 2.0 / 3.0, 0.8, 1.25, 1.5, 2.0, 2.5)
 
 
@@ -37,7 +38,7 @@ def numbers(scene, keys):
             continue
         whole = path[:-1] if isinstance(path[-1], int) else path
         key = keys.find(whole, scene)
-        if key and key["kind"] != "integer" and not any(part in transforms.PLACES for part in path if isinstance(part, str)):
+        if key and key["kind"] != "integer" and not any(part in (*transforms.PLACES, *OTHERWISE) for part in path if isinstance(part, str)):
             found.append((path, value, key))
     return found
 
@@ -57,8 +58,7 @@ def in_range(random, value, key):
 
 
 def change_number(random, scene, keys):
-    choices = [one for one in numbers(scene, keys) if one[0][-1] != "spacing" and "size" not in one[0] and "window" not in one[0]]
-    choices = [one for one in choices if one[1] != 0.0]
+    choices = [one for one in numbers(scene, keys) if one[1] != 0.0]
     path, value, key = random.choice(choices)
     changed = in_range(random, value, key)
     assign(scene, path, changed)

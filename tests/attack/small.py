@@ -32,7 +32,12 @@ SMALL = {
     "hf_leakoff_pores": {"time.end": 0.02},
     "hf_natural_fracture": {"body.spacing": 0.0025, "time.end": 0.05},
     "hf_storage": {"body.spacing": 0.0025, "time.end": 0.05},
-    "hf_storage_points": {"time.end": 0.008},
+    "hf_storage_points": {"body.size": [0.048, 0.06], "body.cutouts.notch": {"from": [0.022, 0.05], "to": [0.026, 0.06]},
+                          "cracks[0].path": [0.024, 0.05, 0.024, 0.046], "solid.pins[0].at": [0.023, 0.0],
+                          "solid.pins[1].at": [0.025, 0.0], "fluid.container.from": [0.022, 0.05],
+                          "fluid.container.to": [0.026, 0.06], "fluid.blocks[0].from": [0.022, 0.05],
+                          "fluid.blocks[0].to": [0.026, 0.06], "fluid.inlets[0].from": [0.022, 0.058],
+                          "fluid.inlets[0].to": [0.026, 0.06], "time.end": 0.008},
     "hf_storage_pores": {"time.end": 0.02},
     "kalthoff": {"body.spacing": 0.002, "body.regions.struck.to": [0.002, 0.025]},
     "kgd_leakoff": wing(0.2, 0.0025, 0.01, 0.02),
@@ -74,10 +79,14 @@ def shipped():
 
 def places(scene):
     """Where answers are read, and where only how large they get."""
-    size = scene.get("body", {}).get("size")
-    if not size:
+    body, blocks = scene.get("body"), scene.get("fluid", {}).get("blocks")
+    if body and "size" in body:
+        low, high = [0.0] * len(body["size"]), body["size"]
+    elif blocks and not body:
+        low, high = blocks[0]["from"], blocks[0]["to"]
+    else:
         return []
     read = {"p0": (0.31, 0.37, 0.43), "p1": (0.72, 0.58, 0.66)}
-    parts = itertools.product((0.02, 0.5, 0.98), repeat=len(size))
+    parts = itertools.product((0.02, 0.5, 0.98), repeat=len(low))
     read.update({f"size{n}": part for n, part in enumerate(parts)})
-    return [{"name": name, "at": [part * extent for part, extent in zip(at, size)]} for name, at in read.items()]
+    return [{"name": name, "at": [a + part * (b - a) for part, a, b in zip(at, low, high)]} for name, at in read.items()]
