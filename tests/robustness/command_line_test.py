@@ -112,6 +112,17 @@ class CommandLine(RunTest):
         self.assertIn("the coupling does not converge", wild["failure"])
         self.assertFalse(wild["trial"]["is_whole"])
 
+    def test_a_trial_ends_in_the_midst_of_a_window(self):
+        """The first window takes some 1e11 steps."""
+        keys = {"pore_flow.integrator.type": "explicit", "pore_flow.permeability": "1e-6 m^2", "time.end": "1e9 s",
+                "output.interval": "1e9 s"}
+        done = perifrac("check", HERE / "pore_flow_only.yaml", "--json", "--trial", "0.1", *settings(keys))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        forecast = json.loads(done.stdout)["forecast"]
+        self.assertLess(forecast["trial"]["time"], 1.0)
+        self.assertFalse(forecast["trial"]["is_whole"])
+        self.assertGreater(forecast["seconds"], 1e6)
+
     def test_check_says_the_regime_of_a_crack_that_fluid_drives(self):
         def check(scene, *keys):
             overrides = [word for key in keys for word in ("--set", key)]
