@@ -64,6 +64,9 @@ def sizes_of(one, other, scene):
     for answer in (one, other):
         for name, column in answer.columns.items():
             sizes[quantity(name)] = max(sizes.get(quantity(name), 0.0), largest(column))
+    # What moves is pressed upon by its own weight in motion; less is the noise of sound.
+    moving = scene.get("fluid", {}).get("density", 1000.0) * sizes.get("fluid_velocity", 0.0)**2
+    sizes["fluid_pressure"] = max(sizes["fluid_pressure"], moving)
     return sizes
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Attacks the program with made-up scenes and says how each ended.
 
-Usage: attack.py PERIFRAC [--count N] [--seed S] [--first N] [--jobs N] [--folder DIR] [--again]
+Usage: attack.py PERIFRAC [--count N] [--seed S] [--first N] [--jobs N] [--folder DIR] [--only SCENE ...] [--again]
 
 Each scene is run, and run again at half the spacing and with windows half as long. Outcomes:
 right (the three agree to 20 %), warned, refused (exit 2), failed (exit 1 with field, place and
@@ -49,7 +49,7 @@ class Attack:
         self.folder = Path(arguments.folder)
         listed = subprocess.run([self.perifrac, "list", "--json"], capture_output=True, text=True, check=True)
         self.keys = Keys(json.loads(listed.stdout))
-        self.scenes = small.shipped()
+        self.scenes = {name: scene for name, scene in small.shipped().items() if not arguments.only or name in arguments.only}
 
     def scene(self, number):
         """Of that number: small enough, or made up anew."""
@@ -195,6 +195,7 @@ def main():
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--folder", default="runs/attack")
+    parser.add_argument("--only", nargs="*", help="of these shipped scenes")
     parser.add_argument("--again", action="store_true")
     arguments = parser.parse_args()
     attack = Attack(arguments)
