@@ -93,6 +93,15 @@ class Validity(RunTest):
         self.assert_warns(MANDEL, swinging, "of first order only", "pore_pressure swings from point to point")
         self.assert_warns(MANDEL, SHORT)
 
+    def test_sudden_drainage_where_storage_cannot_be_stabilised(self):
+        layers = STILL_SHORT | {"pore_flow.undrained_stabilisation": "0"}
+        warned, = self.assert_warns(CONFIGS / "mandel_layers.yaml", layers, "pore_pressure swings from point to point")
+        self.assertIn("by a schedule", warned)
+
+    def test_a_slit_in_rigid_rock_may_begin_at_any_pressure(self):
+        self.assert_warns(CONFIGS / "slit_flow.yaml", {"body.spacing": "2 mm", "time.end": "10 ms",
+                                                       "crack_fluid.filled[0].pressure": "1 MPa"})
+
     def test_density(self):
         pressed = {"pore_flow.fluid.bulk_modulus": "100 kPa", "pore_flow.initial_pressure": "50 kPa"}
         self.assert_warns(MANDEL, SHORT | pressed, "pore_pressure is 0.5 of the fluid's bulk modulus")
