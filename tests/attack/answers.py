@@ -81,9 +81,10 @@ def farthest(one, other, scene):
         if not FIGURES.search(name) or FOR_SIZE.search(name) or name not in other.columns:
             continue
         difference = abs(one.mean(name, begin) - other.mean(name, begin))
-        if name == "crack_length":  # it grows by spacings: what is less than one says nothing
-            difference = max(0.0, difference - spacing)
         size = sizes[quantity(name)]
+        if name.endswith("crack_length"):  # it grows, and opens, by spacings: what is less than one says nothing
+            difference = max(0.0, difference - spacing)
+            size = sizes["crack_length"]
         if size > 0.0 and difference / size > worst[0]:
             worst = (difference / size, name)
     return worst

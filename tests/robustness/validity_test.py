@@ -102,6 +102,12 @@ class Validity(RunTest):
         self.assert_warns(CONFIGS / "slit_flow.yaml", {"body.spacing": "2 mm", "time.end": "10 ms",
                                                        "crack_fluid.filled[0].pressure": "1 MPa"})
 
+    def test_a_crack_that_fluid_has_hardly_entered(self):
+        soon = {"body.spacing": "2.5 mm", "cracks[1]": "null", "time.end": "0.05 ms", "output.interval": "0.05 ms"}
+        del soon["cracks[1]"]
+        self.assert_warns(FLUID, soon, "fluid fills")
+        self.assert_warns(FLUID, soon | {"time.end": "1 ms"})
+
     def test_density(self):
         pressed = {"pore_flow.fluid.bulk_modulus": "100 kPa", "pore_flow.initial_pressure": "50 kPa"}
         self.assert_warns(MANDEL, SHORT | pressed, "pore_pressure is 0.5 of the fluid's bulk modulus")

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/simulation.hpp"
+#include "core/config/section.hpp"
+
+namespace perifrac {
+
+/// Where a run ends while fluid has hardly begun to enter a crack: what fills a facet or two has no
+/// pressure and no opening yet that would not depend on how long facets are.
+std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation);
+
+}  // namespace perifrac
