@@ -278,6 +278,8 @@ int run_scene(const RunRequest& request) {
         signal = advance_to_end(simulation, recorder, watch, outputs);
         if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
         if (const auto warning = filling_warning(scene, simulation)) log_warning(*warning);
+        const double end = simulation.manager->time();
+        if (const auto warning = leak_off_warning(scene, end)) log_warning(*warning);
         recorder.write_checkpoint(false);
         recorder.check_kept();
         return signal;

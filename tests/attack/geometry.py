@@ -101,6 +101,15 @@ def fits(scene):
                for box in boxes for a, size in enumerate(body["size"]))
 
 
+def thin_layers(scene, factor):
+    """Bonded layers are as thick as so many spacings: what of a crack lies in them is so, too."""
+    if not scene.get("body", {}).get("boundary"):
+        return
+    for crack in scene.get("cracks", []):
+        if "path" in crack:
+            crack["path"] = [x * factor if x < 0.0 else x for x in crack["path"]]
+
+
 def crack_lengths(scene):
     for crack in scene.get("cracks", []):
         if "radius" in crack:

@@ -158,6 +158,7 @@ def change_spacing(random, scene, keys):
         if not geometry.is_whole(scene, body["spacing"] * factor):
             return None
         body["spacing"] *= factor
+        geometry.thin_layers(scene, factor)
         return f"body.spacing={body['spacing']:.6g}"
     if fluid.get("spacing") and geometry.is_whole(scene, fluid["spacing"] * factor):
         fluid["spacing"] *= factor
@@ -242,6 +243,7 @@ def finer(scene):
         if isinstance(scene.get(section), dict) and isinstance(scene[section].get("spacing"), float):
             scene[section]["spacing"] *= 0.5
             halved = True
+    geometry.thin_layers(scene, 0.5)
     return scene if halved else None
 
 

@@ -40,7 +40,7 @@ SMALL = {
                           "fluid.inlets[0].to": [0.026, 0.06], "time.end": 0.008},
     "hf_storage_pores": {"time.end": 0.02},
     # The notch goes through the layer, which is four spacings thick.
-    "kalthoff": {"body.spacing": 0.002, "body.regions.struck.to": [0.002, 0.025], "cracks[0].path": [-0.008, 0.025, 0.05, 0.025]},
+    "kalthoff": {"body.spacing": 0.0025, "body.regions.struck.to": [0.0025, 0.025], "cracks[0].path": [-0.01, 0.025, 0.05, 0.025]},
     "kgd_leakoff": wing(0.2, 0.0025, 0.01, 0.02),
     "kgd_mixed": wing(0.4, 0.005, 0.02, 0.04),
     "kgd_oblique": {"body.size": [0.3, 0.3],

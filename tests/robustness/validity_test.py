@@ -102,6 +102,12 @@ class Validity(RunTest):
         self.assert_warns(CONFIGS / "slit_flow.yaml", {"body.spacing": "2 mm", "time.end": "10 ms",
                                                        "crack_fluid.filled[0].pressure": "1 MPa"})
 
+    def test_leak_off_within_a_spacing(self):
+        short = {"body.spacing": "5 mm", "time.end": "1 ms", "output.interval": "1 ms"}
+        for scene, warns in (("hf_storage_pores.yaml", True), ("hf_leakoff_pores.yaml", False)):
+            warned = self.warnings(CONFIGS / scene, short)
+            self.assertEqual(any("into the pores beside cracks" in warning for warning in warned), warns, warned)
+
     def test_a_crack_that_fluid_has_hardly_entered(self):
         soon = {"body.spacing": "2.5 mm", "cracks[1]": "null", "time.end": "0.05 ms", "output.interval": "0.05 ms"}
         del soon["cracks[1]"]
