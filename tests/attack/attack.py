@@ -208,6 +208,8 @@ def main():
     left = [number for number in numbers if number not in found]
     with open(file, "a", encoding="utf-8") as lines, ThreadPoolExecutor(arguments.jobs) as pool:
         for done in as_completed([pool.submit(attack.attack, number) for number in left]):
+            if done.exception():
+                pool.shutdown(cancel_futures=True)
             one = done.result()
             found[one["number"]] = one
             lines.write(json.dumps(one) + "\n")
