@@ -92,7 +92,7 @@ faults: perifrac
 
 # Goes on where it was stopped.
 attack: perifrac
-	tests/attack/attack.py $(PERIFRAC) --count $(ATTACK_COUNT) --jobs $(ATTACK_JOBS)
+	nice tests/attack/attack.py $(PERIFRAC) --count $(ATTACK_COUNT) --jobs $(ATTACK_JOBS)
 
 fuzz: perifrac
 	@tools/install clang

@@ -9,6 +9,7 @@
 
 #include "app/array_list.hpp"
 #include "app/coarse_twin.hpp"
+#include "app/filling_warning.hpp"
 #include "app/forecast.hpp"
 #include "app/memory.hpp"
 #include "app/output_times.hpp"
@@ -187,6 +188,9 @@ nlohmann::json built(const CheckRequest& request, const Section& scene) {
   }
   for (const std::string& warning : scene_warnings(scene, regime)) {
     result["warnings"].push_back(warning);
+  }
+  if (const auto warning = leak_off_warning(scene, scene.number("time.end"))) {
+    result["warnings"].push_back(*warning);
   }
   if (!(request.trial_seconds > 0.0)) return result;
   const double building =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "app/summary.hpp"
 #include "core/errors.hpp"
@@ -95,6 +96,38 @@ Cost cost_of(const CouplingManager& manager, std::span<const Trial> trial) {
   return cost;
 }
 
+/// The shortest of any module [s]; infinite where none has its own.
+double shortest_step(const CouplingManager& manager) {
+  double step = std::numeric_limits<double>::infinity();
+  for (const ModuleSlot& slot : manager.modules()) {
+    step = std::min(step, slot.module->stable_time_step());
+  }
+  return step;
+}
+
+/// Windows are cut short in a trial, so that one of very many steps does not go on long after it.
+class Reach {
+ public:
+  explicit Reach(const CouplingManager& manager) : manager_(manager) {}
+
+  /// How far the next window may go [s of the scene], with so many seconds left.
+  double next(double left) const {
+    const double steps = cost_ > 0.0 ? std::min(growth * steps_, left / cost_) : first_steps;
+    return manager_.time() + std::max(first_steps, steps) * shortest_step(manager_);
+  }
+
+  void took(double seconds, double length) {
+    steps_ = std::max(first_steps, length / shortest_step(manager_));
+    cost_ = seconds / steps_;
+  }
+
+ private:
+  static constexpr double first_steps = 20.0, growth = 4.0;
+
+  const CouplingManager& manager_;
+  double steps_ = 0.0, cost_ = 0.0;  ///< of the last window; of a step of it [s]
+};
+
 /// Windows that nothing cuts, from where the simulation stands to the last output.
 template <class Use>
 void for_each_window_to_come(const CouplingManager& manager, std::span<const double> outputs,
@@ -132,13 +165,16 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
     return processor_time() - processors_before < (waits ? longest_wait : 1.0) * trial_seconds;
   };
   auto output = outputs.begin();
+  Reach reach(manager);
   try {
     manager.settle();
     while (output != outputs.end() && goes_on()) {
       const double t = manager.time();
       const Index facets = facet_count(simulation);
       const std::vector<double> before = spent(manager, begin);
-      manager.advance(*output);
+      const double used = processor_time();
+      manager.advance(std::min(*output, reach.next(trial_seconds - (used - processors_before))));
+      reach.took(processor_time() - used, manager.time() - t);
       trial.push_back({manager.time() - t, spent_since(before, spent(manager, begin)),
                        facet_count(simulation) - facets});
       if (manager.time() != *output) continue;

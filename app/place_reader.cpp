@@ -194,8 +194,12 @@ void PlaceReader::follow(const PointSet& points) {
 }
 
 double PlaceReader::value(const Field& field, int component) const {
-  const std::size_t count = field.points().count;
-  return weights_.value(field.values().subspan(component * count, count));
+  return value(field.module->port(field.id), component);
+}
+
+double PlaceReader::value(const PortView& view, int component) const {
+  const std::size_t count = view.points->count;
+  return weights_.value(view.value.subspan(component * count, count));
 }
 
 double fluid_spacing(const Section& scene) {

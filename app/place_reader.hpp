@@ -26,6 +26,7 @@ class PlaceReader {
   void follow(const PointSet& points);
   /// One component; not a number where there is nothing to read.
   double value(const Field& field, int component = 0) const;
+  double value(const PortView& view, int component) const;
   std::size_t points_read() const { return weights_.points.size(); }
 
  private:

@@ -37,8 +37,7 @@ bool is_in_rock(const Field& field, const Simulation& simulation) {
 Probes::Probes(const Section& output, const Simulation& simulation, double fluid_spacing) {
   for (const Field& field : fields_of(*simulation.manager)) {
     if (has_place(field)) continue;
-    add_columns(field.port, "");
-    probes_.push_back({{field}, {}});
+    add_columns(field, {}, "");
   }
   Mistakes mistakes;
   for (std::size_t n = 0; n < output.count("probes"); ++n) {
@@ -76,30 +75,49 @@ void Probes::read(const Section& output, const std::string& item, const Simulati
     const PointSet& points = fields.front().points();
     const auto others = std::ranges::stable_partition(
         fields, [&](const Field& field) { return field.points().name == points.name; });
-    Probe probe{{fields.begin(), others.begin()},
-                PlaceReader(simulation, points, output.numbers(at), fluid_spacing)};
-    for (const Field& field : probe.fields) add_columns(field.port, suffix);
+    const std::size_t probe = probes_.size();
+    probes_.push_back({PlaceReader(simulation, points, output.numbers(at), fluid_spacing), 0});
+    for (auto field = fields.begin(); field != others.begin(); ++field) {
+      add_columns(*field, probe, suffix);
+    }
+    probes_.back().column = columns_.size();
     columns_.push_back({fmt::format("{} points read{}", points.name, suffix), ""});
-    probes_.push_back(std::move(probe));
     fields.erase(fields.begin(), others.begin());
   }
 }
 
-void Probes::add_columns(const Port& port, const std::string& suffix) {
-  for (int c = 0; c < port.components; ++c) {
-    columns_.push_back({port.name + component_suffix(c, port.components) + suffix, port.unit});
+void Probes::add_columns(const Field& field, std::optional<std::size_t> probe,
+                         const std::string& suffix) {
+  const auto is_same = [&](const Recorded& other) {
+    return other.field.module == field.module && other.field.id == field.id;
+  };
+  auto recorded = std::ranges::find_if(recorded_, is_same);
+  if (recorded == recorded_.end()) recorded = recorded_.insert(recorded, {field, {}});
+  for (int c = 0; c < field.port.components; ++c) {
+    recorded->columns.push_back({columns_.size(), c, probe});
+    columns_.push_back(
+        {field.port.name + component_suffix(c, field.port.components) + suffix, field.port.unit});
   }
 }
 
 void Probes::append_values(std::vector<double>& row) {
-  for (auto& [fields, reader] : probes_) {
-    if (reader) reader->follow(fields.front().points());
-    for (const Field& field : fields) {
-      for (int c = 0; c < field.port.components; ++c) {
-        row.push_back(reader ? reader->value(field, c) : field.values()[c]);
+  const std::size_t first = row.size();
+  row.resize(first + columns_.size());
+  for (Probe& probe : probes_) probe.follows = false;
+  for (const auto& [field, columns] : recorded_) {
+    const PortView view = field.module->port(field.id);
+    for (const Column& one : columns) {
+      double& value = row[first + one.column];
+      if (!one.probe) {
+        value = view.value[one.component];
+        continue;
       }
+      Probe& probe = probes_[*one.probe];
+      if (!probe.follows) probe.reader.follow(*view.points);
+      probe.follows = true;
+      value = probe.reader.value(view, one.component);
+      row[first + probe.column] = static_cast<double>(probe.reader.points_read());
     }
-    if (reader) row.push_back(static_cast<double>(reader->points_read()));
   }
 }
 

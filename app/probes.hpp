@@ -26,16 +26,28 @@ class Probes {
   void append_values(std::vector<double>& row);
 
  private:
-  /// Fields on one set of points at one place, if they have any.
+  /// A place where the fields of one set of points are read.
   struct Probe {
-    std::vector<Field> fields;
-    std::optional<PlaceReader> reader;
+    PlaceReader reader;
+    std::size_t column;    ///< that says from how many points
+    bool follows = false;  ///< points and cracks as they are in this row
+  };
+  /// Of one field: it may be worked out when it is asked for, so that a row asks once.
+  struct Column {
+    std::size_t column;
+    int component;
+    std::optional<std::size_t> probe;  ///< none: a field without places
+  };
+  struct Recorded {
+    Field field;
+    std::vector<Column> columns;
   };
   void read(const Section& output, const std::string& item, const Simulation& simulation,
             double fluid_spacing);
-  void add_columns(const Port& port, const std::string& suffix);
+  void add_columns(const Field& field, std::optional<std::size_t> probe, const std::string& suffix);
 
   std::vector<Probe> probes_;
+  std::vector<Recorded> recorded_;
   std::vector<HistoryColumn> columns_;
 };
 

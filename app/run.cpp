@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/energy_warnings.hpp"
+#include "app/filling_warning.hpp"
 #include "app/memory.hpp"
 #include "app/output_times.hpp"
 #include "app/profile_report.hpp"
@@ -276,6 +277,9 @@ int run_scene(const RunRequest& request) {
         start(scene, simulation, recorder, folder, restart);
         signal = advance_to_end(simulation, recorder, watch, outputs);
         if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
+        if (const auto warning = filling_warning(scene, simulation)) log_warning(*warning);
+        const double end = simulation.manager->time();
+        if (const auto warning = leak_off_warning(scene, end)) log_warning(*warning);
         recorder.write_checkpoint(false);
         recorder.check_kept();
         return signal;

@@ -22,6 +22,8 @@ namespace {
 constexpr double enough = 7.5;
 /// A dry tip shorter than this part of the crack does not count.
 constexpr double small_lag = 0.01;
+/// One that no points resolve changes length, opening and pressure by less than 5 % up to here.
+constexpr double large_lag = 0.2;
 
 using Place = Vector<2>;
 
@@ -123,7 +125,7 @@ void warn(const Section& scene, double to_faces, SceneRegime& regime) {
         "no fluid lag",
         lag / length));
   }
-  if (lag > small_lag * length && lag < 2.0 * spacing) {
+  if (lag > large_lag * length && lag < 2.0 * spacing) {
     regime.warnings.push_back(
         fmt::format("body.spacing is too coarse for a fluid lag of {:.2g} m, which counts: two "
                     "spacings a lag are the least",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/nucleus_warning.hpp"
+#include "app/place_reader.hpp"
 #include "app/references/comparison.hpp"
 #include "app/references/table_reference.hpp"
 #include "modules/solid/isotropic_elasticity.hpp"
@@ -46,6 +47,29 @@ std::vector<std::string> grain_warnings(const Section& scene) {
   return {};
 }
 
+/// Points at one wall of so narrow a place see those at the other, and what is left free between
+/// points and walls is as much as what they fill.
+std::optional<std::string> narrow_fluid_warning(const Section& scene) {
+  if (!writes(scene, "fluid.blocks")) return {};
+  const double spacing = fluid_spacing(scene);
+  const double least = scene.number("fluid.horizon_ratio") * spacing;
+  for (std::size_t k = 0; k < scene.count("fluid.blocks"); ++k) {
+    const std::string block = fmt::format("fluid.blocks[{}]", k);
+    const std::vector<double> from = scene.numbers(block + ".from"),
+                              to = scene.numbers(block + ".to");
+    for (std::size_t a = 0; a < from.size(); ++a) {
+      const double width = to[a] - from[a];
+      if (width >= least) continue;
+      return fmt::format(
+          "{} is {:g} m wide along axis {}, {:.1f} points: it takes more than the fluid's horizon, "
+          "{:g} m, for a pressure that does not depend on the spacing; bring points closer "
+          "together",
+          block, width, "xyz"[a], width / spacing, least);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const Section& scene,
@@ -53,6 +77,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   std::vector<std::string> warnings = grain_warnings(scene);
   if (regime) warnings.insert(warnings.end(), regime->warnings.begin(), regime->warnings.end());
   if (const auto warning = nucleus_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
   for (const std::string& warning : table_warnings(scene)) warnings.push_back(warning);
   return warnings;
 }

@@ -9,6 +9,7 @@
 #include "app/references/comparison.hpp"
 #include "app/small_strains.hpp"
 #include "core/errors.hpp"
+#include "modules/pore_flow/storage_choice.hpp"
 
 namespace perifrac {
 
@@ -119,15 +120,20 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
   const bool scatters =
       writes(scene, "pore_flow.permeability_scatter") || writes(scene, "solid.material.scatter");
   if (!pressure || scatters || writes(scene, "cracks")) return;
-  limits_.push_back([pressure, &any = simulation.body]() -> std::optional<std::string> {
+  const bool can_be_stabler =
+      std::visit([&](const auto& body) { return can_be_stabilised(scene.at("pore_flow"), *body); },
+                 simulation.body);
+  const char* const advice = can_be_stabler ? "raise pore_flow.undrained_stabilisation, or"
+                                            : "drain it gradually, by a schedule, or";
+  limits_.push_back([=, &any = simulation.body]() -> std::optional<std::string> {
     const double swing =
         std::visit([&](const auto& body) { return largest_swing(*body, pressure->values()); }, any);
     if (!(swing > large_swing)) return {};
     return fmt::format(
         "pore_pressure swings from point to point by {:.0f} % of what it ranges over: points are "
-        "too far apart for what drained so suddenly; raise pore_flow.undrained_stabilisation, or "
-        "bring points closer together; later the swings die away",
-        100.0 * swing);
+        "too far apart for what drained so suddenly; {} bring points closer together; later the "
+        "swings die away",
+        100.0 * swing, advice);
   });
 }
 

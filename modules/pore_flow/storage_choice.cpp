@@ -65,6 +65,11 @@ bool needs_stabilisation(const PoreMaterials& materials, std::span<const double>
 }  // namespace
 
 template <int D>
+bool can_be_stabilised(const Section& pore_flow, const Body<D>& body) {
+  return !not_covered(pore_flow, body);
+}
+
+template <int D>
 std::unique_ptr<PoreStorage> make_storage(const Section& section, const Body<D>& body,
                                           const PoreFluid& fluid, PoreMaterials materials) {
   if (section.has(key) && section.number(key) > 0.0) {
@@ -105,6 +110,8 @@ KeyTable storage_choice_keys() {
                "storage and drained bulk modulus is above 0.25 somewhere; none elsewhere"}};
 }
 
+template bool can_be_stabilised(const Section&, const Body<2>&);
+template bool can_be_stabilised(const Section&, const Body<3>&);
 template std::unique_ptr<PoreStorage> make_storage<2>(const Section&, const Body<2>&,
                                                       const PoreFluid&, PoreMaterials);
 template std::unique_ptr<PoreStorage> make_storage<3>(const Section&, const Body<3>&,

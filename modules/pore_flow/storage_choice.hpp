@@ -13,6 +13,10 @@ namespace perifrac {
 /// `undrained_stabilisation`.
 KeyTable storage_choice_keys();
 
+/// Whether `undrained_stabilisation` may be more than none here.
+template <int D>
+bool can_be_stabilised(const Section& pore_flow, const Body<D>& body);
+
 /// The storage that the scene asks for; where it leaves that open, the points' own.
 /// Throws InputError.
 template <int D>

@@ -3,11 +3,13 @@ import csv
 import re
 
 import numpy
+import scene_values
 
-FIGURES = re.compile(r"(pore_pressure|displacement|fluid_pressure|effective_stress)\S* at |_plate_displacement$|crack_length$|"
+FOR_SIZE = re.compile(r" at size\d+$")  # probes that only say how large a field gets
+FIGURES = re.compile(r"(pore_pressure|displacement|fluid_pressure|fluid_velocity|effective_stress)\S* at |_plate_displacement$|crack_length$|"
                      r"inlet_\S*_(pressure|opening)$|mean_crack_pressure$|energy_stored$|energy_gained$|fluid_mass_gained$|"
                      r"fracture_energy$|leak_off_volume$")
-NOTHING = 1e-9  # of a figure's own largest value, or of its quantity's: what is left of a difference
+NOTHING = 1e-12  # of the body's size, of the stiffest modulus, of all mass: as good as none of a quantity
 
 
 class Answer:
@@ -36,27 +38,53 @@ class Answer:
 
 
 def quantity(name):
+    """All places and directions of a field are one, and all energies and works, whose differences some are."""
+    if name != "energy_error" and re.search(r"energy|_work$", name):
+        return "energy"
     return re.sub(r"(_[xyz]+)?( at .*)?$", "", name)
 
 
-def farthest(one, other, spacing):
-    """(how far, which figure) of the figure that two answers differ by most, over its own size: of
-    all places of a field together, of the crack's growth where that is what there is."""
-    begin = min(one.last_spacing(spacing), other.last_spacing(spacing))
-    sizes = {}
+def least_sizes(answer, scene):
+    """Below which a quantity is rounding."""
+    moduli = [value for path, value in scene_values.leaves(scene) if "modulus" in str(path[-1]) or "lame" in str(path[-1])]
+    size = [*scene.get("body", {}).get("size", []), scene.get("body", {}).get("radius", 0.0)]
+    pressure = NOTHING * max(moduli, default=0.0)
+    return {"displacement": NOTHING * max(size, default=0.0), "pore_pressure": pressure, "effective_stress": pressure,
+            "fluid_pressure": pressure, "mean_crack_pressure": pressure,
+            "fluid_mass_gained": NOTHING * largest(answer.columns.get("fluid_mass_stored", numpy.zeros(1)))}
+
+
+def largest(column):
+    return numpy.abs(column[numpy.isfinite(column)]).max(initial=0.0)
+
+
+def sizes_of(one, other, scene):
+    """Of each quantity the largest value that it had anywhere."""
+    sizes = least_sizes(one, scene)
     for answer in (one, other):
         for name, column in answer.columns.items():
-            if FIGURES.search(name):
-                most = numpy.abs(column[numpy.isfinite(column)]).max(initial=0.0)
-                sizes[quantity(name)] = max(sizes.get(quantity(name), 0.0), most)
+            sizes[quantity(name)] = max(sizes.get(quantity(name), 0.0), largest(column))
+    # What moves is pressed upon by its own weight in motion; less is the noise of sound.
+    moving = scene.get("fluid", {}).get("density", 1000.0) * sizes.get("fluid_velocity", 0.0)**2
+    sizes["fluid_pressure"] = max(sizes["fluid_pressure"], moving)
+    return sizes
+
+
+def farthest(one, other, scene):
+    """(how far, which figure) of the figure that two answers differ by most, over its quantity's size:
+    the largest value that it had at any place; of the crack's growth where that is what there is."""
+    spacing = scene.get("body", {}).get("spacing")
+    begin = min(one.last_spacing(spacing), other.last_spacing(spacing))
+    sizes = sizes_of(one, other, scene)
     worst = (0.0, "")
     for name in one.columns:
-        if not FIGURES.search(name) or name not in other.columns:
+        if not FIGURES.search(name) or FOR_SIZE.search(name) or name not in other.columns:
             continue
         difference = abs(one.mean(name, begin) - other.mean(name, begin))
-        if name == "crack_length":  # it grows by spacings: what is less than one says nothing
-            difference = max(0.0, difference - spacing)
         size = sizes[quantity(name)]
+        if name.endswith("crack_length"):  # it grows, and opens, by spacings: what is less than one says nothing
+            difference = max(0.0, difference - spacing)
+            size = sizes["crack_length"]
         if size > 0.0 and difference / size > worst[0]:
             worst = (difference / size, name)
     return worst

@@ -1,9 +1,10 @@
-"""Made-up scenes: shipped ones under random changes of one to five keys.
+"""Made-up scenes: small ones of those shipped under random changes of one to five keys.
 
 A scene of a number follows from seed and number alone. Kinds of changes: a number times 1e-3 to 1e3
-or, where the catalogue bounds it, anywhere in its range; another word; a body or block larger or
-smaller by spacings; a crack, inlet, source or pin elsewhere or a crack of another length; another
-spacing; windows; all of it in other units of mass, length and time.
+or, where the catalogue bounds it, anywhere in its range; another word; a body larger or smaller by
+spacings; a crack, inlet, source or pin elsewhere or a crack of another length; another spacing;
+windows; all of it in other units of mass, length and time. What a change calls for changes with it:
+what lies on a face goes with the face, one fluid has one density.
 """
 import copy
 import math
@@ -13,67 +14,20 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "metamorphic")]
+import geometry  # noqa: E402
 import scene_values  # noqa: E402
+import small  # noqa: E402
 import transforms  # noqa: E402
 
-CONFIGS = os.path.join(HERE, "..", "..", "configs")
-MOST_POINTS = 1500  # of a shipped scene before it is changed; 5000 after
-FACTORS = (1, 2, 2.5, 4, 5, 8, 10)
 FIXED = ("dimension", "title", "seed", "name", "output", "reference", "ledger")
-PLACES = ("at", "from", "to", "centre", "path")
-OTHER_KEYS = ("shape", "holds", "motion", "initial_state", "axis")  # another word of these calls for other keys
-ON_LATTICE = ("cutouts", "blocks", "container", "walls")
+# Another word of these calls for other keys, beside them or in another section.
+OTHER_KEYS = ("shape", "holds", "motion", "initial_state", "axis", "leak_off", "exchange", "part", "damaged_rock")
+OTHERWISE = ("times", "normal", "radius", "sides", "spacing", "size", "window")  # changed in ways of their own, or not
+SPACINGS = (0.5, 2.0 / 3.0, 0.8, 1.25, 1.5, 2.0, 2.5)
 
 
 def cells(size, spacing):
     return [extent / spacing for extent in size]
-
-
-def coarsened(scene):
-    """At the widest spacing that leaves whole numbers of points, of those with enough points."""
-    body, fluid = scene.get("body"), scene.get("fluid", {})
-    if body and "size" in body and body["shape"] == "box":
-        for factor in FACTORS:
-            counts = cells(body["size"], body["spacing"] * factor)
-            if all(abs(c - round(c)) < 1e-6 for c in counts):
-                fitting = factor
-                if math.prod(counts) <= MOST_POINTS:
-                    break
-        body["spacing"] *= fitting
-    elif body and body["shape"] == "ball":
-        body["spacing"] = max(body["spacing"], body["radius"] / 6.0)
-    if not body and fluid.get("container"):
-        box = [b - a for a, b in zip(fluid["container"]["from"], fluid["container"]["to"])]
-        while math.prod(cells(box, fluid["spacing"])) > 4 * MOST_POINTS:
-            fluid["spacing"] *= 2.0
-    return scene
-
-
-def shipped():
-    """By name, in SI, without what belongs to one set of parameters: references and times of output."""
-    scenes = {}
-    for name in sorted(os.listdir(CONFIGS)):
-        if not name.endswith(".yaml"):
-            continue
-        scene = coarsened(scene_values.read(os.path.join(CONFIGS, name)))
-        scene.pop("reference", None)
-        for crack in scene.get("cracks", []):
-            if "file" in crack:
-                crack["file"] = os.path.join(os.path.abspath(CONFIGS), crack["file"])
-        if scene.get("body", {}).get("shape") == "points":
-            scene["body"]["file"] = os.path.join(os.path.abspath(CONFIGS), scene["body"]["file"])
-        scene["output"] = {"probes": places(scene)}
-        scenes[name[:-5]] = scene
-    return scenes
-
-
-def places(scene):
-    """Where answers are read."""
-    size = scene.get("body", {}).get("size")
-    if not size:
-        return []
-    return [{"name": f"p{n}", "at": [part * extent for part, extent in zip(parts, size)]}
-            for n, parts in enumerate(((0.31, 0.37, 0.43), (0.72, 0.58, 0.66)))]
 
 
 def numbers(scene, keys):
@@ -84,7 +38,7 @@ def numbers(scene, keys):
             continue
         whole = path[:-1] if isinstance(path[-1], int) else path
         key = keys.find(whole, scene)
-        if key and key["kind"] != "integer" and not any(part in PLACES for part in path if isinstance(part, str)):
+        if key and key["kind"] != "integer" and not any(part in (*transforms.PLACES, *OTHERWISE) for part in path if isinstance(part, str)):
             found.append((path, value, key))
     return found
 
@@ -104,26 +58,47 @@ def in_range(random, value, key):
 
 
 def change_number(random, scene, keys):
-    choices = [one for one in numbers(scene, keys) if one[0][-1] != "spacing" and "size" not in one[0] and "window" not in one[0]]
+    choices = [one for one in numbers(scene, keys) if one[1] != 0.0]
     path, value, key = random.choice(choices)
-    if value == 0.0:
-        return None
     changed = in_range(random, value, key)
     assign(scene, path, changed)
     return f"{dotted(path)}={changed:.6g}"
+
+
+def fitting_words(scene, path, words):
+    """Of those another of which asks for nothing that the scene has not."""
+    solid, cracks = scene.get("solid", {}), bool(scene.get("cracks")) or "damage" in scene
+    if path[-1] in OTHER_KEYS or "boundary" in path or "faces" in path or any(part in FIXED for part in path):
+        return []
+    if path[0] == "damage" or path == ("fluid", "type") or (path == ("crack_fluid", "counts") and scene["dimension"] == 3):
+        return []
+    if path in (("solid", "type"), ("solid", "material", "type")) and (cracks or "fluid" in scene):
+        return []
+    if path == ("solid", "type"):
+        stressed = any("stress" in key for key in solid)
+        return [word for word in words if word != "rigid" and not stressed]
+    if path == ("solid", "kinematics") and (solid.get("type") != "dynamic" or cracks or len(scene) > 6):
+        return []
+    if path == ("coupling", "split"):
+        own = {"quasi_static": ["fixed_stress"], "dynamic": ["undrained"]}.get(solid.get("type"), [])
+        return ["automatic", "drained", *own] if "pore_flow" in scene else []
+    if path == ("solid", "material", "type") and scene["dimension"] == 3:
+        return [word for word in words if word != "lps_printed"]
+    return words
 
 
 def change_word(random, scene, keys):
     choices = []
     for path, value in scene_values.leaves(scene):
         key = keys.find(path, scene)
-        other = "boundary" in path or "faces" in path or path[-1] in OTHER_KEYS
-        if isinstance(value, str) and key and len(key["words"]) > 1 and not other and not any(p in FIXED for p in path):
-            choices.append((path, value, key))
+        if isinstance(value, str) and key:
+            others = [word for word in fitting_words(scene, path, key["words"]) if word != value]
+            if others:
+                choices.append((path, others))
     if not choices:
         return None
-    path, value, key = random.choice(choices)
-    word = random.choice([word for word in key["words"] if word != value])
+    path, others = random.choice(choices)
+    word = random.choice(others)
     assign(scene, path, word)
     return f"{dotted(path)}={word}"
 
@@ -141,7 +116,10 @@ def change_option(random, scene, keys):
     key = random.choice(choices)
     value = scene_values.in_si(key["default"])
     if key["words"]:
-        value = random.choice(key["words"])
+        words = fitting_words(scene, (key["section"], *key["path"].split(".")), key["words"])
+        if not words:
+            return None
+        value = random.choice(words)
     elif key["kind"] == "boolean":
         value = random.random() < 0.5
     elif key["kind"] == "integer":
@@ -158,35 +136,33 @@ def change_size(random, scene, keys):
         return None
     axis = random.randrange(len(body["size"]))
     count = round(body["size"][axis] / body["spacing"])
-    new = max(1, round(count * 2.0**random.uniform(-1.5, 1.0)))
-    body["size"][axis] = new * body["spacing"]
-    return f"body.size[{axis}]={body['size'][axis]:.6g}"
+    other = geometry.resized(scene, axis, max(1, round(count * 2.0**random.uniform(-1.5, 1.0))))
+    if other is None:
+        return None
+    scene.update(other)
+    return f"body.size[{axis}]={scene['body']['size'][axis]:.6g}"
 
 
 def change_place(random, scene, keys):
-    spacing = scene.get("body", {}).get("spacing") or scene.get("fluid", {}).get("spacing")
-    choices = [(path, value) for path, value in scene_values.leaves(scene)
-               if not isinstance(value, str) and len(path) > 1 and path[-2] in PLACES and "output" not in path]
-    if not choices or not spacing:
+    found = geometry.moved(random, scene) if scene.get("body", {}).get("spacing") else None
+    if found is None:
         return None
-    path, value = random.choice(choices)
-    steps = [-20, -5, -2, -1, 1, 2, 5, 20]
-    changed = value + spacing * random.choice(steps if any(part in ON_LATTICE for part in path) else [-0.5, 0.5] + steps)
-    assign(scene, path, changed)
-    return f"{dotted(path)}={changed:.6g}"
+    scene.update(found[1])
+    return found[0]
 
 
 def change_spacing(random, scene, keys):
-    factor = random.choice([0.5, 0.8, 1.25, 2.0, 2.5])
-    if scene.get("body", {}).get("spacing"):
-        body = scene["body"]
+    factor = random.choice(SPACINGS)
+    body, fluid = scene.get("body", {}), scene.get("fluid", {})
+    if body.get("spacing"):
+        if not geometry.is_whole(scene, body["spacing"] * factor):
+            return None
         body["spacing"] *= factor
-        if body["shape"] == "box":  # whole spacings
-            body["size"] = [max(1, round(c)) * body["spacing"] for c in cells(body["size"], body["spacing"])]
-        return f"body.spacing={scene['body']['spacing']:.6g}"
-    if scene.get("fluid", {}).get("spacing"):
-        scene["fluid"]["spacing"] *= factor
-        return f"fluid.spacing={scene['fluid']['spacing']:.6g}"
+        geometry.thin_layers(scene, factor)
+        return f"body.spacing={body['spacing']:.6g}"
+    if fluid.get("spacing") and geometry.is_whole(scene, fluid["spacing"] * factor):
+        fluid["spacing"] *= factor
+        return f"fluid.spacing={fluid['spacing']:.6g}"
     return None
 
 
@@ -199,6 +175,25 @@ def change_windows(random, scene, keys):
     if "first" in window and "largest" in window:
         window["first"] = min(window["first"], window["largest"])
     return f"coupling.window.{name}={window[name]:.6g}"
+
+
+def make_consistent(scene):
+    """What a change calls for elsewhere."""
+    pores, solid = scene.get("pore_flow", {}), scene.get("solid", {})
+    if "biot_coefficient" in pores:
+        pores["porosity"] = min(pores["porosity"], pores["biot_coefficient"])
+    if "solid" in scene and solid.get("type") == "dynamic":
+        solid.setdefault("density", 2000.0)
+    if pores.get("operator") == "nested":
+        pores.setdefault("integrator", {})["type"] = "explicit"
+    iterations = scene.get("coupling", {}).get("iterations", {})
+    tolerance = pores.get("integrator", {}).get("tolerance", 1e-5)
+    if pores and "solid" in scene and iterations.get("tolerance", 1e-4) < tolerance:
+        scene.setdefault("coupling", {}).setdefault("iterations", {})["tolerance"] = tolerance
+    fluids = [one for one in (scene.get("fluid"), pores.get("fluid"), scene.get("crack_fluid")) if one is not None]
+    if len(fluids) > 1:
+        for one in fluids:
+            one["density"] = fluids[0].get("density", 1000.0)
 
 
 CHANGES = (change_number,) * 6 + (change_option,) * 2 + (change_word, change_size, change_place, change_spacing,
@@ -217,6 +212,8 @@ def made_up(random, scenes, keys):
         change = random.choice(CHANGES)(random, scene, keys)
         if change:
             changes.append(change)
+    make_consistent(scene)
+    scene["output"] = {"probes": small.places(scene)}
     if random.random() < 0.1:
         scaled = transforms.Scaled(*(10.0**random.uniform(-3, 3) for _ in range(3)))
         scene = scaled.scene(scene, keys)
@@ -246,6 +243,7 @@ def finer(scene):
         if isinstance(scene.get(section), dict) and isinstance(scene[section].get("spacing"), float):
             scene[section]["spacing"] *= 0.5
             halved = True
+    geometry.thin_layers(scene, 0.5)
     return scene if halved else None
 
 

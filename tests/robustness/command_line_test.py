@@ -112,6 +112,17 @@ class CommandLine(RunTest):
         self.assertIn("the coupling does not converge", wild["failure"])
         self.assertFalse(wild["trial"]["is_whole"])
 
+    def test_a_trial_ends_in_the_midst_of_a_window(self):
+        """The first window takes some 1e11 steps."""
+        keys = {"pore_flow.integrator.type": "explicit", "pore_flow.permeability": "1e-6 m^2", "time.end": "1e9 s",
+                "output.interval": "1e9 s"}
+        done = perifrac("check", HERE / "pore_flow_only.yaml", "--json", "--trial", "0.1", *settings(keys))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        forecast = json.loads(done.stdout)["forecast"]
+        self.assertLess(forecast["trial"]["time"], 1.0)
+        self.assertFalse(forecast["trial"]["is_whole"])
+        self.assertGreater(forecast["seconds"], 1e6)
+
     def test_check_says_the_regime_of_a_crack_that_fluid_drives(self):
         def check(scene, *keys):
             overrides = [word for key in keys for word in ("--set", key)]
@@ -128,11 +139,13 @@ class CommandLine(RunTest):
         self.assertEqual(said["warnings"], [])
         self.assertIn("regime: viscosity", perifrac("check", CONFIGS / "kgd_mixed.yaml", "--trial", "0", "--set", coarse).stdout)
         # Twice the time, and next to no stress: the crack grows too long, and its tip stays dry.
-        far, dry, unresolved = check("kgd_mixed.yaml", coarse, "time.end=0.2 s",
-                                     "solid.confining_stress=[0.1 MPa, 0.1 MPa]")["warnings"]
+        little_stress = "solid.confining_stress=[0.1 MPa, 0.1 MPa]"
+        far, dry = check("kgd_mixed.yaml", coarse, "time.end=0.2 s", little_stress)["warnings"]
         self.assertIn("the reference `kgd` are those of an infinite body", far)
         self.assertIn("the reference `kgd` has no fluid lag", dry)
-        self.assertIn("too coarse for a fluid lag", unresolved)
+        # A short dry tip that no points resolve is of little account, a long one is.
+        unresolved = check("kgd_mixed.yaml", coarse, "time.end=0.04 s", "crack_fluid.viscosity=0.2 Pa s", little_stress)
+        self.assertIn("too coarse for a fluid lag", unresolved["warnings"][-1])
         # A rate into one wing is half of that into two; pumping stops when half is in.
         one = check("hf_storage.yaml", "body.spacing=5 mm",
                     "crack_fluid.inlets[0].schedule={times: [50 ms, 50.001 ms], factors: [1, 0]}")

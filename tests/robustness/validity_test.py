@@ -93,6 +93,27 @@ class Validity(RunTest):
         self.assert_warns(MANDEL, swinging, "of first order only", "pore_pressure swings from point to point")
         self.assert_warns(MANDEL, SHORT)
 
+    def test_sudden_drainage_where_storage_cannot_be_stabilised(self):
+        layers = STILL_SHORT | {"pore_flow.undrained_stabilisation": "0"}
+        warned, = self.assert_warns(CONFIGS / "mandel_layers.yaml", layers, "pore_pressure swings from point to point")
+        self.assertIn("by a schedule", warned)
+
+    def test_a_slit_in_rigid_rock_may_begin_at_any_pressure(self):
+        self.assert_warns(CONFIGS / "slit_flow.yaml", {"body.spacing": "2 mm", "time.end": "10 ms",
+                                                       "crack_fluid.filled[0].pressure": "1 MPa"})
+
+    def test_leak_off_within_a_spacing(self):
+        short = {"body.spacing": "5 mm", "time.end": "1 ms", "output.interval": "1 ms"}
+        for scene, warns in (("hf_storage_pores.yaml", True), ("hf_leakoff_pores.yaml", False)):
+            warned = self.warnings(CONFIGS / scene, short)
+            self.assertEqual(any("into the pores beside cracks" in warning for warning in warned), warns, warned)
+
+    def test_a_crack_that_fluid_has_hardly_entered(self):
+        soon = {"body.spacing": "2.5 mm", "cracks[1]": "null", "time.end": "0.05 ms", "output.interval": "0.05 ms"}
+        del soon["cracks[1]"]
+        self.assert_warns(FLUID, soon, "fluid fills")
+        self.assert_warns(FLUID, soon | {"time.end": "1 ms"})
+
     def test_density(self):
         pressed = {"pore_flow.fluid.bulk_modulus": "100 kPa", "pore_flow.initial_pressure": "50 kPa"}
         self.assert_warns(MANDEL, SHORT | pressed, "pore_pressure is 0.5 of the fluid's bulk modulus")
