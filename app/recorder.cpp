@@ -137,10 +137,19 @@ void Recorder::write_frames(double time) {
   }
 }
 
+void Recorder::check_mass() const {
+  const CouplingManager& manager = *simulation_.manager;
+  manager.ledger().check_mass(mass_bound_, manager.time());
+}
+
+std::int64_t Recorder::windows_since_restart_point() const {
+  return simulation_.manager->step() - last_->step;
+}
+
 void Recorder::restart_point() {
   const ProfilePart profiled("restart points");
+  check_mass();
   CouplingManager& manager = *simulation_.manager;
-  manager.ledger().check_mass(mass_bound_, manager.time());
   if (!last_) last_ = {.scene = scene_text_, .version = version};
   last_->time = manager.time();
   last_->step = manager.step();

@@ -36,9 +36,11 @@ class Recorder {
   void record_window();  ///< a row of history.csv and of the comparison, when one is due
   void record_output();  ///< a frame and a comparison
   /// Remembers this state as one that a restart goes on from bit for bit, and lets go of
-  /// everything in the running simulation that a restart would not have. Throws NumericalError
-  /// where the fluid mass of the ledger is off beyond the bound of the scene.
+  /// everything in the running simulation that a restart would not have. Throws as check_mass.
   void restart_point();
+  std::int64_t windows_since_restart_point() const;
+  /// Throws NumericalError where the fluid mass of the ledger is off beyond the bound of the scene.
+  void check_mass() const;
 
   /// A frame of the state that a run failed in, where there is none of that time; nothing before
   /// it began to write.

@@ -42,7 +42,7 @@ KeyTable ledger_keys() {
            .range = "(0, inf)",
            .fallback = "1e-6",
            .meaning = "Largest error of the fluid mass over what is stored or has passed; a run "
-                      "beyond it stops at the next restart point."}};
+                      "beyond it stops at the next output or restart point."}};
 }
 
 KeyTable output_keys() {
@@ -65,8 +65,8 @@ KeyTable output_keys() {
        .unit = "s",
        .range = "[0, inf)",
        .fallback = "60 s",
-       .meaning = "Least wall time between checkpoints, which are written with frames and "
-                  "every 50 windows."},
+       .meaning = "Least wall time between checkpoints, which are written with frames 10 windows "
+                  "or more after the one before, and every 50 windows."},
       {.path = "probes[].name",
        .type = KeyType::text,
        .required = true,

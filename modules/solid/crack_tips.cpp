@@ -17,9 +17,10 @@ constexpr double viscous_offset = 0.25;
 /// Of what it takes: below this the opening says for certain that J is not enough.
 constexpr double worth_asking = 0.9;
 
-/// J is asked where what the opening says lies between these, or the opening has changed by more
-/// than this part.
-constexpr double surely_not = 0.985, surely = 1.03, telling_change = 0.15;
+/// K_I and the opening of the last facet may differ by so much of what the opening has changed by
+/// (1.3 was met), up to this change. What a guess leaves open decides nothing: windows end, and tips
+/// go on, within `near` of the criterion.
+constexpr double guess_error = 1.5, telling_change = 0.15, near = 0.005;
 
 /// A turn below this is rounding [rad].
 constexpr double straight = 1e-6;
@@ -86,19 +87,21 @@ double CrackTips::readiness(Tip& tip, const CrackState<2>& state) const {
                        needed * energy_to_cut(next_facet(tip.at, 0.0))};
   const bool is_followed =
       state.has_fluid() && tip.at.before != no_facet && state.viscosity[tip.at.facet] > 0.0;
-  if (!is_followed) return dry_readiness(tip, tip_law, state);
+  if (!is_followed) return dry_readiness(tip, tip_law, state, 0.0);
   return std::max(followed_readiness(tip, tip_law, state), lagging_readiness(tip, tip_law, state));
 }
 
 /// From K_I, without what fluid does beyond its pressure. J asks for the displacements, which are
-/// dear: away from growth K_I goes with the opening of the last facet since J was asked last, where
-/// that is the fluid's doing. Other loads may shear the crack as well.
-double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const {
+/// dear: away from growth, `lost` taken off, K_I goes with the opening of the last facet since J was
+/// asked last, where that is the fluid's doing. Other loads may shear the crack as well.
+double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
+                                double lost) const {
   const double opening = state.opening[tip.at.facet];
   if (tip.asked_opening > 0.0 && state.has_fluid() && !state.inertia) {
     const double guess = tip.asked * opening / tip.asked_opening;
-    const bool is_near = std::abs(opening / tip.asked_opening - 1.0) < telling_change;
-    if (is_near && (guess < surely_not || guess > surely)) return guess;
+    const double change = std::abs(opening / tip.asked_opening - 1.0);
+    const bool is_telling = std::abs(guess - lost - 1.0) > near + guess_error * change;
+    if (change < telling_change && is_telling) return guess;
   }
   const TipLoad load =
       energy_release_.at(tip.at, state.unknowns([&] { return energy_release_.looks_at(tip.at); }),
@@ -135,7 +138,7 @@ double CrackTips::lagging_readiness(Tip& tip, const TipLaw& tip_law,
   const double most =
       state.opening[at.before] / tip_law.opening(within_crack(tip, behind(at)), 0.0, {}, 1.0);
   if (most - lost < worth_asking) return 0.0;
-  return dry_readiness(tip, tip_law, state) - lost;
+  return dry_readiness(tip, tip_law, state, lost) - lost;
 }
 
 /// What the opening at s behind the tip has beyond K_I's share of it, K' sqrt(s) / E', where the

@@ -56,7 +56,8 @@ class CrackTips {
 
   double energy_to_cut(const CrackFacet<2>& facet) const;
   double readiness(Tip& tip, const CrackState<2>& state) const;
-  double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
+  double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
+                       double lost) const;
   double followed_readiness(const Tip& tip, const TipLaw& tip_law,
                             const CrackState<2>& state) const;
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;

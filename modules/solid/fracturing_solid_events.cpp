@@ -10,8 +10,13 @@ namespace perifrac {
 
 namespace {
 
-/// The window is cut where a tip is this far beyond its criterion.
-constexpr double late = 0.02;
+/// The window is cut where a tip is this far beyond its criterion: as far as it may be before it
+/// (`ready`). Of a front many squares are ready at nearly the same time, and one goes a window.
+template <int D>
+constexpr double late = D == 2 ? 1.0 - ready : 0.02;
+/// Nor is it cut where it is shorter than this part of the time since the last growth.
+template <int D>
+constexpr double short_enough = D == 2 ? 0.01 : 0.05;
 /// A tip that is late in so short a window as so many cuts in a row leave goes on at once: its step
 /// is unstable, as a dry tip's may be that has just gone on.
 constexpr int most_cuts = 8;
@@ -32,9 +37,8 @@ template <int D>
 double FracturingSolid<D>::first_event(const TimeWindow& window) {
   const double most = readiness_ = tips_.find_readiness(crack_state());
   const double nucleus = nucleus_readiness_ = find_nucleus_readiness();
-  // Shorter windows than this, of the time since the last growth, would not tell.
-  const bool can_cut = window.length() > 5e-2 * (window.end - last_growth_);
-  const bool is_late = wet() && most > 1.0 + late && can_cut;
+  const bool can_cut = window.length() > short_enough<D> * (window.end - last_growth_);
+  const bool is_late = wet() && most > 1.0 + late<D> && can_cut;
   // A load that jumps is met by no window, however short.
   const bool begins_late = nucleus > 1.0 + late_nucleus && nucleus_before_ < 1.0 - late_nucleus &&
                            window.length() > shortest * window.end;
