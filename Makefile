@@ -29,7 +29,7 @@ help:
 	@echo 'make fuzz       scenes and checkpoints made up by a fuzzer, FUZZ_SECONDS each (clang 16)'
 	@echo 'make fuzz-many  FUZZ_INPUTS checkpoints, without the address sanitizer, which is faster (clang 16)'
 	@echo 'make mutants    physics changed by the patches of tests/mutants: the tests named there must fail'
-	@echo 'make sanitize   unit and contract tests under the address, undefined and thread sanitizers (clang 16)'
+	@echo 'make sanitize   unit and contract tests under the address, undefined and thread sanitizers, and cracks that cut rock free (clang 16)'
 
 install:
 	@tools/install
@@ -111,6 +111,7 @@ sanitize: install
 	for preset in sanitize sanitize-thread; do \
 	  cmake --preset $$preset --log-level=WARNING > /dev/null && cmake --build --preset $$preset && \
 	  ctest --preset $$preset || exit; done
+	OMP_WAIT_POLICY=passive tests/robustness/cut_free_test.py build/sanitize/bin/perifrac --times 20
 
 mutants: configure
 	tests/mutants/mutants.py

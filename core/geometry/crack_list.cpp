@@ -140,8 +140,9 @@ void refuse_coincident(const Section& scene, const std::vector<std::vector<Crack
   std::vector<bool> said(cracks.size(), false);
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = i + 1; j < all.size() && all[j].at[axis] - all[i].at[axis] < reach; ++j) {
-      const auto& [first, later] = std::minmax(
-          all[i], all[j], [](const auto& a, const auto& b) { return a.crack < b.crack; });
+      const bool in_turn = all[i].crack <= all[j].crack;
+      const Placed<D>& first = in_turn ? all[i] : all[j];
+      const Placed<D>& later = in_turn ? all[j] : all[i];
       if (said[later.crack] || !coincide<D>(all[i], all[j], least)) continue;
       said[later.crack] = true;
       mistakes.note([&] {

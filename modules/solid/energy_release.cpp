@@ -88,7 +88,8 @@ double EnergyRelease::radius(const CrackTip& tip) const {
 
 /// In the square of that half width, in their order.
 std::vector<Index> EnergyRelease::points_around(const Vector<2>& centre, double radius) const {
-  const auto& [x, y] = body_.family().position;
+  const std::vector<double>& x = body_.family().position[0];
+  const std::vector<double>& y = body_.family().position[1];
   std::vector<Index> points;
   const auto from =
       std::ranges::upper_bound(by_x_, centre[0] - radius, {}, [&](Index i) { return x[i]; });

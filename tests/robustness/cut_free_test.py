@@ -1,9 +1,13 @@
 #!/usr/bin/python3
-"""Cracks that cut a piece of rock free which nothing holds end a run with exit code 1 and the piece's place."""
+"""Cracks that cut a piece of rock free which nothing holds end a run with exit code 1 and the piece's place.
+
+With `--times N` N more cracks, from anywhere on the body's upper faces, are let grow (`make sanitize` does).
+"""
 import json
+import random
 import unittest
 
-from perifrac_runs import CONFIGS, RunTest, perifrac, settings
+from perifrac_runs import CONFIGS, TIMES, RunTest, perifrac, settings
 
 # Of hf_storage at 5 mm: the crack's path [mm], its fracture energy [J/m^2], the rate [m^2/s]. All of these wrote out of
 # bounds once, or went on without a word.
@@ -38,6 +42,21 @@ class CutFree(RunTest):
                 summary = json.loads((folder / "summary.json").read_text())
                 self.assertEqual(summary["outcome"], "failed")
                 self.assertLess(summary["ledger"]["mass_error"], 1e-12)
+
+    def test_any_crack_ends_in_order(self):
+        """Some cut a piece free, some grow to a face, some are refused."""
+        seeded = random.Random(20)
+        for number in range(TIMES):
+            start = seeded.choice([[0, seeded.randint(30, 39) * 5], [150, seeded.randint(30, 39) * 5],
+                                   [seeded.randint(1, 29) * 5, 200]])
+            end = [seeded.randint(4, 26) * 5, seeded.randint(24, 38) * 5]
+            variant = (start + end, seeded.choice([0.5, 2, 5, 50]), seeded.choice([1.6e-4, 5e-4, 1e-3]))
+            with self.subTest(variant=variant):
+                done = self.run_variant(*variant, self.folder / f"any_{number}")
+                self.assertIn(done.returncode, (0, 1, 2), done.stderr)
+                self.assertNotRegex(done.stderr, "Sanitizer|runtime error|Assertion")
+                if done.returncode == 1:
+                    self.assertIn("error: ", done.stderr)
 
 
 if __name__ == "__main__":

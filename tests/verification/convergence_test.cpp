@@ -22,8 +22,11 @@ TEST(Convergence, UnderAHorizonOfTwoSpacingsIsOfSecondOrder) {
 }
 
 TEST(Convergence, UnderOneHorizonFallsFromOneSpacingToTwo) {
-  const double coarse = error_of("convergence_m", {"body.spacing=2 m", "body.horizon_ratio=1"});
-  const double middle = error_of("convergence_m", {});
+  // Of the operators alone: stabilised storage takes a tenth off the coarse one's error.
+  const std::string alone = "pore_flow.undrained_stabilisation=0";
+  const double coarse =
+      error_of("convergence_m", {"body.spacing=2 m", "body.horizon_ratio=1", alone});
+  const double middle = error_of("convergence_m", {alone});
   EXPECT_LE(middle, 5e-4);
   EXPECT_GT(coarse, 3.5 * middle);
 }

@@ -12,37 +12,37 @@ namespace perifrac::test {
 namespace {
 
 /// Length and pressure at the outputs between two times, against a solution by other means.
-void expect_near_reference(const SceneRun& run, double from, double tolerance) {
+void expect_near_reference(const SceneRun& run, double from, double of_length, double of_pressure) {
   ASSERT_EQ(run.exit_code, 0);
   for (const auto& row : run.summary["reference"]["table"]) {
     if (row["time"] < from) continue;
-    EXPECT_LE(row["crack_length_error"], tolerance) << row["time"];
-    EXPECT_LE(row["inlet_notch_pressure_error"], tolerance) << row["time"];
+    EXPECT_LE(row["crack_length_error"], of_length) << row["time"];
+    EXPECT_LE(row["inlet_notch_pressure_error"], of_pressure) << row["time"];
   }
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
 }
 
 TEST(HfStorage, AgreesWithTheIndependentSolutionOnACoarseLattice) {
-  expect_near_reference(run_config("hf_storage", {"body.spacing=2.5 mm"}), 0.02, 0.08);
+  expect_near_reference(run_config("hf_storage", {"body.spacing=2.5 mm"}), 0.02, 0.045, 0.027);
 }
 
 /// One word makes it a solid with inertia. Before 35 ms a facet of this lattice is 4 % of the crack
 /// and more, and pressure swings with each.
 TEST(HfStorage, AgreesWithInertiaToo) {
   const SceneRun run = run_config("hf_storage", {"body.spacing=2.5 mm", "solid.type=dynamic"});
-  expect_near_reference(run, 0.035, 0.08);
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+  expect_near_reference(run, 0.035, 0.027, 0.027);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 9.5e-4);
 }
 
 /// The fluid lags by 3.5 mm, hardly more than a facet here.
 TEST(HfLeakOff, AgreesWithTheIndependentSolutionOnACoarseLattice) {
   const SceneRun run = run_config("hf_leakoff", {"body.spacing=2.5 mm"});
-  expect_near_reference(run, 0.010, 0.08);
+  expect_near_reference(run, 0.010, 0.07, 0.034);
   for (const auto& row : run.summary["reference"]["table"]) {
     if (row["time"] < 0.010) continue;
     EXPECT_LE(row["leak_off_volume_error"], 0.15) << row["time"];
   }
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 1.3e-3);
 }
 
 /// From 20 ms on.
@@ -86,7 +86,7 @@ TEST(HfStoragePores, LiesBetweenDrainedAndUndrainedRock) {
   EXPECT_GT(means.pressure, undrained.pressure);
   EXPECT_LT(means.pressure, 1.03 * undrained.pressure);
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 2.2e-3);
   EXPECT_GT(run.summary["ledger"]["pore_fluid_mass"]["value"], 0.0);
 }
 
@@ -140,8 +140,8 @@ TEST(SlitFlow, FollowsTheCubicLaw) {
   const SceneRun run = run_config("slit_flow");
   ASSERT_EQ(run.exit_code, 0);
   for (const auto& row : run.summary["reference"]["table"]) {
-    EXPECT_LE(row["flow_rate_error"], 0.01) << row["time"];
-    EXPECT_LE(row["pressure_error"], 0.01) << row["time"];
+    EXPECT_LE(row["flow_rate_error"], 8.5e-5) << row["time"];
+    EXPECT_LE(row["pressure_error"], 1.25e-5) << row["time"];
   }
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
 }
@@ -198,7 +198,7 @@ TEST(Barriers, AskForMorePressureAsTheCrackGoesOn) {
       ++in_layer;
     } else if (a > 0.054) {
       EXPECT_NEAR(sum / rows, exact, 0.06 * exact) << a;
-      EXPECT_NEAR(last, exact, 0.03 * exact) << a;
+      EXPECT_NEAR(last, exact, 0.014 * exact) << a;
       ++in_barrier;
     }
     sum = rows = 0;
@@ -206,7 +206,7 @@ TEST(Barriers, AskForMorePressureAsTheCrackGoesOn) {
   EXPECT_GE(in_layer, 8);
   EXPECT_GE(in_barrier, 10);
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 1.4e-3);
 }
 
 /// K_IC^2 (1 - nu^2) / E of the rock at each place, whichever section names its region.
@@ -253,7 +253,7 @@ double well_pressure_under(const std::string& stress, const std::string& more,
            pores +
            ", fluid: {viscosity: 1 cP, bulk_modulus: 2.2 GPa}, integrator: {type: explicit}}"});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.02);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.016);
   const std::vector<double> time = run.column("time [s]"),
                             pressure = run.column("inlet_well_pressure [Pa]");
   double sum = 0.0, lasted = 0.0;
@@ -283,11 +283,11 @@ TEST(TotalStress, IsTheEffectiveOneAndThePressureInThePores) {
 TEST(RoundCrack, GrowsAsAPennyShapedOne) {
   const SceneRun run = run_config("radial", {"body.size=[12 mm, 12 mm, 32 mm]", "time.end=15 ms"});
   ASSERT_EQ(run.exit_code, 0);
-  EXPECT_LE(run.figure("radius over the exact, mean of a step"), 0.03);
-  EXPECT_LE(run.figure("opening over the exact, mean of a step"), 0.05);
-  EXPECT_LE(run.figure("pressure over the exact, mean of a step"), 0.10);
+  EXPECT_LE(run.figure("radius over the exact, mean of a step"), 0.018);
+  EXPECT_LE(run.figure("opening over the exact, mean of a step"), 0.020);
+  EXPECT_LE(run.figure("pressure over the exact, mean of a step"), 0.088);
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.03);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.0083);
 }
 
 /// Once the well is shut its pressure falls, in the end the crack is closed.
@@ -334,8 +334,8 @@ TEST(GrownToAFace, ACrackDrainsThere) {
   EXPECT_NEAR(run.column("crack_length [m]").back(), 0.1, 1e-9);
   const std::vector<double> mass = run.column("fluid_mass_stored [kg/m]");
   const std::vector<double> pressure = run.column("inlet_well_pressure [Pa]");
-  EXPECT_NEAR(mass.back() / mass[mass.size() - 2], 1.0, 7e-4);
-  EXPECT_NEAR(pressure.back() / pressure[pressure.size() - 2], 1.0, 7e-4);
+  EXPECT_NEAR(mass.back() / mass[mass.size() - 2], 1.0, 2e-5);
+  EXPECT_NEAR(pressure.back() / pressure[pressure.size() - 2], 1.0, 1e-5);
   EXPECT_LT(mass.back(), 0.6 * 1000.0 * 0.5 * 1.6e-4 * 0.16);
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
   EXPECT_LE(run.summary["ledger"]["energy_error"], 0.007);

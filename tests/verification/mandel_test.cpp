@@ -29,13 +29,13 @@ void print(const std::string& name, const MandelRun& run) {
 void expect_accurate(const MandelRun& run, double factor) {
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.rows.size(), 6u);
-  EXPECT_LE(run.largest_pressure_error(0.01, 0.01), factor * 2e-3);
+  EXPECT_LE(run.largest_pressure_error(0.01, 0.01), factor * 1.4e-3);
   EXPECT_LE(run.largest_pressure_error(0.05, 2.0), factor * 4e-4);
-  EXPECT_LE(run.largest_plate_error(), factor * 5e-4);
+  EXPECT_LE(run.largest_plate_error(), factor * 2.3e-4);
   EXPECT_LE(run.peak_error, factor * 5e-4);
   EXPECT_GT(run.peak_error, 0.0) << "the peak was never passed";
   EXPECT_LE(run.mass_error, 1e-12);
-  EXPECT_LE(run.energy_error, 1e-2);
+  EXPECT_LE(run.energy_error, factor * 6e-4);
 }
 
 TEST(Mandel, ShippedSceneMeetsItsLimits) {
@@ -82,7 +82,7 @@ void expect_stable(double part, const Overrides& words, const std::string& passe
     EXPECT_LT(*std::ranges::max_element(pressures), most * undrained_pressure) << place;
     EXPECT_GT(*std::ranges::min_element(pressures), -0.01 * undrained_pressure) << place;
   }
-  EXPECT_LT(std::abs(run.summary["ledger"]["energy_error"].get<double>()), 0.015);
+  EXPECT_LT(std::abs(run.summary["ledger"]["energy_error"].get<double>()), 0.012);
 }
 
 /// From 1e-4 to 1e4 of dx^2/c, in one pass and as windows are by default, stabilised and not.
@@ -112,7 +112,7 @@ TEST(Mandel, ShorterWindowsAreAtLeastFirstOrderBetter) {
           .back();
     };
     const double finest = pressure(0.125), coarse = std::abs(pressure(1.0) - finest);
-    EXPECT_LT(coarse, 2e-3 * undrained_pressure);
+    EXPECT_LT(coarse, 4e-5 * undrained_pressure);
     EXPECT_LT(std::abs(pressure(0.5) - finest), coarse / 1.8) << strength;
   }
 }
@@ -158,18 +158,18 @@ TEST(Mandel, DynamicSolidMeetsItsLimits) {
   EXPECT_EQ(run.rows.size(), 3u);
   EXPECT_LE(run.largest_pressure_error(0.01, 0.01), 1e-2);
   EXPECT_LE(run.largest_pressure_error(0.05, 0.05), 4e-3);
-  EXPECT_LE(run.largest_plate_error(), 2e-3);
-  EXPECT_LE(run.peak_error, 5e-4);
+  EXPECT_LE(run.largest_plate_error(), 1.2e-3);
+  EXPECT_LE(run.peak_error, 1.35e-4);
   EXPECT_GT(run.peak_error, 0.0) << "the peak was never passed";
   EXPECT_LE(run.mass_error, 1e-12);
-  EXPECT_LE(run.energy_error, 1e-2);
+  EXPECT_LE(run.energy_error, 4e-4);
 }
 
 TEST(Mandel, HalfTheSpacingIsFourTimesAsGood) {
   const MandelRun coarse = run_mandel({"time.end=1.6533 s", "output.times=[]"});
   const MandelRun fine = run_mandel({"body.spacing=0.5 m", "time.end=1.6533 s", "output.times=[]"});
   print("half the spacing", fine);
-  EXPECT_LE(fine.largest_pressure_error(0.01, 0.01), 5e-4);
+  EXPECT_LE(fine.largest_pressure_error(0.01, 0.01), 4.4e-4);
   EXPECT_GT(coarse.largest_pressure_error(0.01, 0.01),
             3.0 * fine.largest_pressure_error(0.01, 0.01));
 }
@@ -180,8 +180,8 @@ TEST(Mandel, FewSolvesSufficeForFourThousandths) {
                   "coupling.window.growth=1.15", "coupling.window.largest=4 s"});
   print("few solves", run);
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_LE(run.solid_solves, 150);
-  EXPECT_LE(run.largest_pressure_error(0.0, 1.0), 4e-3);
+  EXPECT_LE(run.solid_solves, 80);
+  EXPECT_LE(run.largest_pressure_error(0.0, 1.0), 1.85e-3);
 }
 
 class FluidStiffness : public testing::TestWithParam<const char*> {};

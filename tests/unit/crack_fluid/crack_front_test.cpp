@@ -44,7 +44,7 @@ TEST(CrackFront, AtConstantRateIsWhereTheVolumeSaysSo) {
     EXPECT_NEAR(p[1] - p[2], gradient * dx, 1e-6 * gradient * dx);
     EXPECT_NEAR(run.scalar("fluid_lag"), 60 * dx - front, 1e-8 * front);
     EXPECT_NEAR(run.scalar("crack_volume"), 60 * dx * w, 1e-14 * 60 * dx * w);
-    EXPECT_NEAR(run.scalar("mean_crack_pressure"), 0.5 * gradient * front, gradient * dx);
+    EXPECT_NEAR(run.scalar("mean_crack_pressure"), 0.5 * gradient * front, 0.75 * gradient * dx);
     EXPECT_EQ(run.scalar("inlet_pump_pressure"), p[0]);
     EXPECT_EQ(run.scalar("inlet_pump_opening"), w);
   }
@@ -56,8 +56,8 @@ TEST(CrackFront, AtConstantPressureGoesWithTheRootOfTime) {
   for (int k = 1; k <= 10; ++k) {
     run.advance(0.05, 50);
     const double root = std::sqrt(2.0 * w * w * pressure * run.time() / (12.0 * water.viscosity));
-    // The inlet is at the first facet's centre; a front is within a facet of where it should be.
-    EXPECT_NEAR(run.scalar("wetted_length") - 0.5 * dx, root, dx) << run.time();
+    // The inlet is at the first facet's centre.
+    EXPECT_NEAR(run.scalar("wetted_length") - 0.5 * dx, root, 0.01 * dx) << run.time();
   }
   EXPECT_LT(run.mass_error(), 1e-14);
 }

@@ -44,7 +44,7 @@ TEST(CrackPlane, MeasuresFromARoundFront) {
     }
     const CrackPlane plane = plane_of(facets, 20.0);
     const double even = std::sqrt(static_cast<double>(facets.size()) / M_PI);
-    EXPECT_NEAR(plane.radius(), even, 0.1 * even);
+    EXPECT_NEAR(plane.radius(), even, 0.024 * even);
     double mean = 0.0;
     int count = 0;
     for (const auto& facet : facets) {
@@ -52,11 +52,11 @@ TEST(CrackPlane, MeasuresFromARoundFront) {
       const double behind = even - std::hypot(at[0], at[1]);
       if (behind > 2.5) continue;
       const double error = plane.behind_front(*plane.cell_of(facet)) - behind;
-      EXPECT_NEAR(error, 0.0, 0.3) << radius;
+      EXPECT_NEAR(error, 0.0, 0.17) << radius;
       mean += error;
       ++count;
     }
-    EXPECT_NEAR(mean / count, 0.0, 0.06) << radius;
+    EXPECT_NEAR(mean / count, 0.0, 0.04) << radius;
   }
 }
 

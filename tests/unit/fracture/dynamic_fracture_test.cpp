@@ -83,9 +83,9 @@ TEST(DynamicFracture, IsStableAroundAnIncompressibleFluid) {
     before = pressure;
   }
   EXPECT_LE(largest(solid.opening()), 1e-11);
-  EXPECT_LE(largest_pressure, 5.0);
-  EXPECT_LE(largest_change, 2.5);
-  EXPECT_LE(std::abs(solid.energy_error()), 0.01 * solid.value("external_work"));
+  EXPECT_LE(largest_pressure, 2.6);
+  EXPECT_LE(largest_change, 0.045);
+  EXPECT_LE(std::abs(solid.energy_error()), 9e-5 * solid.value("external_work"));
 }
 
 TEST(DynamicFracture, RestsClosedUnderItsInitialStressUntilFluidExceedsIt) {
@@ -160,7 +160,7 @@ TEST(DynamicFracture, BeginsToGrowWhenTheStepResponseSays) {
     while (solid.value("crack_length") < half + 0.5 && solid.time * speed < 2.0 * travelled) {
       solid.press(Eigen::VectorXd::Ones(half));
     }
-    EXPECT_NEAR(solid.time * speed, travelled, 0.05 * travelled);
+    EXPECT_NEAR(solid.time * speed, travelled, 0.026 * travelled);
   }
 }
 
@@ -182,8 +182,8 @@ TEST(DynamicFracture, KeepsItsEnergyWhileItGrows) {
     work += pressure.dot(solid.opening().head(before.size()) - before);
   }
   EXPECT_EQ(solid.value("crack_length"), 22.0);
-  EXPECT_LE(std::abs(solid.energy_error() + solid.value("fracture_energy") - work), 0.01 * work);
-  EXPECT_NEAR(solid.value("fracture_energy") - energy_at_16, 0.87 * 4.0 * 6.0, 0.08 * 4.0 * 6.0);
+  EXPECT_LE(std::abs(solid.energy_error() + solid.value("fracture_energy") - work), 2.2e-3 * work);
+  EXPECT_NEAR(solid.value("fracture_energy") - energy_at_16, 0.87 * 4.0 * 6.0, 0.072 * 4.0 * 6.0);
 }
 
 }  // namespace
