@@ -100,7 +100,7 @@ class StudyTest(RunTest):
         self.assertIn("4 s", messages["endless"])
         errors = {v["name"]: v["error"] for v in result["variants"]}
         self.assertEqual([name for name, error in errors.items() if error is not None], ["fine", "coarse"])
-        for sentence in ("To reach 0.5 the cheapest is", "No variant reaches 1e-09; the best, coarse,", "1 diverged: divergent",
+        for sentence in ("To reach 0.5 the cheapest is", "No variant reaches 1e-09; the best, fine,", "1 diverged: divergent",
                          "1 killed: killed", "1 invalid: invalid", "1 over budget: endless"):
             self.assertIn(sentence, done.stdout)
 
