@@ -18,8 +18,8 @@ constexpr double viscous_offset = 0.25;
 constexpr double worth_asking = 0.9;
 
 /// K_I and the opening of the last facet may differ by so much of what the opening has changed by
-/// (1.3 was met), up to this change. What a guess leaves open decides nothing: windows end, and tips
-/// go on, within `near` of the criterion.
+/// (1.3 was met), up to this change. What a guess leaves open decides nothing: windows end, and
+/// tips go on, within `near` of the criterion.
 constexpr double guess_error = 1.5, telling_change = 0.15, near = 0.005;
 
 /// A turn below this is rounding [rad].
@@ -92,8 +92,8 @@ double CrackTips::readiness(Tip& tip, const CrackState<2>& state) const {
 }
 
 /// From K_I, without what fluid does beyond its pressure. J asks for the displacements, which are
-/// dear: away from growth, `lost` taken off, K_I goes with the opening of the last facet since J was
-/// asked last, where that is the fluid's doing. Other loads may shear the crack as well.
+/// dear: away from growth, `lost` taken off, K_I goes with the opening of the last facet since J
+/// was asked last, where that is the fluid's doing. Other loads may shear the crack as well.
 double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                                 double lost) const {
   const double opening = state.opening[tip.at.facet];
