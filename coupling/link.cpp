@@ -73,9 +73,7 @@ void Link::predict(double length) {
     accepted_.output_rate.assign(accepted_.output.size(), 0.0);
     accepted_.counter_rate.assign(accepted_.counter.size(), 0.0);
   }
-  if (counter_ && source_.module->ports()[*counter_].kind == PortKind::extensive) {
-    std::ranges::fill(accepted_.counter, 0.0);  // a total over the window grows from nothing
-  }
+  start_counter();
   read_slope();
   form_value(accepted_);
   if (kind_ == PortKind::extensive) {
@@ -87,6 +85,18 @@ void Link::predict(double length) {
   } else {
     for (std::size_t i = 0; i < value_.size(); ++i) value_[i] += rate_[i] * length;
   }
+}
+
+/// A total over the window grows from nothing.
+void Link::start_counter() {
+  if (counter_ && source_.module->ports()[*counter_].kind == PortKind::extensive) {
+    std::ranges::fill(accepted_.counter, 0.0);
+  }
+}
+
+void Link::accept() {
+  if (!is_foretold_) std::swap(accepted_, reached_);
+  start_counter();
 }
 
 void Link::deliver() {

@@ -97,9 +97,7 @@ class Link {
   void relax(std::span<const double> value, double length);
 
   /// The window stands: what was collected is what the next one begins with.
-  void accept() {
-    if (!is_foretold_) std::swap(accepted_, reached_);
-  }
+  void accept();
 
   /// The fields that the next window depends on.
   void visit_state(StateVisitor& visitor);
@@ -115,6 +113,7 @@ class Link {
 
   void read_source(Sample& sample);
   void read_slope();
+  void start_counter();
   void find_rates(double length);
   void rate_since(const std::vector<double>& now, const std::vector<double>& before, double length,
                   std::vector<double>& rate) const;
