@@ -143,7 +143,8 @@ def moved(random, scene):
     if scene["dimension"] == 2 and len(group) > 1 and random.random() < 0.5:
         corner = group[1 if len(group) > 2 else 0]  # the path's second: inlets mostly are at its first
         before = list(crack_lengths(scene))
-        shift([corner], axis, by)
+        where = [corner[0][corner[1] + a] for a in range(2)]
+        shift([(place, n) for place, n in group if place[n:n + 2] == where], axis, by)
         short = any(length < SHORTEST_CRACK * spacing for length in crack_lengths(scene))
         return (f"a crack's end by {by:.6g} along {'xyz'[axis]}", scene) if fits(scene) and before and not short else None
     shift(group, axis, by)

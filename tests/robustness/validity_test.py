@@ -102,6 +102,12 @@ class Validity(RunTest):
         self.assert_warns(CONFIGS / "slit_flow.yaml", {"body.spacing": "2 mm", "time.end": "10 ms",
                                                        "crack_fluid.filled[0].pressure": "1 MPa"})
 
+    def test_free_fluid_narrower_than_its_horizon(self):
+        for scene, warns in (("hf_storage_points.yaml", True), ("notch_points.yaml", False)):
+            said = perifrac("check", CONFIGS / scene, "--json", "--trial", "0")
+            warned = json.loads(said.stdout)["warnings"]
+            self.assertEqual(any("2.0 points: it takes more" in warning for warning in warned), warns, warned)
+
     def test_leak_off_within_a_spacing(self):
         short = {"body.spacing": "5 mm", "time.end": "1 ms", "output.interval": "1 ms"}
         for scene, warns in (("hf_storage_pores.yaml", True), ("hf_leakoff_pores.yaml", False)):
