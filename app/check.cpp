@@ -9,11 +9,11 @@
 
 #include "app/array_list.hpp"
 #include "app/coarse_twin.hpp"
-#include "app/filling_warning.hpp"
 #include "app/forecast.hpp"
 #include "app/memory.hpp"
 #include "app/output_times.hpp"
 #include "app/recorder.hpp"
+#include "app/resolution_warnings.hpp"
 #include "app/scene_echo.hpp"
 #include "app/scene_keys.hpp"
 #include "app/scene_regime.hpp"
@@ -189,7 +189,7 @@ nlohmann::json built(const CheckRequest& request, const Section& scene) {
   for (const std::string& warning : scene_warnings(scene, regime)) {
     result["warnings"].push_back(warning);
   }
-  if (const auto warning = leak_off_warning(scene, scene.number("time.end"))) {
+  if (const auto warning = seepage_warning(scene, scene.number("time.end"))) {
     result["warnings"].push_back(*warning);
   }
   if (!(request.trial_seconds > 0.0)) return result;

@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/energy_warnings.hpp"
-#include "app/filling_warning.hpp"
 #include "app/memory.hpp"
 #include "app/output_times.hpp"
 #include "app/profile_report.hpp"
 #include "app/recorder.hpp"
 #include "app/report.hpp"
+#include "app/resolution_warnings.hpp"
 #include "app/scene_echo.hpp"
 #include "app/scene_keys.hpp"
 #include "app/scene_warnings.hpp"
@@ -284,7 +284,9 @@ int run_scene(const RunRequest& request) {
         if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
         if (const auto warning = filling_warning(scene, simulation)) log_warning(*warning);
         const double end = simulation.manager->time();
-        if (const auto warning = leak_off_warning(scene, end)) log_warning(*warning);
+        if (const auto warning = seepage_warning(scene, end); warning && signal == 0) {
+          log_warning(*warning);
+        }
         recorder.write_checkpoint(false);
         recorder.check_kept();
         return signal;

@@ -112,7 +112,12 @@ class Validity(RunTest):
         short = {"body.spacing": "5 mm", "time.end": "1 ms", "output.interval": "1 ms"}
         for scene, warns in (("hf_storage_pores.yaml", True), ("hf_leakoff_pores.yaml", False)):
             warned = self.warnings(CONFIGS / scene, short)
-            self.assertEqual(any("into the pores beside cracks" in warning for warning in warned), warns, warned)
+            self.assertEqual(any("through the faces of cracks" in warning for warning in warned), warns, warned)
+
+    def test_seepage_within_a_spacing(self):
+        soon = {"time.end": "1 ms", "output.times": "[]", "output.probes": "[]"}
+        self.assert_warns(CONFIGS / "aquifer.yaml", soon, "through face 'left' depends on the spacing")
+        self.assert_warns(CONFIGS / "aquifer.yaml", soon | {"time.end": "1 s"})
 
     def test_a_crack_that_fluid_has_hardly_entered(self):
         soon = {"body.spacing": "2.5 mm", "cracks[1]": "null", "time.end": "0.05 ms", "output.interval": "0.05 ms"}

@@ -12,8 +12,8 @@ namespace perifrac {
 /// pressure and no opening yet that would not depend on how long facets are.
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation);
 
-/// Where fluid has gone less than a spacing into the pores beside a crack by `time` [s]: what leaks
-/// off then is what points so far apart take, not rock.
-std::optional<std::string> leak_off_warning(const Section& scene, double time);
+/// Where pressure has gone less than a spacing into the pores by `time` [s], from a face that holds
+/// it or a crack: what seeps then is what points so far apart take, not rock.
+std::optional<std::string> seepage_warning(const Section& scene, double time);
 
 }  // namespace perifrac

@@ -1,4 +1,4 @@
-#include "app/filling_warning.hpp"
+#include "app/resolution_warnings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,11 +35,27 @@ double diffusivity(const Section& scene) {
   double largest = 0.0;
   for (int a = 0; a < D; ++a) largest = std::max(largest, mobility[(D + 1) * a]);
   double storage = pores.storage;
-  if (scene.word("solid.type") != "rigid") {
+  if (writes(scene, "solid") && scene.word("solid.type") != "rigid") {
     storage += pores.biot_coefficient * pores.biot_coefficient /
                read_elastic_rock(scene).uniaxial_modulus();
   }
   return largest / storage;
+}
+
+/// A face whose pressure is given, or cracks that leak off into pores; empty where there is
+/// neither.
+std::string where_fluid_seeps(const Section& scene) {
+  if (!writes(scene, "pore_flow")) return "";
+  if (writes(scene, "crack_fluid") && scene.word("crack_fluid.leak_off") == "pores") {
+    return "the faces of cracks";
+  }
+  if (!writes(scene, "pore_flow.boundary")) return "";
+  for (const std::string& face : scene.names("pore_flow.boundary")) {
+    if (scene.word(fmt::format("pore_flow.boundary.{}.type", face)) == "pressure") {
+      return fmt::format("face '{}'", face);
+    }
+  }
+  return "";
 }
 
 }  // namespace
@@ -57,18 +73,18 @@ std::optional<std::string> filling_warning(const Section& scene, const Simulatio
       filled, filled / spacing);
 }
 
-std::optional<std::string> leak_off_warning(const Section& scene, double time) {
-  if (!writes(scene, "crack_fluid") || scene.word("crack_fluid.leak_off") != "pores") return {};
+std::optional<std::string> seepage_warning(const Section& scene, double time) {
+  const std::string through = where_fluid_seeps(scene);
+  if (through.empty() || !scene.has("body.spacing")) return {};
   const double spacing = scene.number("body.spacing");
   const bool is_flat = scene.integer("dimension") == 2;
   const double c = is_flat ? diffusivity<2>(scene) : diffusivity<3>(scene);
   const double depth = std::sqrt(c * time);
   if (!(depth < spacing)) return {};
   return fmt::format(
-      "fluid goes {:.2g} m into the pores beside cracks by t = {:.3g} s, less than body.spacing: "
-      "what leaks off depends on the spacing; bring points closer together, or take "
-      "crack_fluid.leak_off: carter, or none where it is little",
-      depth, time);
+      "pressure goes {:.2g} m into the pores by t = {:.3g} s, less than body.spacing: what flows "
+      "through {} depends on the spacing; bring points closer together, or look at later times",
+      depth, time, through);
 }
 
 }  // namespace perifrac
