@@ -37,9 +37,9 @@ class Validity(RunTest):
 
     def test_a_run_says_what_check_knows(self):
         dry = WELL | {"solid.confining_stress": "[0.1 MPa, 0.1 MPa]"}
-        warned = self.assert_warns(CONFIGS / "kgd_mixed.yaml", dry, "no fluid lag")
+        self.assert_warns(CONFIGS / "kgd_mixed.yaml", dry, "no fluid lag", "fluid fills")
         said = perifrac("check", CONFIGS / "kgd_mixed.yaml", "--json", "--trial", "0", *settings(dry))
-        self.assertEqual(json.loads(said.stdout)["warnings"], self.summary["warnings"])
+        self.assertEqual(json.loads(said.stdout)["warnings"], self.summary["warnings"][:1])  # the other is of the end
 
     def test_a_table_of_another_fluid_is_not_compared(self):
         for key, value in (("crack_fluid.viscosity", "10 cP"), ("crack_fluid.inlets[0].rate", "2e-4 m^2/s"),
