@@ -42,6 +42,12 @@ double diffusivity(const Section& scene) {
   return largest / storage;
 }
 
+/// Cracks load rock far from its faces: little flows through one that holds what was there before.
+bool is_left_as_it_was(const Section& scene, const std::string& face) {
+  return writes(scene, "cracks") && !writes(scene, face + ".schedule") &&
+         scene.number(face + ".pressure") == scene.number("pore_flow.initial_pressure");
+}
+
 /// A face whose pressure is given, or cracks that leak off into pores; empty where there is
 /// neither.
 std::string where_fluid_seeps(const Section& scene) {
@@ -50,9 +56,10 @@ std::string where_fluid_seeps(const Section& scene) {
     return "the faces of cracks";
   }
   if (!writes(scene, "pore_flow.boundary")) return "";
-  for (const std::string& face : scene.names("pore_flow.boundary")) {
-    if (scene.word(fmt::format("pore_flow.boundary.{}.type", face)) == "pressure") {
-      return fmt::format("face '{}'", face);
+  for (const std::string& name : scene.names("pore_flow.boundary")) {
+    const std::string face = "pore_flow.boundary." + name;
+    if (scene.word(face + ".type") == "pressure" && !is_left_as_it_was(scene, face)) {
+      return fmt::format("face '{}'", name);
     }
   }
   return "";

@@ -118,6 +118,12 @@ class Validity(RunTest):
         soon = {"time.end": "1 ms", "output.times": "[]", "output.probes": "[]"}
         self.assert_warns(CONFIGS / "aquifer.yaml", soon, "through face 'left' depends on the spacing")
         self.assert_warns(CONFIGS / "aquifer.yaml", soon | {"time.end": "1 s"})
+        # Far from a crack that does not leak a face holds what was there.
+        tight = {"body.spacing": "5 mm", "time.end": "1 ms", "output.interval": "1 ms", "crack_fluid.leak_off": "none"}
+        for pressure, warns in (("0 Pa", False), ("10 kPa", True)):
+            held = tight | {"pore_flow.boundary": f"{{left: {{type: pressure, pressure: {pressure}}}}}"}
+            warned = self.warnings(CONFIGS / "hf_storage_pores.yaml", held)
+            self.assertEqual(any("through face 'left'" in warning for warning in warned), warns, warned)
 
     def test_a_crack_that_fluid_has_hardly_entered(self):
         soon = {"body.spacing": "2.5 mm", "cracks[1]": "null", "time.end": "0.05 ms", "output.interval": "0.05 ms"}
