@@ -55,7 +55,9 @@ double lattice_points(const Section& scene) {
   if (!writes(scene, "body") || !scene.has("body.spacing")) return 0.0;
   const double spacing = scene.number("body.spacing");
   double points = 1.0;
-  if (scene.word("body.shape") == "box") {
+  const std::string shape = scene.word("body.shape");
+  if (shape == "points") return 0.0;
+  if (shape == "box") {
     for (const double length : scene.numbers("body.size"))
       points *= std::max(1.0, length / spacing);
     return points;

@@ -34,6 +34,7 @@ QUICK = {
     ("windows of 1 of the diffusion time", "quasi_static, darcy cvode"),
     ("sudden shut-in", "network, fluid bulk modulus 2.2 GPa"),
     ("crack that splits the body", "darcy conservative explicit"), ("isolated point", "quasi_static"),
+    ("spacing that jumps by two", "quasi_static"), ("spacing that jumps by two", "darcy conservative explicit"),
     ("families with two bonds", "dynamic"), ("jitter 30 %", "darcy conservative cvode, seed 1"),
     ("source in nearly undrained rock, fluid of 1e6 GPa, c t / Δx² = 0.01", "quasi_static, darcy cvode"),
 }
