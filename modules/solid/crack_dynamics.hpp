@@ -23,7 +23,7 @@ namespace perifrac {
 ///
 /// The bonds that a facet cuts let go gradually: the force that they had acts on over `release`
 /// and fades. The work that faces do against it is what growth takes, to tiny vibrations.
-class CrackDynamics final : public CutBody<2>, public AddedForce {
+class CrackDynamics final : public CutBody<2>, public BodyFracture {
  public:
   /// As CutBody. `release`: how long bonds take to let go [s].
   CrackDynamics(std::shared_ptr<Family<2>> family, double spacing,

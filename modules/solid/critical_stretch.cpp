@@ -7,6 +7,7 @@
 
 #include "core/geometry/crack_cut.hpp"
 #include "core/operators/bond_traversal.hpp"
+#include "core/profile/profile.hpp"
 #include "modules/solid/stiffness_bound.hpp"
 
 namespace perifrac {
@@ -62,8 +63,9 @@ void CriticalStretch<D>::cut_seeds() {
 }
 
 template <int D>
-bool CriticalStretch<D>::break_stretched(std::span<const double> u) {
+bool CriticalStretch<D>::breaks(std::span<const double> u) {
   if (std::isinf(limit_)) return false;
+  const ProfileScope profiled("damage");
   const Bonds bonds = stretched_bonds(u);
   if (bonds.empty()) return false;
   const std::vector<Index> points = ends_of(bonds);
@@ -184,7 +186,7 @@ void CriticalStretch<D>::visit_state(StateVisitor& visitor) {
 }
 
 template <int D>
-void CriticalStretch<D>::follow_bonds() {
+void CriticalStretch<D>::follow_state() {
   if (bonds_.version() == followed_) return;
   followed_ = bonds_.version();
   budget_.forget();

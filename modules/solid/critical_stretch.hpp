@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/bond_state.hpp"
+#include "modules/solid/body_fracture.hpp"
 #include "modules/solid/breakable_elasticity.hpp"
 #include "modules/solid/stretch_budget.hpp"
 
@@ -15,7 +16,7 @@ namespace perifrac {
 /// the reference bond xi (paper section 2.3). For small displacements that is xi . du > s0 |xi|^2;
 /// unlike this, it lets go of a loose piece that slides past or turns away.
 template <int D>
-class CriticalStretch {
+class CriticalStretch final : public BodyFracture {
  public:
   /// `family` is the one of `elastic`, with nothing broken. Writes `bonds`. A limit of infinity
   /// breaks nothing but what the seeds cut.
@@ -25,21 +26,20 @@ class CriticalStretch {
 
   /// Cuts what the body is cut by from the start; once, after the intact body's loads are known.
   void cut_seeds();
-  /// Breaks every bond that is stretched too far at u, the vector that the material's apply() was
-  /// last given; whether there was one.
-  bool break_stretched(std::span<const double> u);
+  /// Breaks every bond that is stretched too far at u; whether there was one.
+  bool breaks(std::span<const double> u) override;
 
   /// A bound, at least 1, of how much stiffer the body is than after cut_seeds(): a point whose
   /// bonds span space poorly makes large gradients of small displacements.
-  double stiffness_growth() const { return growth_; }
+  double stiffness_growth() const override { return growth_; }
   /// What breaking took from the elastic energy, seeds apart [J].
   double released_energy() const { return released_energy_; }
   /// Part of the volume of a point's family that is beyond broken bonds (paper Eq 16).
   void damage(std::span<double> result) const { find_damage(*family_, result); }
 
-  /// Broken bonds and the energy; follow_bonds() makes the body that they belong to.
+  /// Broken bonds and the energy; follow_state() makes the body that they belong to.
   void visit_state(StateVisitor& visitor);
-  void follow_bonds();
+  void follow_state() override;
 
  private:
   using Bonds = std::vector<std::pair<Index, Index>>;

@@ -54,7 +54,7 @@ DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
               release_time(*body, *elastic, density)),
       tips_(*body, cracks_, std::move(fracture_energy)),
       first_port_(static_cast<PortId>(ports_.size())) {
-  system_->set_added_force(cracks_);
+  system_->set_fracture(cracks_);
   using enum PortDirection;
   for (const Port& port : std::initializer_list<Port>{
            {"crack_pressure", "Pa", in},

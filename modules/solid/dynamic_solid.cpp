@@ -17,7 +17,10 @@ DynamicSolid<D>::DynamicSolid(std::shared_ptr<const Body<D>> body,
       breaking_(std::move(breaking)),
       system_(std::make_unique<ElasticDynamics<D>>(*body_, std::move(elastic), boundary, density)),
       verlet_(std::make_unique<VelocityVerlet>(*system_, damping, safety)) {
-  if (breaking_) system_->set_breaking(*breaking_);
+  if (breaking_) {
+    breaking_->cut_seeds();
+    system_->set_fracture(*breaking_);
+  }
   const auto vector = [](const char* name, const char* unit) {
     return Port{name, unit, PortDirection::out, PortKind::intensive, PortRole::field, D};
   };
@@ -158,6 +161,7 @@ double DynamicSolid<D>::advance(const TimeWindow& window) {
 template <int D>
 void DynamicSolid<D>::visit_state(StateVisitor& visitor) {
   system_->visit_state(visitor);
+  if (breaking_) breaking_->visit_state(visitor);
   interface_.visit_state(visitor);
   visitor.visit("velocity", motion_.velocity);
   visitor.visit("acceleration", motion_.acceleration);

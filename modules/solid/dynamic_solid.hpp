@@ -8,6 +8,7 @@
 #include "core/geometry/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/time/velocity_verlet.hpp"
+#include "modules/solid/critical_stretch.hpp"
 #include "modules/solid/elastic_dynamics.hpp"
 #include "modules/solid/interface_force.hpp"
 

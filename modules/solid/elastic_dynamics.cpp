@@ -114,7 +114,7 @@ void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<do
   const bool answers = !pore_.value.empty();
   apply(unknowns_, {pore_stress_, pore_slope_}, inner_,
         answers ? std::span(dilatation_) : std::span<double>());
-  if (added_ != nullptr) added_->add(t, unknowns_, inner_);
+  if (fracture_ != nullptr) fracture_->add(t, unknowns_, inner_);
   // Trapezoidal in time: the work that this scheme's energy answers to.
   external_work_ += block_sum(static_cast<Index>(acted_on_.size()), block_sums_, [&](Index n) {
     const Index k = acted_on_[n];
@@ -283,34 +283,21 @@ void ElasticDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("external_force", external_force_);
   visitor.visit("external_work", external_work_);
   visitor.visit("pore_slope_of_reference", reference_slope_);
-  if (breaking_ != nullptr) breaking_->visit_state(visitor);
-}
-
-template <int D>
-void ElasticDynamics<D>::set_breaking(CriticalStretch<D>& breaking) {
-  breaking_ = &breaking;
-  breaking_->cut_seeds();
 }
 
 /// The step ends with the force of the bonds that it began with, and the next one begins without
 /// those that broke: so no energy is lost but what they held.
 template <int D>
 bool ElasticDynamics<D>::changes() {
-  if (breaking_ == nullptr) return false;
-  const ProfileScope profiled("damage");
-  if (!breaking_->break_stretched(unknowns_)) return false;
+  if (fracture_ == nullptr || !fracture_->breaks(unknowns_)) return false;
   plate_rows_known_ = false;
   return true;
 }
 
 template <int D>
 void ElasticDynamics<D>::derive() {
-  if (breaking_ != nullptr) {
-    breaking_->follow_bonds();
-    plate_rows_known_ = false;
-  }
-  if (added_ != nullptr) {
-    added_->follow_state();
+  if (fracture_ != nullptr) {
+    fracture_->follow_state();
     plate_rows_known_ = false;
   }
   apply(unknowns_, {}, inner_, pore_.value.empty() ? std::span<double>() : dilatation_);

@@ -10,7 +10,7 @@
 #include "core/state/state_visitor.hpp"
 #include "core/time/scheduled_vector.hpp"
 #include "core/time/second_order_system.hpp"
-#include "modules/solid/critical_stretch.hpp"
+#include "modules/solid/body_fracture.hpp"
 #include "modules/solid/elastic_operator.hpp"
 #include "modules/solid/solid_boundary.hpp"
 
@@ -23,22 +23,6 @@ struct PoreStressInput {
   std::span<const double> rate{};
   std::span<const double> slope{};
   double end = 0.0;
-};
-
-/// Forces on an elastic body beside those of its bonds and loads.
-class AddedForce {
- public:
-  virtual ~AddedForce() = default;
-  /// Takes its force at time t [s] and displacements u from the inner force on every unknown [N].
-  /// Called once at each time that is reached, and again where something jumped.
-  virtual void add(double t, std::span<const double> u, std::span<double> inner) = 0;
-  /// Impulses at the ends of a step [s], on the velocity of what has a mass.
-  virtual void begin_step(double step, std::span<double> velocity) = 0;
-  virtual void end_step(double step, std::span<double> velocity) = 0;
-  /// A bound, at least 1, of how much stiffer than it was at first the body is.
-  virtual double stiffness_growth() const = 0;
-  /// The state was replaced: takes the body to what it is in that.
-  virtual void follow_state() = 0;
 };
 
 /// Newton's law for an elastic body: m u'' = load - dE/du, for all that is free to move and has a
@@ -59,24 +43,20 @@ class ElasticDynamics final : public SecondOrderSystem {
   void stiffness_times(std::span<const double> v, std::span<double> product) override;
   std::uint64_t stiffness_version() const override { return version_; }
   double stiffness_growth() const override {
-    const double broken = breaking_ ? breaking_->stiffness_growth() : 1.0;
-    return growth_ * (added_ ? added_->stiffness_growth() : broken);
+    return growth_ * (fracture_ != nullptr ? fracture_->stiffness_growth() : 1.0);
   }
   void begin_step(double step, std::span<double> velocity) override {
-    if (added_ != nullptr) added_->begin_step(step, velocity);
+    if (fracture_ != nullptr) fracture_->begin_step(step, velocity);
   }
   void end_step(double step, std::span<double> velocity) override {
-    if (added_ != nullptr) added_->end_step(step, velocity);
+    if (fracture_ != nullptr) fracture_->end_step(step, velocity);
   }
   bool changes() override;
 
-  /// Bonds break from now on, in the family of the operator; cuts the seeds. It must stay.
-  void set_breaking(CriticalStretch<D>& breaking);
-
-  /// Another force acts from now on; it must stay.
-  void set_added_force(AddedForce& force) { added_ = &force; }
-  bool may_break() const { return breaking_ != nullptr || added_ != nullptr; }
-  /// Bonds were broken by who adds a force.
+  /// The body may break from now on, in the family of the operator. It must stay.
+  void set_fracture(BodyFracture& fracture) { fracture_ = &fracture; }
+  bool may_break() const { return fracture_ != nullptr; }
+  /// Bonds were broken between steps.
   void note_broken_bonds() { plate_rows_known_ = false; }
   /// What moves an unknown, by its place in mass(); negative: nothing that has a mass.
   Index moved_by(Index unknown) const { return owner_[unknown]; }
@@ -149,8 +129,7 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
-  CriticalStretch<D>* breaking_ = nullptr;
-  AddedForce* added_ = nullptr;
+  BodyFracture* fracture_ = nullptr;
   std::vector<double> initial_force_;  ///< of the initial stress [N]; empty without one
   ScheduledVector prescribed_;
   bool prescribes_ = false;  ///< something other than 0

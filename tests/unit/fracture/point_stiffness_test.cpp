@@ -21,7 +21,7 @@ void expect_sum(test::Cloud cloud, double limit, test::Rock rock) {
   const std::vector<double> u = test::random_values(parts.elastic->size());
   std::vector<double> force(u.size()), theta(body->points().size());
   parts.elastic->apply(u, {}, force, theta);
-  breaking.break_stretched(u);
+  breaking.breaks(u);
 
   const Eigen::MatrixXd whole = parts.elastic->assemble();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(whole.rows(), whole.cols());
