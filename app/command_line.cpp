@@ -8,13 +8,13 @@
 #include <CLI/CLI.hpp>
 #include <omp.h>
 
-#include "app/check.hpp"
 #include "app/list.hpp"
-#include "app/report.hpp"
-#include "app/run.hpp"
+#include "app/report/report.hpp"
+#include "app/run/check.hpp"
+#include "app/run/run.hpp"
+#include "app/run/version.hpp"
 #include "app/study/study.hpp"
-#include "app/version.hpp"
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace perifrac {
 

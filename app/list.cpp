@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/register_modules.hpp"
-#include "app/scene_keys.hpp"
+#include "app/run/scene_keys.hpp"
+#include "app/simulation/register_modules.hpp"
 #include "app/study/study_keys.hpp"
 #include "core/config/reference_page.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 
 namespace perifrac::bench {
 

@@ -3,7 +3,7 @@
 #include <omp.h>
 
 #include "bench/bench_bodies.hpp"
-#include "core/operators/bond_traversal.hpp"
+#include "core/bonds/bond_traversal.hpp"
 
 namespace perifrac::bench {
 namespace {

@@ -3,8 +3,8 @@
 #include <omp.h>
 
 #include "bench/bench_bodies.hpp"
-#include "modules/solid/linear_exact_elasticity.hpp"
-#include "modules/solid/lps_elasticity.hpp"
+#include "modules/solid/material/linear_exact_elasticity.hpp"
+#include "modules/solid/material/lps_elasticity.hpp"
 
 namespace perifrac::bench {
 namespace {

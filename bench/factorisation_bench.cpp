@@ -1,7 +1,7 @@
 #include "bench/bench_bodies.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <omp.h>
 
 #include "modules/fluid/fluid_dynamics.hpp"
-#include "modules/fluid/two_sided_wall_force.hpp"
+#include "modules/fluid/walls/two_sided_wall_force.hpp"
 
 namespace perifrac::bench {
 namespace {

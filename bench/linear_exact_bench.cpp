@@ -4,8 +4,8 @@
 
 #include "bench/bench_bodies.hpp"
 #include "core/operators/linear_exact.hpp"
-#include "modules/pore_flow/darcy_law.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/pore_flow/material/darcy_law.hpp"
+#include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/module/point_set.hpp"
+#include "core/base/point_set.hpp"
 
 namespace perifrac {
 

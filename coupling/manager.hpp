@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/state/state_visitor.hpp"
 #include "coupling/coupling_options.hpp"
 #include "coupling/ledger.hpp"

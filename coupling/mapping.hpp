@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/module/point_set.hpp"
+#include "core/base/point_set.hpp"
 #include "core/module/port.hpp"
 
 namespace perifrac {

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "app/references/cantilever_solution.hpp"
 #include "app/references/comparison.hpp"
-#include "app/references/oscillation.hpp"
 #include "app/references/rock.hpp"
+#include "app/references/solutions/cantilever_solution.hpp"
+#include "app/references/solutions/oscillation.hpp"
 
 namespace perifrac {
 

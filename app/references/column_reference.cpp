@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
-#include "app/references/layered_column_solution.hpp"
 #include "app/references/rock.hpp"
-#include "app/references/terzaghi_solution.hpp"
+#include "app/references/solutions/layered_column_solution.hpp"
+#include "app/references/solutions/terzaghi_solution.hpp"
 
 namespace perifrac {
 

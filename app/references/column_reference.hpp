@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "app/references/reference.hpp"
-#include "app/simulation.hpp"
+#include "app/simulation/simulation.hpp"
 #include "core/config/section.hpp"
 
 namespace perifrac {

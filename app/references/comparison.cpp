@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/place_reader.hpp"
+#include "app/simulation/place_reader.hpp"
 
 namespace perifrac {
 

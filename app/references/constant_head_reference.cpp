@@ -8,7 +8,7 @@
 #include "app/references/free_fluid.hpp"
 #include "app/references/moving_points.hpp"
 #include "app/references/rock.hpp"
-#include "app/references/seepage_solution.hpp"
+#include "app/references/solutions/seepage_solution.hpp"
 
 namespace perifrac {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
-#include "app/references/cryer_solution.hpp"
 #include "app/references/rock.hpp"
+#include "app/references/solutions/cryer_solution.hpp"
 
 namespace perifrac {
 

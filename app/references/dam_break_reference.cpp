@@ -6,8 +6,8 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
-#include "app/references/martin_moyce.hpp"
 #include "app/references/moving_points.hpp"
+#include "app/references/solutions/martin_moyce.hpp"
 
 namespace perifrac {
 

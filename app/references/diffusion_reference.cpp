@@ -6,7 +6,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/rock.hpp"
-#include "app/references/slab_drainage.hpp"
+#include "app/references/solutions/slab_drainage.hpp"
 
 namespace perifrac {
 

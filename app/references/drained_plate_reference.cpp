@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
-#include "app/references/plate_solution.hpp"
 #include "app/references/rock.hpp"
+#include "app/references/solutions/plate_solution.hpp"
 #include "core/geometry/faces.hpp"
 
 namespace perifrac {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
-#include "app/references/mandel_solution.hpp"
 #include "app/references/rock.hpp"
+#include "app/references/solutions/mandel_solution.hpp"
 
 namespace perifrac {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "app/references/reference.hpp"
-#include "app/simulation.hpp"
+#include "app/simulation/simulation.hpp"
 
 namespace perifrac {
 

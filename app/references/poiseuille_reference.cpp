@@ -6,7 +6,7 @@
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
 #include "app/references/moving_points.hpp"
-#include "app/references/poiseuille_solution.hpp"
+#include "app/references/solutions/poiseuille_solution.hpp"
 
 namespace perifrac {
 

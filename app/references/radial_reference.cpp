@@ -7,10 +7,10 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/growth_step.hpp"
-#include "app/references/radial_solution.hpp"
 #include "app/references/rock.hpp"
-#include "modules/solid/damage_keys.hpp"
-#include "modules/solid/stress_at_rest.hpp"
+#include "app/references/solutions/radial_solution.hpp"
+#include "modules/solid/fracture/damage_keys.hpp"
+#include "modules/solid/material/stress_at_rest.hpp"
 
 namespace perifrac {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "app/references/comparison.hpp"
-#include "modules/pore_flow/mobility.hpp"
-#include "modules/pore_flow/pore_material.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/pore_flow/material/mobility.hpp"
+#include "modules/pore_flow/material/pore_material.hpp"
+#include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/references/comparison.hpp"
-#include "core/geometry/crack_seeds.hpp"
+#include "core/body/crack_seeds.hpp"
 
 namespace perifrac {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/references/reference.hpp"
-#include "app/simulation.hpp"
+#include "app/simulation/simulation.hpp"
 #include "core/config/section.hpp"
 
 namespace perifrac {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/references/beam_section.hpp"
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
 #include "app/references/rock.hpp"
+#include "app/references/solutions/beam_section.hpp"
 
 namespace perifrac {
 

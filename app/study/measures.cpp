@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/study/orders.hpp"
-#include "core/config/names.hpp"
+#include "core/base/names.hpp"
 
 namespace perifrac {
 

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "app/scene_keys.hpp"
+#include "app/run/scene_keys.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 #include "core/config/key_value.hpp"
-#include "core/config/names.hpp"
 #include "core/config/units.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/summary.hpp"
-#include "app/version.hpp"
+#include "app/run/summary.hpp"
+#include "app/run/version.hpp"
 #include "core/io/atomic_file.hpp"
 
 namespace perifrac {

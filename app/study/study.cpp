@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/drawing.hpp"
+#include "app/report/drawing.hpp"
+#include "app/run/summary.hpp"
 #include "app/study/sentences.hpp"
 #include "app/study/study_json.hpp"
 #include "app/study/study_tables.hpp"
-#include "app/summary.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/log.hpp"
 #include "core/io/output_folder.hpp"

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "app/study/study_keys.hpp"
-#include "core/config/names.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 #include "core/config/scene.hpp"
 #include "core/config/units.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/version.hpp"
+#include "app/run/version.hpp"
 
 namespace perifrac {
 

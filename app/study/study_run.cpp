@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
-#include "app/process.hpp"
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/io/log.hpp"
 #include "core/io/output_folder.hpp"
+#include "core/io/process.hpp"
 #include "core/io/signals.hpp"
 
 namespace perifrac {

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "app/scene_keys.hpp"
-#include "core/config/names.hpp"
+#include "app/run/scene_keys.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 #include "core/config/override.hpp"
 #include "core/config/scene.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 

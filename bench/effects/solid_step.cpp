@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/body/crack_seeds.hpp"
 #include "core/config/scene.hpp"
-#include "core/geometry/crack_seeds.hpp"
-#include "modules/solid/damage_keys.hpp"
-#include "modules/solid/material.hpp"
-#include "modules/solid/solid_boundary_keys.hpp"
+#include "modules/solid/boundary/solid_boundary_keys.hpp"
+#include "modules/solid/fracture/damage_keys.hpp"
+#include "modules/solid/material/material.hpp"
 #include "modules/solid/solid_types.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/config/names.hpp"
+#include "core/base/names.hpp"
 
 namespace perifrac {
 

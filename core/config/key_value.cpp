@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "core/config/names.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 #include "core/config/range.hpp"
 #include "core/config/units.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 namespace {

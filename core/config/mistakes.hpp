@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace perifrac {
 

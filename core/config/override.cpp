@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 #include "core/config/key_tree.hpp"
-#include "core/config/names.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 namespace {

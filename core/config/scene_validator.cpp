@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/names.hpp"
 #include "core/config/key_suggestion.hpp"
 #include "core/config/mistakes.hpp"
-#include "core/config/names.hpp"
 
 namespace perifrac {
 namespace {

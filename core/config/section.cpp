@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "core/config/names.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 #include "core/config/scene_tree.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
-#include "core/config/names.hpp"
+#include "core/base/names.hpp"
 
 namespace perifrac {
 namespace {

@@ -10,8 +10,8 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
-#include "core/config/names.hpp"
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 #include "core/io/input_file.hpp"
 
 namespace perifrac {

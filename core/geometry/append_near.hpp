@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "core/operators/packet.hpp"
+#include "core/base/packet.hpp"
 
 namespace perifrac {
 

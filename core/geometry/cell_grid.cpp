@@ -7,8 +7,8 @@
 
 #include <omp.h>
 
+#include "core/base/for_each_point.hpp"
 #include "core/geometry/append_near.hpp"
-#include "core/operators/bond_traversal.hpp"
 
 namespace perifrac {
 

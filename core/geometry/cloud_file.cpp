@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/config/names.hpp"
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 #include "core/io/input_file.hpp"
 
 namespace perifrac {

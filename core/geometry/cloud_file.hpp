@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/points.hpp"
+#include "core/base/points.hpp"
 
 namespace perifrac {
 

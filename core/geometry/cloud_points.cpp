@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/geometry/cloud_file.hpp"
 #include "core/geometry/space_filling_curve.hpp"
 #include "core/geometry/voronoi.hpp"

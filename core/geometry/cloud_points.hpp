@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/base/points.hpp"
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
-#include "core/geometry/points.hpp"
 
 namespace perifrac {
 

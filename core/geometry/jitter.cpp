@@ -1,6 +1,6 @@
 #include "core/geometry/jitter.hpp"
 
-#include "core/geometry/random_bits.hpp"
+#include "core/base/random_bits.hpp"
 
 namespace perifrac {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/geometry/points.hpp"
+#include "core/base/points.hpp"
 
 namespace perifrac {
 

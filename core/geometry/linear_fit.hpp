@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/points.hpp"
-#include "core/module/point_set.hpp"
+#include "core/base/point_set.hpp"
+#include "core/base/points.hpp"
 
 namespace perifrac {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/geometry/points.hpp"
+#include "core/base/points.hpp"
 
 namespace perifrac {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/geometry/random_bits.hpp"
+#include "core/base/random_bits.hpp"
 
 namespace perifrac {
 

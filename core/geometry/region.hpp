@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/points.hpp"
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
-#include "core/geometry/points.hpp"
 
 namespace perifrac {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/law_by_region.hpp"
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/geometry/random_field.hpp"
-#include "core/operators/law_by_region.hpp"
 
 namespace perifrac {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/geometry/points.hpp"
+#include "core/base/points.hpp"
 
 namespace perifrac {
 

@@ -6,7 +6,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/io/file_descriptor.hpp"
 
 namespace perifrac {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/module/point_set.hpp"
+#include "core/base/point_set.hpp"
 
 namespace perifrac {
 

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace perifrac {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/io/atomic_file.hpp"
 #include "core/io/file_descriptor.hpp"
 #include "core/io/input_file.hpp"

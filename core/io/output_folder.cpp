@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/io/atomic_file.hpp"
 
 namespace perifrac {

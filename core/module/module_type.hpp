@@ -3,15 +3,15 @@
 #include <memory>
 #include <string>
 
+#include "core/body/body.hpp"
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
-#include "core/geometry/body.hpp"
 #include "core/module/physics_module.hpp"
 
 namespace perifrac {
 
 /// One word that a scene may put after `type:` in a physics section, and what it stands for.
-/// All of them are listed in app/register_modules.cpp.
+/// All of them are listed in app/simulation/register_modules.cpp.
 struct ModuleType {
   std::string section;  ///< the physics: `solid`, `pore_flow`, ...
   std::string name;     ///< the word: `quasi_static`

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "core/module/point_set.hpp"
+#include "core/base/point_set.hpp"
 
 namespace perifrac {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/SparseCore>
 
-#include "core/geometry/body.hpp"
-#include "core/operators/mirror_condition.hpp"
+#include "core/body/body.hpp"
+#include "core/bonds/mirror_condition.hpp"
 
 namespace perifrac {
 

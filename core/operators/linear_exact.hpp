@@ -12,14 +12,14 @@
 
 #include <Eigen/SparseCore>
 
-#include "core/operators/bond_traversal.hpp"
-#include "core/operators/law_by_region.hpp"
+#include "core/base/law_by_region.hpp"
+#include "core/base/small_tensor.hpp"
+#include "core/bonds/bond_traversal.hpp"
+#include "core/bonds/mirror_condition.hpp"
+#include "core/bonds/shape_tensor.hpp"
 #include "core/operators/linear_exact_lattice.hpp"
-#include "core/operators/mirror_condition.hpp"
 #include "core/operators/nonlocal_gradient.hpp"
 #include "core/operators/point_stiffness.hpp"
-#include "core/operators/shape_tensor.hpp"
-#include "core/operators/small_tensor.hpp"
 
 namespace perifrac {
 

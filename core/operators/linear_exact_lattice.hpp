@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/operators/lattice_bonds.hpp"
-#include "core/operators/mirror_condition.hpp"
-#include "core/operators/shape_tensor.hpp"
+#include "core/bonds/lattice_bonds.hpp"
+#include "core/bonds/mirror_condition.hpp"
+#include "core/bonds/shape_tensor.hpp"
 
 namespace perifrac {
 

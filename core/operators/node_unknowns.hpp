@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/operators/mirror_condition.hpp"
+#include "core/bonds/mirror_condition.hpp"
 
 namespace perifrac {
 

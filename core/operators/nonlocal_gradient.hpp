@@ -4,10 +4,10 @@
 
 #include <Eigen/SparseCore>
 
-#include "core/operators/bond_traversal.hpp"
-#include "core/operators/mirror_condition.hpp"
-#include "core/operators/shape_tensor.hpp"
-#include "core/operators/small_tensor.hpp"
+#include "core/base/small_tensor.hpp"
+#include "core/bonds/bond_traversal.hpp"
+#include "core/bonds/mirror_condition.hpp"
+#include "core/bonds/shape_tensor.hpp"
 
 namespace perifrac {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/geometry/points.hpp"
+#include "core/base/points.hpp"
 
 namespace perifrac {
 

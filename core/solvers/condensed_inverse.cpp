@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "core/require.hpp"
+#include "core/base/require.hpp"
 
 namespace perifrac {
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <span>
 
-#include "core/operators/block_sum.hpp"
+#include "core/base/block_sum.hpp"
 
 namespace perifrac {
 

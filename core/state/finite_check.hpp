@@ -3,7 +3,7 @@
 #include <functional>
 #include <string_view>
 
-#include "core/module/point_set.hpp"
+#include "core/base/point_set.hpp"
 #include "core/state/state_visitor.hpp"
 
 namespace perifrac {

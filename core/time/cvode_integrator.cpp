@@ -15,7 +15,7 @@
 #include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace perifrac {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.hpp"
-#include "core/operators/compensated_sum.hpp"
+#include "core/base/errors.hpp"
+#include "core/state/compensated_sum.hpp"
 #include "core/time/equal_steps.hpp"
 #include "core/time/spectral_radius.hpp"
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/bond_state.hpp"
+#include "core/bonds/bond_state.hpp"
 
 namespace perifrac {
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
 #include "core/config/mistakes.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/bonds/bond_state.hpp"
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
-#include "core/geometry/bond_state.hpp"
 #include "core/time/schedule.hpp"
 #include "modules/crack_fluid/lubrication.hpp"
 

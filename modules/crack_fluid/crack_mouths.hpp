@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/module/point_set.hpp"
-#include "core/operators/compensated_sum.hpp"
+#include "core/base/point_set.hpp"
+#include "core/state/compensated_sum.hpp"
 #include "core/state/state_visitor.hpp"
 #include "modules/crack_fluid/crack_inlets.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.hpp"
-#include "core/require.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/require.hpp"
 #include "core/solvers/complementarity.hpp"
 #include "modules/crack_fluid/lubrication_newton.hpp"
 

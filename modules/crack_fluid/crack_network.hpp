@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
-#include "core/operators/compensated_sum.hpp"
+#include "core/state/compensated_sum.hpp"
 #include "modules/crack_fluid/crack_extent.hpp"
 #include "modules/crack_fluid/crack_inlets.hpp"
 #include "modules/crack_fluid/crack_mouths.hpp"

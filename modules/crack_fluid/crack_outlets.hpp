@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/body/body.hpp"
 #include "core/config/section.hpp"
-#include "core/geometry/body.hpp"
 #include "core/time/schedule.hpp"
 #include "modules/crack_fluid/crack_graph.hpp"
 #include "modules/crack_fluid/lubrication.hpp"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/body/crack_list.hpp"
 #include "core/config/mistakes.hpp"
-#include "core/geometry/crack_list.hpp"
 
 namespace perifrac {
 

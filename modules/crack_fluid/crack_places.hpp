@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/body/body.hpp"
 #include "core/config/section.hpp"
-#include "core/geometry/body.hpp"
 
 namespace perifrac {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
-#include "core/module/point_set.hpp"
+#include "core/base/point_set.hpp"
 #include "core/module/time_window.hpp"
 #include "core/state/state_visitor.hpp"
 #include "modules/crack_fluid/crack_graph.hpp"

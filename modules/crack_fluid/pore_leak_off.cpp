@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/operators/bond_traversal.hpp"
+#include "core/bonds/bond_traversal.hpp"
 
 namespace perifrac {
 

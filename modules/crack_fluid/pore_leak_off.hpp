@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/module/port.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/sealed_walls.hpp"

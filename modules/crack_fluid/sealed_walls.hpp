@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/point_set.hpp"
 #include "core/geometry/region.hpp"
-#include "core/module/point_set.hpp"
 
 namespace perifrac {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "modules/fluid/wall_force.hpp"
+#include "modules/fluid/walls/wall_force.hpp"
 
 namespace perifrac {
 

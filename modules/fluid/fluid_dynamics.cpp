@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.hpp"
-#include "core/operators/bond_traversal.hpp"
+#include "core/base/errors.hpp"
+#include "core/bonds/bond_traversal.hpp"
 #include "core/profile/profile.hpp"
 #include "modules/fluid/fluid_momentum.hpp"
-#include "modules/fluid/merge_points.hpp"
 #include "modules/fluid/particle_shifting.hpp"
+#include "modules/fluid/points/merge_points.hpp"
+#include "modules/fluid/points/split_points.hpp"
 #include "modules/fluid/soak_points.hpp"
-#include "modules/fluid/split_points.hpp"
-#include "modules/fluid/wall_contact.hpp"
+#include "modules/fluid/walls/wall_contact.hpp"
 
 namespace perifrac {
 

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "core/state/state_visitor.hpp"
-#include "modules/fluid/damaged_walls.hpp"
+#include "modules/fluid/as_published/damaged_walls.hpp"
 #include "modules/fluid/even_masses.hpp"
-#include "modules/fluid/exchange.hpp"
-#include "modules/fluid/fluid_neighbours.hpp"
-#include "modules/fluid/fluid_openings.hpp"
-#include "modules/fluid/wall_force.hpp"
-#include "modules/fluid/wall_motion.hpp"
+#include "modules/fluid/exchange/exchange.hpp"
+#include "modules/fluid/openings/fluid_openings.hpp"
+#include "modules/fluid/points/fluid_neighbours.hpp"
+#include "modules/fluid/walls/wall_force.hpp"
+#include "modules/fluid/walls/wall_motion.hpp"
 
 namespace perifrac {
 

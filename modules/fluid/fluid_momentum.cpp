@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/operators/bond_traversal.hpp"
+#include "core/bonds/bond_traversal.hpp"
 
 namespace perifrac {
 

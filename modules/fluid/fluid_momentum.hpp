@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/fluid/wall_force.hpp"
+#include "modules/fluid/walls/wall_force.hpp"
 
 namespace perifrac {
 

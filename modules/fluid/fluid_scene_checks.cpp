@@ -10,8 +10,8 @@
 
 #include "core/geometry/cell_grid.hpp"
 #include "core/geometry/faces.hpp"
-#include "modules/fluid/fluid_blocks.hpp"
-#include "modules/fluid/named_box.hpp"
+#include "modules/fluid/openings/named_box.hpp"
+#include "modules/fluid/points/fluid_blocks.hpp"
 
 namespace perifrac {
 

@@ -4,15 +4,15 @@
 
 #include <fmt/format.h>
 
-#include "modules/fluid/bond_flux_exchange.hpp"
-#include "modules/fluid/fluid_blocks.hpp"
+#include "modules/fluid/as_published/one_sided_wall_force.hpp"
+#include "modules/fluid/as_published/paper_exchange.hpp"
+#include "modules/fluid/as_published/smoothed_exchange.hpp"
+#include "modules/fluid/exchange/bond_flux_exchange.hpp"
 #include "modules/fluid/fluid_scene_checks.hpp"
-#include "modules/fluid/fluid_walls.hpp"
-#include "modules/fluid/one_sided_wall_force.hpp"
-#include "modules/fluid/paper_exchange.hpp"
+#include "modules/fluid/points/fluid_blocks.hpp"
 #include "modules/fluid/semi_lagrangian_fluid.hpp"
-#include "modules/fluid/smoothed_exchange.hpp"
-#include "modules/fluid/two_sided_wall_force.hpp"
+#include "modules/fluid/walls/fluid_walls.hpp"
+#include "modules/fluid/walls/two_sided_wall_force.hpp"
 
 namespace perifrac {
 

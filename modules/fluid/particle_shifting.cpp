@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/operators/bond_traversal.hpp"
-#include "modules/fluid/wall_contact.hpp"
+#include "core/bonds/bond_traversal.hpp"
+#include "modules/fluid/walls/wall_contact.hpp"
 
 namespace perifrac {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "modules/fluid/fluid_dynamics.hpp"
 

@@ -1,6 +1,6 @@
 #include "modules/pore_flow/darcy_flow.hpp"
 
-#include "core/operators/compensated_sum.hpp"
+#include "core/state/compensated_sum.hpp"
 
 namespace perifrac {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/time/integrator.hpp"
 #include "modules/pore_flow/darcy_system.hpp"

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.hpp"
-#include "core/operators/bond_traversal.hpp"
-#include "core/operators/compensated_sum.hpp"
+#include "core/base/errors.hpp"
+#include "core/bonds/bond_traversal.hpp"
 #include "core/profile/profile.hpp"
+#include "core/state/compensated_sum.hpp"
 
 namespace perifrac {
 

@@ -8,15 +8,15 @@
 
 #include <Eigen/Core>
 
-#include "core/geometry/bond_state.hpp"
+#include "core/bonds/bond_state.hpp"
 #include "core/module/time_window.hpp"
 #include "core/time/ode_system.hpp"
 #include "core/time/scheduled_vector.hpp"
-#include "modules/pore_flow/flow_operator.hpp"
-#include "modules/pore_flow/held_point.hpp"
+#include "modules/pore_flow/as_published/pressure_smoothing.hpp"
+#include "modules/pore_flow/boundary/held_point.hpp"
+#include "modules/pore_flow/flux/flow_operator.hpp"
 #include "modules/pore_flow/mass_exchange.hpp"
-#include "modules/pore_flow/pore_storage.hpp"
-#include "modules/pore_flow/pressure_smoothing.hpp"
+#include "modules/pore_flow/storage/pore_storage.hpp"
 
 namespace perifrac {
 

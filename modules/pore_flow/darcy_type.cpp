@@ -9,15 +9,15 @@
 #include "core/geometry/face_conditions.hpp"
 #include "core/geometry/scatter.hpp"
 #include "core/time/forward_euler.hpp"
-#include "modules/pore_flow/anisotropic_darcy_law.hpp"
+#include "modules/pore_flow/as_published/smoothed_euler.hpp"
+#include "modules/pore_flow/boundary/pore_boundary.hpp"
+#include "modules/pore_flow/boundary/pore_gravity.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
 #include "modules/pore_flow/make_flow.hpp"
-#include "modules/pore_flow/mobility.hpp"
-#include "modules/pore_flow/pore_boundary.hpp"
-#include "modules/pore_flow/pore_gravity.hpp"
-#include "modules/pore_flow/smoothed_euler.hpp"
-#include "modules/pore_flow/storage_choice.hpp"
+#include "modules/pore_flow/material/anisotropic_darcy_law.hpp"
+#include "modules/pore_flow/material/mobility.hpp"
+#include "modules/pore_flow/storage/storage_choice.hpp"
 
 namespace perifrac {
 
@@ -75,8 +75,9 @@ DarcyIntegratorMaker<D> read_integrator(const Section& section) {
   if (section.word("integrator.type") == "explicit") {
     const double safety = section.number("integrator.safety");
     return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
-      if (system.smooths()) return std::make_unique<SmoothedEuler<D>>(system, safety);
-      return std::make_unique<ForwardEuler>(system, safety);
+      if (!system.smooths()) return std::make_unique<ForwardEuler>(system, safety);
+      return std::make_unique<SmoothedEuler>(
+          system, safety, [&system](double t, std::span<double> y) { system.smooth(t, y); });
     };
   }
   using Method = typename DarcyNewtonMatrix<D>::Method;

@@ -3,10 +3,10 @@
 #include <memory>
 #include <utility>
 
-#include "modules/pore_flow/bond_flow.hpp"
-#include "modules/pore_flow/conservative_flow.hpp"
-#include "modules/pore_flow/darcy_law.hpp"
-#include "modules/pore_flow/nested_flow.hpp"
+#include "modules/pore_flow/as_published/nested_flow.hpp"
+#include "modules/pore_flow/flux/bond_flow.hpp"
+#include "modules/pore_flow/flux/conservative_flow.hpp"
+#include "modules/pore_flow/material/darcy_law.hpp"
 
 namespace perifrac {
 

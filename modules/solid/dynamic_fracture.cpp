@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/solvers/complementarity.hpp"
 #include "core/time/equal_steps.hpp"
 

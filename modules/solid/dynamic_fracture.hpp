@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "modules/solid/crack_dynamics.hpp"
-#include "modules/solid/crack_tips.hpp"
 #include "modules/solid/dynamic_solid.hpp"
+#include "modules/solid/fracture/crack_dynamics.hpp"
+#include "modules/solid/fracture/crack_tips.hpp"
 
 namespace perifrac {
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/time/velocity_verlet.hpp"
-#include "modules/solid/critical_stretch.hpp"
-#include "modules/solid/elastic_dynamics.hpp"
-#include "modules/solid/interface_force.hpp"
+#include "modules/solid/boundary/interface_force.hpp"
+#include "modules/solid/fracture/critical_stretch.hpp"
+#include "modules/solid/motion/elastic_dynamics.hpp"
 
 namespace perifrac {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/solvers/complementarity.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
-#include "modules/solid/loose_piece.hpp"
-#include "modules/solid/rigid_motion.hpp"
+#include "modules/solid/boundary/rigid_motion.hpp"
+#include "modules/solid/fracture/loose_piece.hpp"
 
 namespace perifrac {
 

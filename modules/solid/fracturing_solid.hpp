@@ -7,17 +7,17 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/errors.hpp"
-#include "core/geometry/body.hpp"
+#include "core/base/errors.hpp"
+#include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/time/scheduled_vector.hpp"
-#include "modules/solid/crack_friction.hpp"
-#include "modules/solid/crack_front.hpp"
-#include "modules/solid/crack_nucleation.hpp"
-#include "modules/solid/crack_tips.hpp"
-#include "modules/solid/cracked_body.hpp"
-#include "modules/solid/interface_force.hpp"
-#include "modules/solid/solid_boundary.hpp"
+#include "modules/solid/boundary/interface_force.hpp"
+#include "modules/solid/boundary/solid_boundary.hpp"
+#include "modules/solid/fracture/crack_friction.hpp"
+#include "modules/solid/fracture/crack_front.hpp"
+#include "modules/solid/fracture/crack_nucleation.hpp"
+#include "modules/solid/fracture/crack_tips.hpp"
+#include "modules/solid/fracture/cracked_body.hpp"
 
 namespace perifrac {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "core/final_error.hpp"
+#include "core/base/final_error.hpp"
+#include "modules/solid/fracture/loose_piece.hpp"
 #include "modules/solid/fracturing_solid.hpp"
-#include "modules/solid/loose_piece.hpp"
 
 namespace perifrac {
 

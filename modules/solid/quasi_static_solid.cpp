@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "core/profile/profile.hpp"
-#include "modules/solid/rigid_motion.hpp"
+#include "modules/solid/boundary/rigid_motion.hpp"
 
 namespace perifrac {
 

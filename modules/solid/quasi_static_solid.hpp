@@ -7,12 +7,12 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
-#include "modules/solid/elastic_operator.hpp"
-#include "modules/solid/interface_force.hpp"
-#include "modules/solid/solid_boundary.hpp"
+#include "modules/solid/boundary/interface_force.hpp"
+#include "modules/solid/boundary/solid_boundary.hpp"
+#include "modules/solid/material/elastic_operator.hpp"
 
 namespace perifrac {
 

@@ -1,6 +1,6 @@
 #include "modules/solid/rigid_slits.hpp"
 
-#include "core/geometry/crack_cut.hpp"
+#include "core/bonds/crack_cut.hpp"
 
 namespace perifrac {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
 
 namespace perifrac {

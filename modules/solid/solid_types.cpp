@@ -4,20 +4,20 @@
 
 #include <fmt/format.h>
 
+#include "core/body/crack_list.hpp"
 #include "core/config/mistakes.hpp"
-#include "core/geometry/crack_list.hpp"
-#include "modules/solid/crack_friction_keys.hpp"
-#include "modules/solid/damage_keys.hpp"
+#include "modules/solid/boundary/solid_boundary_keys.hpp"
 #include "modules/solid/dynamic_fracture.hpp"
 #include "modules/solid/dynamic_solid.hpp"
+#include "modules/solid/fracture/crack_friction_keys.hpp"
+#include "modules/solid/fracture/damage_keys.hpp"
+#include "modules/solid/fracture/short_seeds.hpp"
 #include "modules/solid/fracturing_solid.hpp"
-#include "modules/solid/material.hpp"
+#include "modules/solid/material/material.hpp"
+#include "modules/solid/material/stress_at_rest.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
 #include "modules/solid/rigid_slits.hpp"
 #include "modules/solid/rigid_solid.hpp"
-#include "modules/solid/short_seeds.hpp"
-#include "modules/solid/solid_boundary_keys.hpp"
-#include "modules/solid/stress_at_rest.hpp"
 
 namespace perifrac {
 

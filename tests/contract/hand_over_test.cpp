@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/scene_keys.hpp"
-#include "app/simulation.hpp"
+#include "app/run/scene_keys.hpp"
+#include "app/simulation/simulation.hpp"
 #include "core/config/scene.hpp"
 #include "core/state/snapshot.hpp"
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/simulation.hpp"
+#include "app/simulation/simulation.hpp"
 #include "tests/contract/fake_modules.hpp"
 #include "tests/contract/scene_text.hpp"
 

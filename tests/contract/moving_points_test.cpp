@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/recorder.hpp"
-#include "app/summary.hpp"
-#include "core/errors.hpp"
+#include "app/run/recorder.hpp"
+#include "app/run/summary.hpp"
+#include "core/base/errors.hpp"
 #include "core/io/hdf5.hpp"
 #include "tests/contract/fake_modules.hpp"
 #include "tests/contract/scene_text.hpp"

@@ -1,8 +1,8 @@
 #include <set>
 
-#include "app/register_modules.hpp"
-#include "app/simulation.hpp"
-#include "core/errors.hpp"
+#include "app/simulation/register_modules.hpp"
+#include "app/simulation/simulation.hpp"
+#include "core/base/errors.hpp"
 #include "tests/contract/module_contract.hpp"
 #include "tests/contract/scene_text.hpp"
 #include "tests/port_named.hpp"

@@ -1,9 +1,9 @@
-#include "app/probes.hpp"
+#include "app/simulation/probes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/geometry/crack_cut.hpp"
+#include "core/bonds/crack_cut.hpp"
 #include "tests/contract/fake_modules.hpp"
 #include "tests/contract/scene_text.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/simulation.hpp"
+#include "app/simulation/simulation.hpp"
 #include "core/state/snapshot.hpp"
 #include "tests/contract/scene_text.hpp"
 

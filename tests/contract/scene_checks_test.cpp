@@ -1,9 +1,9 @@
-#include "app/scene_checks.hpp"
+#include "app/simulation/scene_checks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/contract/scene_text.hpp"
 
 namespace perifrac {

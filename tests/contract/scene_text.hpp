@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/register_modules.hpp"
-#include "app/scene_keys.hpp"
+#include "app/run/scene_keys.hpp"
+#include "app/simulation/register_modules.hpp"
 #include "core/config/scene.hpp"
 
 namespace perifrac {

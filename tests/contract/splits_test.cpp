@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/contract/fake_modules.hpp"
 
 namespace perifrac {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/state/snapshot.hpp"
 #include "tests/contract/fake_modules.hpp"
 

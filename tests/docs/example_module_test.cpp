@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/scene_keys.hpp"
+#include "app/run/scene_keys.hpp"
 #include "core/config/scene.hpp"
 #include "coupling/coupling_keys.hpp"
 #include "coupling/manager.hpp"

@@ -1,6 +1,6 @@
 #include "tests/fuzz/read_any_checkpoint.hpp"
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/io/checkpoint.hpp"
 
 namespace perifrac {

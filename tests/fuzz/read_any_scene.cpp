@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "app/output_times.hpp"
-#include "app/recorder.hpp"
-#include "app/scene_checks.hpp"
-#include "app/scene_keys.hpp"
-#include "app/simulation.hpp"
+#include "app/run/output_times.hpp"
+#include "app/run/recorder.hpp"
+#include "app/run/scene_keys.hpp"
+#include "app/simulation/scene_checks.hpp"
+#include "app/simulation/simulation.hpp"
+#include "core/base/errors.hpp"
 #include "core/config/scene.hpp"
-#include "core/errors.hpp"
 #include "coupling/coupling_keys.hpp"
 
 namespace perifrac {

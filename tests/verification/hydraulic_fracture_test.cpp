@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/scene_keys.hpp"
+#include "app/run/scene_keys.hpp"
 #include "core/config/scene.hpp"
-#include "modules/solid/damage_keys.hpp"
+#include "modules/solid/fracture/damage_keys.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace perifrac::test {

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "app/references/mandel_solution.hpp"
+#include "app/references/solutions/mandel_solution.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
-#include "modules/pore_flow/darcy_law.hpp"
-#include "modules/pore_flow/pore_material.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/pore_flow/material/darcy_law.hpp"
+#include "modules/pore_flow/material/pore_material.hpp"
+#include "modules/solid/material/isotropic_elasticity.hpp"
 #include "tests/unit/operators/irregular_body.hpp"
 #include "tests/verification/mandel_run.hpp"
 

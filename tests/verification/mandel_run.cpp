@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/scene_keys.hpp"
+#include "app/run/scene_keys.hpp"
 #include "core/config/scene.hpp"
 #include "tests/verification/scene_run.hpp"
 

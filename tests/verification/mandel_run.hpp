@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/simulation.hpp"
+#include "app/simulation/simulation.hpp"
 
 namespace perifrac::test {
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/run.hpp"
+#include "app/run/run.hpp"
 
 namespace perifrac::test {
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/geometry/crack_cut.hpp"
-#include "modules/solid/stretch_limit.hpp"
+#include "core/bonds/crack_cut.hpp"
+#include "modules/solid/fracture/stretch_limit.hpp"
 #include "tests/unit/fracture/cracked_plate.hpp"
 
 namespace perifrac::test {

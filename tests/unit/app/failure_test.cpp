@@ -1,11 +1,11 @@
-#include "app/failure.hpp"
+#include "app/run/failure.hpp"
 
 #include <new>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace perifrac {
 namespace {

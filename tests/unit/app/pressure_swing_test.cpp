@@ -1,4 +1,4 @@
-#include "app/pressure_swing.hpp"
+#include "app/warnings/pressure_swing.hpp"
 
 #include <cmath>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "app/small_strains.hpp"
+#include "app/warnings/small_strains.hpp"
 
 #include <cmath>
 

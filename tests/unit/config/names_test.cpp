@@ -1,4 +1,4 @@
-#include "core/config/names.hpp"
+#include "core/base/names.hpp"
 
 #include <gtest/gtest.h>
 

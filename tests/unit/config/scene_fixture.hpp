@@ -6,8 +6,8 @@
 #include <unistd.h>
 #include <vector>
 
+#include "core/base/errors.hpp"
 #include "core/config/scene.hpp"
-#include "core/errors.hpp"
 
 namespace perifrac {
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/state/snapshot.hpp"
 #include "modules/crack_fluid/carter_leak_off.hpp"
 #include "tests/unit/crack_fluid/crack_run.hpp"

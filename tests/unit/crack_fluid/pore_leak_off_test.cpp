@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "coupling/coupling_keys.hpp"
 #include "coupling/manager.hpp"
 #include "tests/contract/scene_text.hpp"

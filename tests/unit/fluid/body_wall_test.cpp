@@ -1,4 +1,4 @@
-#include "modules/fluid/body_wall.hpp"
+#include "modules/fluid/walls/body_wall.hpp"
 
 #include <gtest/gtest.h>
 

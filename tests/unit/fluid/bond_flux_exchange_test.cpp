@@ -1,4 +1,4 @@
-#include "modules/fluid/bond_flux_exchange.hpp"
+#include "modules/fluid/exchange/bond_flux_exchange.hpp"
 
 #include <cmath>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "modules/fluid/damaged_walls.hpp"
+#include "modules/fluid/as_published/damaged_walls.hpp"
 
 #include <algorithm>
 

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/fluid/bond_flux_exchange.hpp"
+#include "modules/fluid/exchange/bond_flux_exchange.hpp"
 #include "modules/fluid/fluid_dynamics.hpp"
-#include "modules/fluid/two_sided_wall_force.hpp"
+#include "modules/fluid/walls/two_sided_wall_force.hpp"
 #include "tests/unit/fluid/fluid_over_body.hpp"
 
 namespace perifrac {

@@ -1,4 +1,4 @@
-#include "modules/fluid/fluid_mouths.hpp"
+#include "modules/fluid/openings/fluid_mouths.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,11 +4,11 @@
 #include <memory>
 #include <random>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/geometry/lattice.hpp"
-#include "modules/fluid/exchange.hpp"
-#include "modules/fluid/periodic_images.hpp"
-#include "modules/fluid/rigid_wall.hpp"
+#include "modules/fluid/exchange/exchange.hpp"
+#include "modules/fluid/points/periodic_images.hpp"
+#include "modules/fluid/walls/rigid_wall.hpp"
 
 namespace perifrac::test {
 

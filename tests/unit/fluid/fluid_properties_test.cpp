@@ -1,4 +1,4 @@
-#include "modules/fluid/fluid_properties.hpp"
+#include "modules/fluid/points/fluid_properties.hpp"
 
 #include <gtest/gtest.h>
 

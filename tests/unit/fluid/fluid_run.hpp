@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/register_modules.hpp"
+#include "app/simulation/register_modules.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/state/snapshot.hpp"
 #include "tests/contract/scene_text.hpp"

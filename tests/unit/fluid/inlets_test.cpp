@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/unit/fluid/fluid_run.hpp"
 
 namespace perifrac::test {

@@ -1,4 +1,4 @@
-#include "modules/fluid/merge_points.hpp"
+#include "modules/fluid/points/merge_points.hpp"
 
 #include <algorithm>
 #include <cmath>

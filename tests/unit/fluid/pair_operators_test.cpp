@@ -7,7 +7,7 @@
 
 #include "core/geometry/lattice.hpp"
 #include "modules/fluid/fluid_momentum.hpp"
-#include "modules/fluid/symmetric_tensor.hpp"
+#include "modules/fluid/points/symmetric_tensor.hpp"
 
 /// The operators of the free fluid on points with given fields.
 namespace perifrac {

@@ -1,4 +1,4 @@
-#include "modules/fluid/paper_exchange.hpp"
+#include "modules/fluid/as_published/paper_exchange.hpp"
 
 #include <cmath>
 #include <numeric>

@@ -1,11 +1,11 @@
-#include "modules/fluid/smoothed_exchange.hpp"
+#include "modules/fluid/as_published/smoothed_exchange.hpp"
 
 #include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
-#include "modules/fluid/bond_flux_exchange.hpp"
+#include "modules/fluid/exchange/bond_flux_exchange.hpp"
 #include "tests/unit/fluid/fluid_over_body.hpp"
 
 namespace perifrac {

@@ -1,4 +1,4 @@
-#include "modules/fluid/split_points.hpp"
+#include "modules/fluid/points/split_points.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "modules/fluid/symmetric_tensor.hpp"
+#include "modules/fluid/points/symmetric_tensor.hpp"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "modules/solid/crack_friction.hpp"
+#include "modules/solid/fracture/crack_friction.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/solid/crack_tips.hpp"
+#include "modules/solid/fracture/crack_tips.hpp"
 #include "tests/unit/fracture/cracked_plate.hpp"
 
 namespace perifrac::test {

@@ -1,4 +1,4 @@
-#include "modules/solid/crack_nucleation.hpp"
+#include "modules/solid/fracture/crack_nucleation.hpp"
 
 #include <cmath>
 #include <functional>

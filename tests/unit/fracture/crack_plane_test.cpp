@@ -1,4 +1,4 @@
-#include "modules/solid/crack_plane.hpp"
+#include "modules/solid/fracture/crack_plane.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "modules/solid/crack_tips.hpp"
+#include "modules/solid/fracture/crack_tips.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "modules/solid/cracked_body.hpp"
+#include "modules/solid/fracture/cracked_body.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "modules/solid/loose_piece.hpp"
+#include "modules/solid/fracture/loose_piece.hpp"
 #include "tests/unit/fracture/cracked_plate.hpp"
 
 namespace perifrac::test {

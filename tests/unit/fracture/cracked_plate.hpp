@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "modules/solid/cracked_body.hpp"
-#include "modules/solid/energy_release.hpp"
+#include "modules/solid/fracture/cracked_body.hpp"
+#include "modules/solid/fracture/energy_release.hpp"
 #include "tests/unit/fracture/crystal_crack.hpp"
 #include "tests/unit/fracture/exact_crack.hpp"
 #include "tests/unit/fracture/rock.hpp"

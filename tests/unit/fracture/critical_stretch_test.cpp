@@ -1,4 +1,4 @@
-#include "modules/solid/critical_stretch.hpp"
+#include "modules/solid/fracture/critical_stretch.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "core/geometry/points.hpp"
+#include "core/base/points.hpp"
 
 namespace perifrac::test {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 
-#include "core/geometry/points.hpp"
+#include "core/base/points.hpp"
 
 namespace perifrac::test {
 

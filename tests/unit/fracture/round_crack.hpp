@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "modules/solid/cracked_body.hpp"
+#include "modules/solid/fracture/cracked_body.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 #include "tests/unit/solid/elastic.hpp"
 

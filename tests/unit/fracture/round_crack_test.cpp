@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/solid/crack_front.hpp"
+#include "modules/solid/fracture/crack_front.hpp"
 
 namespace perifrac::test {
 namespace {

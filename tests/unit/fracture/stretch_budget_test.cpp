@@ -1,4 +1,4 @@
-#include "modules/solid/stretch_budget.hpp"
+#include "modules/solid/fracture/stretch_budget.hpp"
 
 #include <algorithm>
 #include <cmath>

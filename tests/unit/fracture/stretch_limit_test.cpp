@@ -1,4 +1,4 @@
-#include "modules/solid/stretch_limit.hpp"
+#include "modules/solid/fracture/stretch_limit.hpp"
 
 #include <cmath>
 

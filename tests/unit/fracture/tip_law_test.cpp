@@ -1,4 +1,4 @@
-#include "modules/solid/tip_law.hpp"
+#include "modules/solid/fracture/tip_law.hpp"
 
 #include <cmath>
 

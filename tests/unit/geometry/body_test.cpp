@@ -1,4 +1,4 @@
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/geometry/bond_state.hpp"
+#include "core/bonds/bond_state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "core/geometry/bonded_layer.hpp"
+#include "core/body/bonded_layer.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {

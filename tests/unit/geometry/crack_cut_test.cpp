@@ -1,4 +1,4 @@
-#include "core/geometry/crack_cut.hpp"
+#include "core/bonds/crack_cut.hpp"
 
 #include <cmath>
 

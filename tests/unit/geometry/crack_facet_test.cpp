@@ -1,4 +1,4 @@
-#include "core/geometry/crack_facet.hpp"
+#include "core/bonds/crack_facet.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/geometry/crack_seeds.hpp"
+#include "core/body/crack_seeds.hpp"
 
 #include <cmath>
 #include <fstream>

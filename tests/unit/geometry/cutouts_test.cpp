@@ -1,9 +1,9 @@
-#include "core/geometry/cutouts.hpp"
+#include "core/body/cutouts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/geometry/body.hpp"
+#include "core/body/body.hpp"
 #include "core/geometry/lattice.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "tests/unit/operators/test_bodies.hpp"

@@ -1,4 +1,4 @@
-#include "core/geometry/family.hpp"
+#include "core/bonds/family.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/unit/operators/brute_force.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 

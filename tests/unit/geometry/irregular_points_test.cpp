@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/geometry/cloud_file.hpp"
 #include "core/geometry/jitter.hpp"
 #include "core/geometry/lattice.hpp"

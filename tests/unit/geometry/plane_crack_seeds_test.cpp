@@ -1,10 +1,10 @@
-#include "core/geometry/plane_crack_seeds.hpp"
+#include "core/body/plane_crack_seeds.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "core/geometry/crack_seeds.hpp"
+#include "core/body/crack_seeds.hpp"
 #include "tests/unit/config/scene_fixture.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 

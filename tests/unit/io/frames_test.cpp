@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/io/hdf5.hpp"
 #include "tests/unit/io/temporary_folder.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "core/operators/small_tensor.hpp"
+#include "core/base/small_tensor.hpp"
 
 namespace perifrac::test {
 

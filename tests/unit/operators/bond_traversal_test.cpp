@@ -1,4 +1,4 @@
-#include "core/operators/bond_traversal.hpp"
+#include "core/bonds/bond_traversal.hpp"
 
 #include <atomic>
 

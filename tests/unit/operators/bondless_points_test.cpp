@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/operators/face_load.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "tests/unit/operators/any_law.hpp"

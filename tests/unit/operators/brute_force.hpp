@@ -4,11 +4,11 @@
 
 #include <Eigen/Dense>
 
+#include "core/base/points.hpp"
+#include "core/base/small_tensor.hpp"
+#include "core/bonds/influence_function.hpp"
+#include "core/bonds/mirror_condition.hpp"
 #include "core/geometry/faces.hpp"
-#include "core/geometry/points.hpp"
-#include "core/operators/influence_function.hpp"
-#include "core/operators/mirror_condition.hpp"
-#include "core/operators/small_tensor.hpp"
 
 namespace perifrac::test {
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "core/geometry/lattice.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "tests/unit/operators/any_law.hpp"

@@ -1,11 +1,11 @@
-#include "core/operators/gaussian_influence.hpp"
+#include "core/geometry/gaussian_influence.hpp"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/operators/packet.hpp"
+#include "core/base/packet.hpp"
 
 namespace perifrac {
 namespace {

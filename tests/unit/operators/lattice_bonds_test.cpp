@@ -1,8 +1,8 @@
-#include "core/operators/lattice_bonds.hpp"
+#include "core/bonds/lattice_bonds.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/geometry/bond_state.hpp"
+#include "core/bonds/bond_state.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "tests/unit/operators/any_law.hpp"
 #include "tests/unit/operators/test_bodies.hpp"

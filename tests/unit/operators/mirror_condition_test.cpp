@@ -1,4 +1,4 @@
-#include "core/operators/mirror_condition.hpp"
+#include "core/bonds/mirror_condition.hpp"
 
 #include <gtest/gtest.h>
 

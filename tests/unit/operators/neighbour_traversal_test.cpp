@@ -1,4 +1,4 @@
-#include "core/operators/neighbour_traversal.hpp"
+#include "core/geometry/neighbour_traversal.hpp"
 
 #include <cmath>
 

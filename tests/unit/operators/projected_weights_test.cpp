@@ -1,11 +1,11 @@
-#include "core/operators/projected_weights.hpp"
+#include "core/bonds/projected_weights.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
-#include "core/operators/bond_traversal.hpp"
+#include "core/base/errors.hpp"
+#include "core/bonds/bond_traversal.hpp"
+#include "core/bonds/shape_tensor.hpp"
 #include "core/operators/linear_exact.hpp"
-#include "core/operators/shape_tensor.hpp"
 #include "tests/unit/operators/any_law.hpp"
 #include "tests/unit/operators/irregular_body.hpp"
 

@@ -1,9 +1,9 @@
-#include "core/operators/shape_tensor.hpp"
+#include "core/bonds/shape_tensor.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {

@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include "core/geometry/body.hpp"
-#include "core/geometry/bonded_layer.hpp"
+#include "core/body/body.hpp"
+#include "core/body/bonded_layer.hpp"
 #include "core/geometry/lattice.hpp"
 
 namespace perifrac::test {

@@ -1,4 +1,4 @@
-#include "modules/pore_flow/anisotropic_darcy_law.hpp"
+#include "modules/pore_flow/material/anisotropic_darcy_law.hpp"
 
 #include <cmath>
 
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/operators/linear_exact.hpp"
-#include "modules/pore_flow/conservative_flow.hpp"
-#include "modules/pore_flow/darcy_law.hpp"
+#include "modules/pore_flow/flux/conservative_flow.hpp"
+#include "modules/pore_flow/material/darcy_law.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "core/geometry/crack_cut.hpp"
+#include "core/bonds/crack_cut.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "core/state/snapshot.hpp"
 #include "tests/sanitized.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/operators/compensated_sum.hpp"
+#include "core/state/compensated_sum.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/unit/pore_flow/pore_body.hpp"
 

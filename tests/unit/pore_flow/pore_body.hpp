@@ -7,12 +7,12 @@
 #include <string>
 
 #include "core/time/forward_euler.hpp"
+#include "modules/pore_flow/as_published/smoothed_euler.hpp"
+#include "modules/pore_flow/boundary/pore_boundary.hpp"
 #include "modules/pore_flow/darcy_cvode.hpp"
 #include "modules/pore_flow/darcy_flow.hpp"
-#include "modules/pore_flow/linear_storage.hpp"
 #include "modules/pore_flow/make_flow.hpp"
-#include "modules/pore_flow/pore_boundary.hpp"
-#include "modules/pore_flow/smoothed_euler.hpp"
+#include "modules/pore_flow/storage/linear_storage.hpp"
 #include "tests/port_named.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 

@@ -1,4 +1,4 @@
-#include "modules/pore_flow/pore_boundary.hpp"
+#include "modules/pore_flow/boundary/pore_boundary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "modules/pore_flow/stabilised_storage.hpp"
+#include "modules/pore_flow/storage/stabilised_storage.hpp"
 
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "core/geometry/crack_cut.hpp"
+#include "core/bonds/crack_cut.hpp"
 #include "tests/unit/pore_flow/pore_body.hpp"
 
 namespace perifrac {

@@ -1,8 +1,8 @@
-#include "modules/pore_flow/storage_choice.hpp"
+#include "modules/pore_flow/storage/storage_choice.hpp"
 
 #include <gtest/gtest.h>
 
-#include "modules/pore_flow/stabilised_storage.hpp"
+#include "modules/pore_flow/storage/stabilised_storage.hpp"
 #include "tests/contract/scene_text.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 

@@ -1,10 +1,10 @@
-#include "modules/pore_flow/tait_storage.hpp"
+#include "modules/pore_flow/storage/tait_storage.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "modules/pore_flow/linear_storage.hpp"
+#include "modules/pore_flow/storage/linear_storage.hpp"
 
 namespace perifrac {
 namespace {

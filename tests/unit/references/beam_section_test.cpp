@@ -1,4 +1,4 @@
-#include "app/references/beam_section.hpp"
+#include "app/references/solutions/beam_section.hpp"
 
 #include <gtest/gtest.h>
 

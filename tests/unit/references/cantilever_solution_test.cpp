@@ -1,4 +1,4 @@
-#include "app/references/cantilever_solution.hpp"
+#include "app/references/solutions/cantilever_solution.hpp"
 
 #include <cmath>
 

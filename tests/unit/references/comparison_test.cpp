@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/simulation.hpp"
+#include "app/simulation/simulation.hpp"
 #include "tests/contract/scene_text.hpp"
 
 namespace perifrac {

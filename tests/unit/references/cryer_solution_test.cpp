@@ -1,4 +1,4 @@
-#include "app/references/cryer_solution.hpp"
+#include "app/references/solutions/cryer_solution.hpp"
 
 #include <cmath>
 #include <optional>

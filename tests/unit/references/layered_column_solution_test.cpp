@@ -1,8 +1,8 @@
-#include "app/references/layered_column_solution.hpp"
+#include "app/references/solutions/layered_column_solution.hpp"
 
 #include <gtest/gtest.h>
 
-#include "app/references/terzaghi_solution.hpp"
+#include "app/references/solutions/terzaghi_solution.hpp"
 #include "tests/unit/references/semi_discrete.hpp"
 
 namespace perifrac {

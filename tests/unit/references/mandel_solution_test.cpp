@@ -1,4 +1,4 @@
-#include "app/references/mandel_solution.hpp"
+#include "app/references/solutions/mandel_solution.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "app/references/martin_moyce.hpp"
+#include "app/references/solutions/martin_moyce.hpp"
 
 #include <cmath>
 #include <utility>

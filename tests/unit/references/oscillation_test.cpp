@@ -1,4 +1,4 @@
-#include "app/references/oscillation.hpp"
+#include "app/references/solutions/oscillation.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "app/references/plate_solution.hpp"
+#include "app/references/solutions/plate_solution.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/references/poiseuille_solution.hpp"
+#include "app/references/solutions/poiseuille_solution.hpp"
 
 #include <gtest/gtest.h>
 

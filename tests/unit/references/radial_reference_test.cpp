@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "app/references/reference_types.hpp"
-#include "app/simulation.hpp"
-#include "core/errors.hpp"
+#include "app/simulation/simulation.hpp"
+#include "core/base/errors.hpp"
 #include "tests/contract/scene_text.hpp"
 
 namespace perifrac {

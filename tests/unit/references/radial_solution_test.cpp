@@ -1,4 +1,4 @@
-#include "app/references/radial_solution.hpp"
+#include "app/references/solutions/radial_solution.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/regime.hpp"
+#include "app/warnings/regime.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "app/references/seepage_solution.hpp"
+#include "app/references/solutions/seepage_solution.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "app/references/slab_inflow.hpp"
+#include "app/references/solutions/slab_inflow.hpp"
 
 namespace perifrac {
 namespace {

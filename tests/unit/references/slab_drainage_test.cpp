@@ -1,4 +1,4 @@
-#include "app/references/slab_drainage.hpp"
+#include "app/references/solutions/slab_drainage.hpp"
 
 #include <cmath>
 

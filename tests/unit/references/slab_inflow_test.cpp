@@ -1,4 +1,4 @@
-#include "app/references/slab_inflow.hpp"
+#include "app/references/solutions/slab_inflow.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "app/references/terzaghi_solution.hpp"
+#include "app/references/solutions/terzaghi_solution.hpp"
 
 #include <gtest/gtest.h>
 

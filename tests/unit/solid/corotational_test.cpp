@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "modules/solid/corotational_elasticity.hpp"
+#include "modules/solid/material/corotational_elasticity.hpp"
 #include "tests/unit/solid/turning.hpp"
 
 namespace perifrac {

@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "modules/solid/isotropic_elasticity.hpp"
-#include "modules/solid/linear_exact_elasticity.hpp"
-#include "modules/solid/lps_elasticity.hpp"
-#include "modules/solid/solid_boundary.hpp"
+#include "modules/solid/boundary/solid_boundary.hpp"
+#include "modules/solid/material/isotropic_elasticity.hpp"
+#include "modules/solid/material/linear_exact_elasticity.hpp"
+#include "modules/solid/material/lps_elasticity.hpp"
 
 namespace perifrac::test {
 

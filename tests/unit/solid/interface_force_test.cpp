@@ -1,4 +1,4 @@
-#include "modules/solid/interface_force.hpp"
+#include "modules/solid/boundary/interface_force.hpp"
 
 #include <numeric>
 

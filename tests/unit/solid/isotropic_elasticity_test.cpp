@@ -1,4 +1,4 @@
-#include "modules/solid/isotropic_elasticity.hpp"
+#include "modules/solid/material/isotropic_elasticity.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -11,8 +11,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/errors.hpp"
 #include "core/config/scene.hpp"
-#include "core/errors.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 

@@ -1,11 +1,11 @@
-#include "modules/solid/lps_elasticity.hpp"
+#include "modules/solid/material/lps_elasticity.hpp"
 
 #include <numeric>
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "core/operators/bond_traversal.hpp"
+#include "core/bonds/bond_traversal.hpp"
 #include "tests/unit/operators/brute_force.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 #include "tests/unit/solid/elastic.hpp"

@@ -1,4 +1,4 @@
-#include "modules/solid/material.hpp"
+#include "modules/solid/material/material.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -8,12 +8,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/errors.hpp"
 #include "core/config/scene.hpp"
-#include "core/errors.hpp"
 #include "core/operators/linear_exact.hpp"
-#include "modules/solid/isotropic_elasticity.hpp"
-#include "modules/solid/linear_exact_elasticity.hpp"
-#include "modules/solid/lps_elasticity.hpp"
+#include "modules/solid/material/isotropic_elasticity.hpp"
+#include "modules/solid/material/linear_exact_elasticity.hpp"
+#include "modules/solid/material/lps_elasticity.hpp"
 #include "modules/solid/quasi_static_solid.hpp"
 #include "tests/port_named.hpp"
 #include "tests/unit/operators/test_bodies.hpp"

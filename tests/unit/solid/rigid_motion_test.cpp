@@ -1,4 +1,4 @@
-#include "modules/solid/rigid_motion.hpp"
+#include "modules/solid/boundary/rigid_motion.hpp"
 
 #include <gtest/gtest.h>
 

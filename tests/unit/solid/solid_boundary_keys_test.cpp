@@ -1,4 +1,4 @@
-#include "modules/solid/solid_boundary_keys.hpp"
+#include "modules/solid/boundary/solid_boundary_keys.hpp"
 
 #include <fstream>
 #include <unistd.h>
@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/errors.hpp"
 #include "core/config/scene.hpp"
-#include "core/errors.hpp"
 #include "tests/unit/solid/elastic_solid.hpp"
 
 namespace perifrac {

@@ -1,4 +1,4 @@
-#include "modules/solid/solid_boundary.hpp"
+#include "modules/solid/boundary/solid_boundary.hpp"
 
 #include <cmath>
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "core/geometry/bond_state.hpp"
-#include "modules/solid/corotational_elasticity.hpp"
+#include "core/bonds/bond_state.hpp"
+#include "modules/solid/material/corotational_elasticity.hpp"
 #include "tests/unit/solid/moving_solid.hpp"
 
 namespace perifrac::test {

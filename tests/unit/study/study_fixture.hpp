@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "app/study/study_file.hpp"
-#include "core/errors.hpp"
+#include "core/base/errors.hpp"
 
 namespace perifrac::test {
 

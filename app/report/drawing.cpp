@@ -1,0 +1,25 @@
+#include "app/report/drawing.hpp"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/io/log.hpp"
+#include "core/io/process.hpp"
+
+namespace perifrac {
+
+int draw(const std::string& script, const std::filesystem::path& folder, bool quiet) {
+  // Debian's own Python: another one first on the path may lack matplotlib and h5py.
+  const std::string python = "/usr/bin/python3";
+  try {
+    const ProcessEnd end =
+        Process({.words = {python, script, folder.string()}, .quiet = quiet}).wait();
+    if (end.signal == 0) return end.exit_code;
+  } catch (const std::system_error&) {
+  }
+  log_warning(fmt::format("no report: {} could not be run", python));
+  return 1;
+}
+
+}  // namespace perifrac

@@ -1,0 +1,250 @@
+#include "app/run/check.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <new>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/run/array_list.hpp"
+#include "app/run/coarse_twin.hpp"
+#include "app/run/forecast.hpp"
+#include "app/run/memory.hpp"
+#include "app/run/output_times.hpp"
+#include "app/run/recorder.hpp"
+#include "app/run/scene_echo.hpp"
+#include "app/run/scene_keys.hpp"
+#include "app/run/summary.hpp"
+#include "app/simulation/simulation.hpp"
+#include "app/warnings/resolution_warnings.hpp"
+#include "app/warnings/scene_regime.hpp"
+#include "app/warnings/scene_warnings.hpp"
+#include "core/config/mistakes.hpp"
+#include "core/config/scene.hpp"
+
+namespace perifrac {
+
+namespace {
+
+nlohmann::json modules_of(const CouplingManager& manager) {
+  nlohmann::json modules = nlohmann::json::array();
+  for (const ModuleSlot& slot : manager.modules()) modules.push_back(slot.name);
+  return modules;
+}
+
+nlohmann::json links_of(const CouplingManager& manager) {
+  nlohmann::json links = nlohmann::json::array();
+  for (const Link& link : manager.links()) links.push_back(link.name());
+  return links;
+}
+
+nlohmann::json regime_json(const SceneRegime& regime) {
+  const HydraulicFracture& fracture = regime.fracture;
+  const auto with_unit = [](double value, const char* unit) {
+    return nlohmann::json{{"value", value}, {"unit", unit}};
+  };
+  const double toughness = fracture.driven.dimensionless_toughness();
+  const double kept = efficiency(fracture, regime.time);
+  const CrackSize crack = expected_crack(fracture, regime.time);
+  return {{"corner", corner(toughness, kept)},
+          {"dimensionless_toughness", toughness},
+          {"leak_off_number", leak_off_number(fracture, regime.time)},
+          {"efficiency", kept},
+          {"lag_time", with_unit(lag_time(fracture), "s")},
+          {"largest_lag", with_unit(largest_lag(fracture, regime.time), "m")},
+          {"time", with_unit(regime.time, "s")},
+          {"length", with_unit(crack.length, "m")},
+          {"inlet_opening", with_unit(crack.opening, "m")},
+          {"net_inlet_pressure", with_unit(crack.pressure, "Pa")}};
+}
+
+void print_regime(const nlohmann::json& regime) {
+  fmt::print("  regime: {}\n", regime["corner"].get<std::string>());
+  for (const auto& [name, entry] : regime.items()) {
+    if (entry.is_number()) fmt::print("    {:<24} {:>10.4g}\n", name, entry.get<double>());
+    if (!entry.is_object()) continue;
+    fmt::print("    {:<24} {:>10.4g} {}\n", name, entry["value"].get<double>(),
+               entry["unit"].get<std::string>());
+  }
+}
+
+/// Those of cracks from the start are part of them.
+std::optional<double> facets_at_end(const Simulation& simulation, std::optional<double> length) {
+  if (!length) return {};
+  return std::visit([&](const auto& body) { return *length / body->spacing(); }, simulation.body);
+}
+
+/// Of the crack in an infinite body.
+std::optional<double> length_at_end(const std::optional<SceneRegime>& regime) {
+  if (!regime) return {};
+  return regime->wings * expected_crack(regime->fracture, regime->time).length;
+}
+
+nlohmann::json forecast_json(const Forecast& forecast) {
+  const auto& parts = forecast.seconds_by_part;
+  const auto largest =
+      std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
+  nlohmann::json by_part = nlohmann::json::object();
+  for (const auto& [name, seconds] : parts) by_part[name] = seconds;
+  nlohmann::json result = {{"seconds", forecast.seconds},
+                           {"seconds_by_part", by_part},
+                           {"most_in", largest->first},
+                           {"windows", forecast.windows},
+                           {"peak_memory", forecast.memory},
+                           {"trial",
+                            {{"time", forecast.trial_time},
+                             {"seconds", forecast.trial_seconds},
+                             {"is_whole", forecast.is_whole}}}};
+  if (forecast.failure) result["failure"] = *forecast.failure;
+  return result;
+}
+
+void print_forecast(const nlohmann::json& forecast) {
+  fmt::print("  run time: {:.3g} s, {} windows, {:.0f} MB, without writing results; most in {}\n",
+             forecast["seconds"].get<double>(), forecast["windows"].get<long>(),
+             forecast["peak_memory"].get<double>() / 1e6, forecast["most_in"].get<std::string>());
+  for (const auto& [part, seconds] : forecast["seconds_by_part"].items()) {
+    fmt::print("    {:<24} {:>10.3g} s\n", part, seconds.get<double>());
+  }
+  const auto& trial = forecast["trial"];
+  if (!trial["is_whole"].get<bool>()) {
+    fmt::print("    from a trial to t = {:.3g} s, {:.1f} s long\n", trial["time"].get<double>(),
+               trial["seconds"].get<double>());
+  }
+  if (forecast.contains("crack_length")) {
+    fmt::print("    for a crack that gets {:.3g} m long\n",
+               forecast["crack_length"]["value"].get<double>());
+  }
+  if (forecast.contains("failure")) {
+    fmt::print("  warning: a run stops: {}\n", forecast["failure"].get<std::string>());
+  }
+}
+
+void print(const nlohmann::json& result) {
+  const auto& counts = result["counts"];
+  fmt::print("{}: {}\n", result["scene"].get<std::string>(),
+             result.contains("links") ? "fine" : "its keys are fine; it was not built");
+  for (const auto& effect : result["effects"]) fmt::print("  {}\n", effect.get<std::string>());
+  for (const auto& line : result.value("read", nlohmann::json::array())) {
+    fmt::print("  {}\n", line.get<std::string>());
+  }
+  for (const auto& link : result.value("links", nlohmann::json::array())) {
+    fmt::print("  link {}\n", link.get<std::string>());
+  }
+  if (result.contains("family_bytes")) {
+    fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
+               counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
+               result["family_bytes"].get<long>() / 1000);
+  }
+  for (const auto& [name, count] : counts.items()) {
+    if (name.ends_with("_points")) fmt::print("  {} {}\n", count.get<long>(), name);
+  }
+  for (const auto& array : result.value("arrays", nlohmann::json::array())) {
+    fmt::print("  {:<48} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
+               array["count"].get<long>(), array["bytes"].get<long>());
+  }
+  if (result.contains("regime")) print_regime(result["regime"]);
+  if (result.contains("forecast")) print_forecast(result["forecast"]);
+  for (const auto& warning : result["warnings"]) {
+    fmt::print("  warning: {}\n", warning.get<std::string>());
+  }
+}
+
+/// What is known of a scene without building it, where that takes more memory than there is.
+nlohmann::json unbuilt(const Section& scene, const MemoryEstimate& estimate) {
+  return {{"effects", effects(scene)},
+          {"counts", {{"points", std::llround(estimate.points)}}},
+          {"warnings", scene_warnings(scene, {})}};
+}
+
+nlohmann::json built(const CheckRequest& request, const Section& scene) {
+  const auto begin = std::chrono::steady_clock::now();
+  Simulation simulation;
+  std::vector<double> outputs;
+  Mistakes mistakes;
+  mistakes.note([&] {
+    simulation = make_simulation(scene);
+    initialize(scene, simulation);
+  });
+  mistakes.note([&] { outputs = read_output_times(scene.at("output"), scene.number("time.end")); });
+  mistakes.throw_if_any();
+  CouplingManager& manager = *simulation.manager;
+  const Recorder recorder(scene, "", simulation);
+  ArrayList list;
+  manager.visit_state(list);
+  nlohmann::json result = {{"modules", modules_of(manager)},
+                           {"effects", effects(scene)},
+                           {"read", what_was_read(scene, simulation)},
+                           {"links", links_of(manager)},
+                           {"counts", counts(simulation)},
+                           {"family_bytes", family_bytes(simulation.body)},
+                           {"arrays", list.arrays},
+                           {"warnings", manager.warnings()}};
+  const std::optional<SceneRegime> regime = regime_of(scene, simulation);
+  if (regime) {
+    result["regime"] = regime_json(*regime);
+    for (const std::string& note : regime->notes) result["warnings"].push_back(note);
+  }
+  for (const std::string& warning : scene_warnings(scene, regime)) {
+    result["warnings"].push_back(warning);
+  }
+  if (const auto warning = seepage_warning(scene, scene.number("time.end"))) {
+    result["warnings"].push_back(*warning);
+  }
+  if (!(request.trial_seconds > 0.0)) return result;
+  const double building =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::optional<double> length;
+  if (!regime || !regime->is_as_in_infinite_body) {
+    length =
+        crack_length_of_coarse_twin(request.scene, request.overrides, scene, request.trial_seconds);
+  }
+  if (!length) length = length_at_end(regime);
+  result["forecast"] = forecast_json(forecast(simulation, outputs, request.trial_seconds, building,
+                                              facets_at_end(simulation, length)));
+  if (length) result["forecast"]["crack_length"] = {{"value", *length}, {"unit", "m"}};
+  return result;
+}
+
+/// Built where there is memory for it: the system ends a process that takes more, without a word.
+nlohmann::json built_if_it_fits(const CheckRequest& request, const Section& scene) {
+  const double available = available_memory();
+  const auto estimate = estimate_memory(scene);
+  const auto warn = [&](nlohmann::json result, const std::string& what) {
+    result["warnings"].push_back(what);
+    return result;
+  };
+  if (estimate && estimate->bytes > available) {
+    return warn(unbuilt(scene, *estimate),
+                "too large to be tried here: a run takes " + describe(*estimate, available));
+  }
+  keep_to_free_memory();
+  try {
+    return built(request, scene);
+  } catch (const std::bad_alloc&) {
+    return warn(unbuilt(scene, estimate.value_or(MemoryEstimate{})),
+                fmt::format("the trial ran out of memory: a run takes more than the {:.2g} GB that "
+                            "were free",
+                            1e-9 * available));
+  }
+}
+
+}  // namespace
+
+int check_scene(const CheckRequest& request) {
+  const Section scene = read_scene(request.scene, request.overrides, scene_catalogue());
+  nlohmann::json result = built_if_it_fits(request, scene);
+  result["scene"] = request.scene;
+  if (const auto estimate = estimate_memory(scene)) {
+    result["memory"] = {{"estimate", estimate->bytes}, {"available", available_memory()}};
+  }
+  if (request.json) {
+    fmt::print("{}", json_text(result));
+  } else {
+    print(result);
+  }
+  return 0;
+}
+
+}  // namespace perifrac

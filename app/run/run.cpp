@@ -1,0 +1,305 @@
+#include "app/run/run.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "app/report/report.hpp"
+#include "app/run/memory.hpp"
+#include "app/run/output_times.hpp"
+#include "app/run/profile_report.hpp"
+#include "app/run/recorder.hpp"
+#include "app/run/scene_echo.hpp"
+#include "app/run/scene_keys.hpp"
+#include "app/run/summary.hpp"
+#include "app/run/version.hpp"
+#include "app/simulation/simulation.hpp"
+#include "app/warnings/energy_warnings.hpp"
+#include "app/warnings/resolution_warnings.hpp"
+#include "app/warnings/scene_warnings.hpp"
+#include "app/warnings/validity_watch.hpp"
+#include "core/base/errors.hpp"
+#include "core/config/mistakes.hpp"
+#include "core/config/scene.hpp"
+#include "core/config/units.hpp"
+#include "core/io/input_file.hpp"
+#include "core/io/log.hpp"
+#include "core/io/progress.hpp"
+#include "core/io/signals.hpp"
+
+namespace perifrac {
+
+namespace {
+
+// So many windows after the last point to restart from is the next, so that a signal costs little
+// of a long run; an output is one after fewer. Not every output: CVODE begins anew there, and were
+// outputs close its result would follow them. Fixed numbers: they are part of what makes runs equal
+// bit for bit.
+constexpr std::int64_t windows_between_restart_points = 50, windows_before_an_output = 10;
+
+Section read(const RunRequest& request) {
+  const ProfilePart profiled("scene");
+  return read_scene(request.scene, request.overrides, scene_catalogue());
+}
+
+Simulation set_up(const Section& scene) {
+  const ProfilePart profiled("set-up");
+  Simulation simulation = make_simulation(scene);
+  initialize(scene, simulation);
+  return simulation;
+}
+
+/// The scene as run: what a checkpoint belongs to.
+std::string scene_text(const RunRequest& request) {
+  std::string text = read_input_text(request.scene, "a scene file");
+  for (const std::string& override : request.overrides) text += "# --set " + override + '\n';
+  return text;
+}
+
+/// The time [s] that --until names. The scene's own end stays what it is: windows follow from it.
+std::optional<double> read_until(const std::string& until) {
+  if (until.empty()) return {};
+  try {
+    if (const double time = to_si(until, "s"); time > 0.0) return time;
+  } catch (const QuantityError& error) {
+    throw InputError(fmt::format("--until: {}", error.what()));
+  }
+  throw InputError(fmt::format("--until: '{}' is out of range; expected a time after 0 s", until));
+}
+
+std::optional<Checkpoint> read_restart(const RunRequest& request, const std::string& text,
+                                       double end) {
+  if (request.restart.empty()) return {};
+  Checkpoint checkpoint = read_checkpoint(request.restart);
+  if (checkpoint.scene != text) {
+    throw InputError(fmt::format(
+        "{}: was written by another scene than {}; expected the scene, and --set, that it came "
+        "from (only --until may differ)",
+        request.restart, request.scene));
+  }
+  if (checkpoint.version != version) {
+    throw InputError(fmt::format("{}: was written by perifrac {}, this is {}; expected the same",
+                                 request.restart, checkpoint.version, version));
+  }
+  // At the end itself a run may still lack its summary.
+  if (checkpoint.time > end) {
+    throw InputError(
+        fmt::format("{}: lies at {:g} s, the run ends at {:g} s; expected a later "
+                    "end, as by --until",
+                    request.restart, checkpoint.time, end));
+  }
+  return checkpoint;
+}
+
+std::filesystem::path folder_of(const RunRequest& request) {
+  if (!request.output.empty()) return request.output;
+  if (!request.restart.empty()) return std::filesystem::absolute(request.restart).parent_path();
+  return std::filesystem::path("runs") / std::filesystem::path(request.scene).stem();
+}
+
+/// A restart goes on with the rows and frames in its folder: they must be of the same run.
+void refuse_other_results(const RunRequest& request, const std::filesystem::path& folder) {
+  const auto own_folder = std::filesystem::absolute(request.restart).parent_path();
+  std::error_code missing;
+  if (!std::filesystem::exists(folder / "history.csv", missing) ||
+      std::filesystem::equivalent(folder, own_folder, missing)) {
+    return;
+  }
+  throw InputError(fmt::format(
+      "{}: holds results, and {} is not among them; expected a new folder, or the checkpoint's",
+      folder.string(), request.restart));
+}
+
+void log_all(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) log_warning(warning);
+}
+
+/// Ends a run whose windows were seen not to be stable once nothing is left of its answer.
+void require_balance(const CouplingManager& manager) {
+  if (!manager.is_unstable()) return;
+  constexpr double nonsense = 0.5;
+  const auto energy = manager.ledger().energy();
+  if (!energy || energy->relative_error < nonsense) return;
+  throw NumericalError("energy", "the ledger", manager.time(),
+                       fmt::format("windows of one pass are not stable: the balance is {:.0f} % "
+                                   "open",
+                                   100.0 * energy->relative_error));
+}
+
+/// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
+int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& watch,
+                   std::span<const double> outputs) {
+  CouplingManager& manager = *simulation.manager;
+  Progress progress(manager.time(), simulation.end);
+  auto output = std::ranges::upper_bound(outputs, manager.time());
+  while (output != outputs.end()) {
+    if (const int signal = received_signal()) return signal;
+    manager.advance(*output);
+    if (const auto warning = manager.new_warning()) log_warning(*warning);
+    recorder.check_finite();
+    recorder.record_window();
+    require_balance(manager);
+    const bool is_output = manager.time() == *output;
+    const bool is_restart_point =
+        recorder.windows_since_restart_point() >=
+        (is_output ? windows_before_an_output : windows_between_restart_points);
+    if (is_output || is_restart_point || ValidityWatch::is_due(manager.step())) {
+      log_all(watch.look());
+    }
+    if (is_output) {
+      recorder.record_output();
+      recorder.check_mass();
+      ++output;
+    }
+    if (is_restart_point) recorder.restart_point();
+    recorder.write_checkpoint(true);
+    progress.update(manager.time(), manager.step());
+  }
+  return 0;
+}
+
+void start(const Section& scene, Simulation& simulation, Recorder& recorder,
+           const OutputFolder& folder, const std::optional<Checkpoint>& restart) {
+  CouplingManager& manager = *simulation.manager;
+  log_all(manager.warnings());
+  if (restart) {
+    recorder.restore(*restart);
+    recorder.open(folder, restart);
+    return;
+  }
+  if (const auto warning = start_warning(scene, simulation, manager.settle())) {
+    log_warning(*warning);
+  }
+  recorder.check_finite();
+  recorder.open(folder, restart);
+  recorder.record_window();
+  recorder.record_output();
+  recorder.restart_point();
+  recorder.write_checkpoint(false);
+}
+
+void replace_earlier_results(const OutputFolder& folder) {
+  const int files = folder.remove_earlier_results();
+  if (files == 0) return;
+  log_info(
+      fmt::format("{}: {} files of an earlier run are replaced", folder.path().string(), files));
+}
+
+/// Runs `whole`, which returns the signal that stopped it or 0. Where that fails, the log says why,
+/// and what can still be written is: after any but a NumericalError the state is not sure any more.
+template <class Whole>
+RunEnd go(Whole&& whole, Recorder& recorder, ValidityWatch& watch) {
+  RunEnd end;
+  try {
+    if (whole() != 0) end.outcome = RunOutcome::stopped;
+    return end;
+  } catch (const InputError&) {
+    throw;
+  } catch (const OutputError&) {
+    throw;  // the summary would fare no better
+  } catch (const std::exception& error) {
+    end.failure = failure_of(error);
+  }
+  end.outcome = RunOutcome::failed;
+  log_error(describe(*end.failure));
+  if (end.failure->time) {
+    log_all(watch.look());  // what it had come to may say why
+    recorder.record_failure();
+    recorder.write_checkpoint(false);
+  }
+  return end;
+}
+
+/// How a run ended, since when it ran, and what it cost by part.
+struct Ending {
+  RunEnd end;
+  std::chrono::steady_clock::time_point begin;
+  std::optional<Profile>& profile;
+};
+
+/// Writes the summary, and says and draws what there is.
+void conclude(const RunRequest& request, const Section& scene, const std::string& text,
+              Simulation& simulation, const Recorder& recorder, const OutputFolder& folder,
+              const Ending& ending) {
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - ending.begin).count();
+  nlohmann::json summary = summarize(scene, request.scene, text, simulation, recorder.reference(),
+                                     ending.end, {.whole = seconds, .output = recorder.seconds()});
+  summary["read"] = what_was_read(scene, simulation);
+  if (ending.profile) summary["profile"] = profile_json(*ending.profile, simulation);
+  write_summary(folder.path(), summary);
+  if (request.json) {
+    fmt::print("{}", json_text(summary));
+  } else {
+    fmt::print("{}", summary_text(summary));
+    if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
+  }
+  std::fflush(stdout);
+  if (ending.profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
+  if (request.report && ending.end.outcome != RunOutcome::stopped &&
+      make_report(folder.path(), request.json) != 0) {
+    log_warning("no report was made of the results; `perifrac report` tries again");
+  }
+}
+
+}  // namespace
+
+int run_scene(const RunRequest& request) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::optional<Profile> profile;
+  if (request.profile) profile.emplace();
+  hold_back_signals();
+  const Section scene = read(request);
+  const std::string text = scene_text(request);
+  require_memory(scene);
+  Simulation simulation;
+  std::vector<double> outputs;
+  Mistakes mistakes;
+  mistakes.note([&] { simulation = set_up(scene); });
+  mistakes.note([&] {
+    outputs =
+        read_output_times(scene.at("output"), scene.number("time.end"), read_until(request.until));
+  });
+  mistakes.throw_if_any();
+  const auto warnings = scene_warnings(scene, regime_of(scene, simulation));
+  simulation.end = outputs.back();
+  Recorder recorder(scene, text, simulation);
+  const std::optional<Checkpoint> restart = read_restart(request, text, simulation.end);
+  if (restart) refuse_other_results(request, folder_of(request));
+  const OutputFolder folder(folder_of(request), request.overwrite);
+  if (!restart) replace_earlier_results(folder);
+  if (!request.json) fmt::print("{}\n", fmt::join(what_was_read(scene, simulation), "\n"));
+  log_all(warnings);
+
+  ValidityWatch watch(scene, simulation);
+  int signal = 0;
+  const RunEnd end = go(
+      [&] {
+        start(scene, simulation, recorder, folder, restart);
+        signal = advance_to_end(simulation, recorder, watch, outputs);
+        if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
+        if (const auto warning = filling_warning(scene, simulation)) log_warning(*warning);
+        const double end = simulation.manager->time();
+        if (const auto warning = seepage_warning(scene, end); warning && signal == 0) {
+          log_warning(*warning);
+        }
+        recorder.write_checkpoint(false);
+        recorder.check_kept();
+        return signal;
+      },
+      recorder, watch);
+  // Of memory that ended, nothing that is left to do is sure; what the log said last stays true.
+  try {
+    conclude(request, scene, text, simulation, recorder, folder, {end, begin, profile});
+  } catch (const std::bad_alloc&) {
+    if (!end.failure) throw;
+  }
+  if (end.failure) return 1;
+  return signal == 0 ? 0 : exit_code_of(signal);
+}
+
+}  // namespace perifrac

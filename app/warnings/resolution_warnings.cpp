@@ -1,0 +1,97 @@
+#include "app/warnings/resolution_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/references/comparison.hpp"
+#include "app/references/rock.hpp"
+#include "modules/pore_flow/material/mobility.hpp"
+#include "modules/pore_flow/material/pore_material.hpp"
+
+namespace perifrac {
+
+namespace {
+
+constexpr double least_filled = 2.0;  // spacings
+
+/// Of a field without places; nothing where there is none.
+double value_of(const Simulation& simulation, const std::string& name) {
+  for (const Field& field : fields_of(*simulation.manager)) {
+    if (field.port.name == name) return field.values().front();
+  }
+  return 0.0;
+}
+
+/// Pores that deform along one axis alone [m^2/s]; the largest of its directions and the first of
+/// its regions.
+template <int D>
+double diffusivity(const Section& scene) {
+  const Section flow = scene.at("pore_flow");
+  const PoreFluid fluid = read_pore_fluid(flow);
+  const PoreMaterial pores = read_pore_materials(flow, fluid)[0];
+  const Tensor<D, D> mobility = read_mobilities<D>(flow, fluid.viscosity)[0];
+  double largest = 0.0;
+  for (int a = 0; a < D; ++a) largest = std::max(largest, mobility[(D + 1) * a]);
+  double storage = pores.storage;
+  if (writes(scene, "solid") && scene.word("solid.type") != "rigid") {
+    storage += pores.biot_coefficient * pores.biot_coefficient /
+               read_elastic_rock(scene).uniaxial_modulus();
+  }
+  return largest / storage;
+}
+
+/// Cracks load rock far from its faces: little flows through one that holds what was there before.
+bool is_left_as_it_was(const Section& scene, const std::string& face) {
+  return writes(scene, "cracks") && !writes(scene, face + ".schedule") &&
+         scene.number(face + ".pressure") == scene.number("pore_flow.initial_pressure");
+}
+
+/// A face whose pressure is given, or cracks that leak off into pores; empty where there is
+/// neither.
+std::string where_fluid_seeps(const Section& scene) {
+  if (!writes(scene, "pore_flow")) return "";
+  if (writes(scene, "crack_fluid") && scene.word("crack_fluid.leak_off") == "pores") {
+    return "the faces of cracks";
+  }
+  if (!writes(scene, "pore_flow.boundary")) return "";
+  for (const std::string& name : scene.names("pore_flow.boundary")) {
+    const std::string face = "pore_flow.boundary." + name;
+    if (scene.word(face + ".type") == "pressure" && !is_left_as_it_was(scene, face)) {
+      return fmt::format("face '{}'", name);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation) {
+  if (!simulation.has_body() || !scene.has("crack_fluid")) return {};
+  const double spacing = scene.number("body.spacing");
+  const double filled = value_of(simulation, "wetted_length");
+  const bool is_on_its_way = value_of(simulation, "fluid_lag") > spacing;
+  if (!(filled > 0.0) || filled >= least_filled * spacing || !is_on_its_way) return {};
+  return fmt::format(
+      "fluid fills {:.2g} m of the cracks in the end, {:.1f} spacings: its pressure and what it "
+      "opens are those of facets as long as body.spacing, not of a crack; a later time.end or a "
+      "finer body.spacing",
+      filled, filled / spacing);
+}
+
+std::optional<std::string> seepage_warning(const Section& scene, double time) {
+  const std::string through = where_fluid_seeps(scene);
+  if (through.empty() || !scene.has("body.spacing")) return {};
+  const double spacing = scene.number("body.spacing");
+  const bool is_flat = scene.integer("dimension") == 2;
+  const double c = is_flat ? diffusivity<2>(scene) : diffusivity<3>(scene);
+  const double depth = std::sqrt(c * time);
+  if (!(depth < spacing)) return {};
+  return fmt::format(
+      "pressure goes {:.2g} m into the pores by t = {:.3g} s, less than body.spacing: what flows "
+      "through {} depends on the spacing; bring points closer together, or look at later times",
+      depth, time, through);
+}
+
+}  // namespace perifrac

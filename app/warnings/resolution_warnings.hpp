@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/simulation/simulation.hpp"
+#include "core/config/section.hpp"
+
+namespace perifrac {
+
+/// Where a run ends while fluid has hardly begun to enter a crack: what fills a facet or two has no
+/// pressure and no opening yet that would not depend on how long facets are.
+std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation);
+
+/// Where pressure has gone less than a spacing into the pores by `time` [s], from a face that holds
+/// it or a crack: what seeps then is what points so far apart take, not rock.
+std::optional<std::string> seepage_warning(const Section& scene, double time);
+
+}  // namespace perifrac

@@ -1,0 +1,95 @@
+#include "app/warnings/small_strains.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <Eigen/Dense>
+
+namespace perifrac {
+
+namespace {
+
+template <int D>
+using Matrix = Eigen::Matrix<double, D, D>;
+
+template <int D>
+using Column = Eigen::Matrix<double, D, 1>;
+
+template <int D>
+class Displaced {
+ public:
+  Displaced(const Body<D>& body, std::span<const double> displacement)
+      : points_(body.points()), u_(displacement) {}
+
+  Column<D> bond(Index i, Index j) const {
+    return Column<D>::NullaryExpr(
+        [&](Eigen::Index a) { return points_.position[a][j] - points_.position[a][i]; });
+  }
+  Column<D> moved_apart(Index i, Index j) const {
+    return Column<D>::NullaryExpr([&](Eigen::Index a) {
+      const std::size_t first = a * points_.volume.size();
+      return u_[first + j] - u_[first + i];
+    });
+  }
+
+ private:
+  const Points<D>& points_;
+  std::span<const double> u_;
+};
+
+template <int D>
+Matrix<D> gradient_at(const Family<D>& family, Index i, const Displaced<D>& displaced) {
+  Matrix<D> shape = Matrix<D>::Zero(), spread = Matrix<D>::Zero();
+  for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) {
+    const Index j = family.other[b];
+    if (j >= family.point_count) continue;  // what a ghost does follows from the others
+    const Column<D> bond = displaced.bond(i, j);
+    shape += family.weight[b] * bond * bond.transpose();
+    spread += family.weight[b] * displaced.moved_apart(i, j) * bond.transpose();
+  }
+  const Eigen::FullPivLU<Matrix<D>> factor(shape);
+  if (!factor.isInvertible()) return Matrix<D>::Zero();  // bonds in one line say nothing across it
+  return spread * factor.inverse();
+}
+
+bool moves_as_one(std::span<const double> displacement, std::size_t points, double negligible) {
+  for (std::size_t first = 0; first < displacement.size(); first += points) {
+    const auto [low, high] = std::ranges::minmax(displacement.subspan(first, points));
+    if (high - low > negligible) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+template <int D>
+LargestStrain largest_strain(const Body<D>& body, std::span<const double> displacement,
+                             double negligible) {
+  LargestStrain largest;
+  const auto families = body.families();
+  const auto count = static_cast<std::size_t>(body.points().size());
+  if (families.empty() || moves_as_one(displacement, count, negligible)) return largest;
+  std::vector<bool> torn(count, false);
+  for (const BrokenBond& bond : body.bond_state().broken()) torn[bond.i] = torn[bond.j] = true;
+  const Displaced<D> displaced(body, displacement);
+  for (Index i = 0; i < body.points().size(); ++i) {
+    if (torn[i]) continue;
+    const Matrix<D> gradient = gradient_at(*families.front(), i, displaced);
+    const Matrix<D> strain = 0.5 * (gradient + gradient.transpose());
+    const Matrix<D> spin = 0.5 * (gradient - gradient.transpose());
+    const double rotation = std::sqrt(0.5) * spin.norm();
+    // The norm is above each principal strain; the costly ones only where it counts.
+    if (strain.norm() > largest.strain) {
+      const Eigen::SelfAdjointEigenSolver<Matrix<D>> principal(strain, Eigen::EigenvaluesOnly);
+      const double size = principal.eigenvalues().cwiseAbs().maxCoeff();
+      if (size > largest.strain) largest.strain = size, largest.strained = i;
+    }
+    if (rotation > largest.rotation) largest.rotation = rotation, largest.rotated = i;
+  }
+  return largest;
+}
+
+template LargestStrain largest_strain(const Body<2>&, std::span<const double>, double);
+template LargestStrain largest_strain(const Body<3>&, std::span<const double>, double);
+
+}  // namespace perifrac

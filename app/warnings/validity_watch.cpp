@@ -1,0 +1,172 @@
+#include "app/warnings/validity_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/references/comparison.hpp"
+#include "app/warnings/pressure_swing.hpp"
+#include "app/warnings/small_strains.hpp"
+#include "core/base/errors.hpp"
+#include "modules/pore_flow/storage/storage_choice.hpp"
+
+namespace perifrac {
+
+namespace {
+
+constexpr double large_strain = 0.1;
+constexpr double large_rotation = 0.1;  ///< [rad]; taken for strains, it makes half its square
+constexpr double far_density = 0.1;     ///< relative
+constexpr double large_swing = 0.02;    ///< of all that pressures range over
+
+std::optional<Field> find_field(const Simulation& simulation, const std::string& name) {
+  for (const Field& field : fields_of(*simulation.manager)) {
+    if (field.port.name == name) return field;
+  }
+  return {};
+}
+
+std::string place_of(const PointSet& points, std::size_t i) {
+  std::vector<double> place;
+  for (int a = 0; a < points.dimension; ++a) place.push_back(points.position[a][i]);
+  return describe_point(i, place);
+}
+
+/// Of a fluid whose pressure is linear in its density.
+std::optional<std::string> density_warning(const Field& pressure, double bulk_modulus,
+                                           const char* advice) {
+  const auto values = pressure.values();
+  if (values.empty()) return {};
+  const auto farthest = std::ranges::max_element(values, {}, [](double p) { return std::abs(p); });
+  const double off = *farthest / bulk_modulus;
+  if (!(std::abs(off) > far_density)) return {};
+  return fmt::format(
+      "{} is {:.2g} of the fluid's bulk modulus at {}: its density is far from what it was taken "
+      "for; {}",
+      pressure.port.name, off, place_of(pressure.points(), farthest - values.begin()), advice);
+}
+
+}  // namespace
+
+ValidityWatch::ValidityWatch(const Section& scene, const Simulation& simulation) {
+  watch_strains(scene, simulation);
+  watch_pores(scene, simulation);
+  watch_swings(scene, simulation);
+  watch_density(scene, simulation);
+}
+
+std::vector<std::string> ValidityWatch::look() {
+  std::vector<std::string> warnings;
+  std::erase_if(limits_, [&](const Limit& limit) {
+    const auto warning = limit();
+    if (warning) warnings.push_back(*warning);
+    return warning.has_value();
+  });
+  return warnings;
+}
+
+void ValidityWatch::watch_strains(const Section& scene, const Simulation& simulation) {
+  const auto field = find_field(simulation, "displacement");
+  if (!field || !simulation.has_body()) return;
+  const bool turns =
+      scene.has("solid.kinematics") && scene.word("solid.kinematics") == "corotational";
+  const auto largest = [field, &body = simulation.body] {
+    return std::visit(
+        [&](const auto& b) {
+          return largest_strain(*b, field->values(), 0.1 * large_strain * b->spacing());
+        },
+        body);
+  };
+  limits_.push_back([=]() -> std::optional<std::string> {
+    const LargestStrain found = largest();
+    if (!(found.strain > large_strain)) return {};
+    return fmt::format(
+        "strains reach {:.2g} at {}, and the solid is for small ones, up to {}: its answer is off "
+        "by as much; lower the loads, or look for a stiffness that is not meant",
+        found.strain, place_of(field->points(), found.strained), large_strain);
+  });
+  if (turns) return;
+  limits_.push_back([=]() -> std::optional<std::string> {
+    const LargestStrain found = largest();
+    if (!(found.rotation > large_rotation)) return {};
+    return fmt::format(
+        "rotations reach {:.2g} at {}, and `solid.kinematics: small` takes them for strains of "
+        "{:.2g}; take `type: dynamic` with `kinematics: corotational`",
+        found.rotation, place_of(field->points(), found.rotated),
+        0.5 * found.rotation * found.rotation);
+  });
+}
+
+void ValidityWatch::watch_pores(const Section& scene, const Simulation& simulation) {
+  const auto pressure = find_field(simulation, "pore_pressure");
+  if (!pressure || !scene.has("pore_flow.fluid.cavitation_pressure")) return;
+  const double least = scene.number("pore_flow.fluid.cavitation_pressure");
+  limits_.push_back([=]() -> std::optional<std::string> {
+    const auto values = pressure->values();
+    const auto lowest = std::ranges::min_element(values);
+    if (lowest == values.end() || *lowest >= least) return {};
+    return fmt::format(
+        "pore_pressure falls to {:.3g} Pa at {}, below pore_flow.fluid.cavitation_pressure, {:g} "
+        "Pa: fluid would boil, and the pores would not stay full, as they do here",
+        *lowest, place_of(pressure->points(), lowest - values.begin()), least);
+  });
+}
+
+/// Rock that scatters, and points beside cracks, may have pressures that differ from one point to
+/// the next for good reasons.
+void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulation) {
+  const auto pressure = find_field(simulation, "pore_pressure");
+  const bool scatters =
+      writes(scene, "pore_flow.permeability_scatter") || writes(scene, "solid.material.scatter");
+  if (!pressure || scatters || writes(scene, "cracks")) return;
+  const bool can_be_stabler =
+      std::visit([&](const auto& body) { return can_be_stabilised(scene.at("pore_flow"), *body); },
+                 simulation.body);
+  const char* const advice = can_be_stabler ? "raise pore_flow.undrained_stabilisation, or"
+                                            : "drain it gradually, by a schedule, or";
+  limits_.push_back([=, &any = simulation.body]() -> std::optional<std::string> {
+    const double swing =
+        std::visit([&](const auto& body) { return largest_swing(*body, pressure->values()); }, any);
+    if (!(swing > large_swing)) return {};
+    return fmt::format(
+        "pore_pressure swings from point to point by {:.0f} % of what it ranges over: points are "
+        "too far apart for what drained so suddenly; {} bring points closer together; later the "
+        "swings die away",
+        100.0 * swing, advice);
+  });
+}
+
+void ValidityWatch::watch_density(const Section& scene, const Simulation& simulation) {
+  const auto in_pores = find_field(simulation, "pore_pressure");
+  if (in_pores && scene.word("pore_flow.fluid.equation_of_state") == "linear") {
+    const double bulk_modulus = scene.number("pore_flow.fluid.bulk_modulus");
+    limits_.push_back([=] {
+      return density_warning(*in_pores, bulk_modulus,
+                             "take `pore_flow.fluid.equation_of_state: tait`");
+    });
+  }
+  const auto in_cracks = find_field(simulation, "crack_pressure");
+  if (in_cracks && writes(scene, "crack_fluid")) {
+    const double bulk_modulus = scene.number("crack_fluid.bulk_modulus");
+    limits_.push_back([=] {
+      return density_warning(*in_cracks, bulk_modulus, "raise `crack_fluid.bulk_modulus`");
+    });
+  }
+  const auto density = find_field(simulation, "fluid_density");
+  if (!density) return;
+  const double reference = scene.number("fluid.density");
+  limits_.push_back([=]() -> std::optional<std::string> {
+    const auto values = density->values();
+    const auto farthest =
+        std::ranges::max_element(values, {}, [=](double rho) { return std::abs(rho - reference); });
+    if (farthest == values.end() || std::abs(*farthest - reference) <= far_density * reference)
+      return {};
+    return fmt::format(
+        "fluid_density is {:.4g} kg/m^3 at {}, far from fluid.density, {:g} kg/m^3; raise "
+        "`fluid.bulk_modulus`, so that loads change it by a hundredth",
+        *farthest, place_of(density->points(), farthest - values.begin()), reference);
+  });
+}
+
+}  // namespace perifrac

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/simulation/simulation.hpp"
+#include "core/config/section.hpp"
+
+namespace perifrac {
+
+/// Looks at a run now and then for what its modules cannot do: large strains and rotations, fluid
+/// under suction that it does not bear, or far from the density that it was taken to have, and
+/// pressures that swing from point to point. Modules have no part in it, so that steps cost
+/// nothing.
+class ValidityWatch {
+ public:
+  ValidityWatch(const Section& scene, const Simulation& simulation);
+
+  /// What is beyond a limit now and never was before, one sentence each.
+  std::vector<std::string> look();
+
+  /// Whether it is time to, after so many windows, where nothing else calls for it: what swings
+  /// does so soon after a jump.
+  static bool is_due(std::int64_t step) { return (step & (step - 1)) == 0; }
+
+ private:
+  /// Says what is wrong, if something is.
+  using Limit = std::function<std::optional<std::string>()>;
+
+  void watch_strains(const Section& scene, const Simulation& simulation);
+  void watch_pores(const Section& scene, const Simulation& simulation);
+  void watch_swings(const Section& scene, const Simulation& simulation);
+  void watch_density(const Section& scene, const Simulation& simulation);
+
+  std::vector<Limit> limits_;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include "core/base/points.hpp"
+
+namespace perifrac {
+
+/// How many numbers a packet has.
+#if defined(__AVX512F__)
+inline constexpr int packet_size = 8;
+#elif defined(__AVX__)
+inline constexpr int packet_size = 4;
+#else
+inline constexpr int packet_size = 2;
+#endif
+
+/// Numbers to compute with at once. Operators act number by number, and a double beside a packet
+/// stands for equal numbers.
+using Packet = double __attribute__((vector_size(packet_size * sizeof(double))));
+
+/// What comparing packets gives, -1 where it is true; and whole numbers.
+using PacketMask = std::int64_t __attribute__((vector_size(packet_size * sizeof(std::int64_t))));
+
+template <int D>
+using PacketVector = std::array<Packet, D>;
+
+/// 0, 1, 2, ...
+inline PacketMask lanes() {
+  return []<std::int64_t... l>(std::integer_sequence<std::int64_t, l...>) {
+    return PacketMask{l...};
+  }
+  (std::make_integer_sequence<std::int64_t, packet_size>{});
+}
+
+/// What was compared holds for every number.
+inline bool is_everywhere(const PacketMask& mask) {
+  std::int64_t both = -1;
+  for (int l = 0; l < packet_size; ++l) both &= mask[l];
+  return both != 0;
+}
+
+/// values[0], values[1], ...
+inline Packet load(const double* values) {
+  Packet packet;
+  std::memcpy(&packet, values, sizeof packet);
+  return packet;
+}
+
+/// values[index[0]], values[index[1]], ... One by one: that beats the machine's own gather.
+inline Packet gather(std::span<const double> values, const Index* index) {
+  return [&]<int... l>(std::integer_sequence<int, l...>) { return Packet{values[index[l]]...}; }
+  (std::make_integer_sequence<int, packet_size>{});
+}
+
+/// The sum of a packet's numbers.
+inline double total(const Packet& packet) {
+  std::array<double, packet_size> part;
+  std::memcpy(part.data(), &packet, sizeof packet);
+  for (int half = packet_size / 2; half >= 1; half /= 2) {
+    for (int l = 0; l < half; ++l) part[l] += part[l + half];
+  }
+  return part[0];
+}
+
+}  // namespace perifrac

@@ -1,0 +1,153 @@
+#include "core/bonds/family.hpp"
+
+#include <cmath>
+
+#include "core/bonds/bond_traversal.hpp"
+#include "core/geometry/cell_grid.hpp"
+
+namespace perifrac {
+
+namespace {
+
+template <int D>
+double squared_distance(const Family<D>& family, Index i, Index j) {
+  double r2 = 0.0;
+  for (int a = 0; a < D; ++a) {
+    const double d = family.position[a][j] - family.position[a][i];
+    r2 += d * d;
+  }
+  return r2;
+}
+
+template <int D>
+double radius(const Family<D>& family, Index i) {
+  double r2 = 0.0;
+  for (int a = 0; a < D; ++a) r2 += family.position[a][i] * family.position[a][i];
+  return std::sqrt(r2);
+}
+
+/// Mirrors every node, ghosts of earlier faces included, that lies within the horizon of a face:
+/// edges and corners come out right, each image once.
+template <int D>
+void add_ghosts(Family<D>& family, const Face& face, int number, double horizon,
+                const std::vector<bool>& bondless) {
+  const Index nodes = family.node_count();
+  for (Index i = 0; i < nodes; ++i) {
+    const double place = face.curved() ? radius(family, i) : family.position[face.axis][i];
+    const double depth = face.direction * (face.coordinate - place);
+    if (depth > horizon || depth < 0.0) continue;
+    if (i < family.point_count && bondless[i]) continue;
+    const double image = 2.0 * face.coordinate - place;
+    const double stretch = face.curved() ? image / place : 1.0;
+    for (int a = 0; a < D; ++a) {
+      const double x = family.position[a][i];
+      family.position[a].push_back(a == face.axis ? image : x * stretch);
+    }
+    family.volume.push_back(family.volume[i] * std::pow(stretch, D - 1));
+    const bool real = i < family.point_count;
+    const Index ghost = i - family.point_count;
+    family.ghost_source.push_back(real ? i : family.ghost_source[ghost]);
+    family.ghost_faces.push_back((real ? 0u : family.ghost_faces[ghost]) | face_bit(number));
+    family.ghost_axes.push_back((real ? 0u : family.ghost_axes[ghost]) ^
+                                (face.curved() ? 0u : 1u << face.axis));
+    family.curved = family.curved || face.curved();
+  }
+}
+
+/// Takes out the bonds of bondless points.
+void remove_bonds(const std::vector<bool>& bondless, Neighbours& near) {
+  const Index points = static_cast<Index>(bondless.size());
+  const auto is_bondless = [&](Index i) { return i < points && bondless[i]; };
+  Index kept = 0;
+  for (Index i = 0, begin = 0; i < points; ++i) {
+    const Index end = near.offset[i + 1];
+    for (Index k = begin; k < end && !bondless[i]; ++k) {
+      if (!is_bondless(near.other[k])) near.other[kept++] = near.other[k];
+    }
+    near.offset[i + 1] = kept;
+    begin = end;
+  }
+  near.other.resize(kept);
+}
+
+}  // namespace
+
+template <int D>
+std::size_t Family<D>::bytes() const {
+  return sizeof(double) * (D + 1) * volume.size() + sizeof(Index) * ghost_source.size() +
+         (sizeof(FaceSet) + 1) * ghost_faces.size() +
+         sizeof(Index) * (offset.size() + other.size()) + sizeof(double) * weight.size();
+}
+
+template <int D>
+Family<D> build_family(const Points<D>& points, std::span<const Face> faces, FaceSet mirrored,
+                       double horizon, InfluenceFunction influence_function,
+                       std::vector<bool> bondless) {
+  bondless.resize(points.size(), false);
+  // A lattice distance that equals the horizon must not depend on rounding.
+  const double reach = horizon * (1.0 + 1e-9);
+  Family<D> family;
+  family.point_count = points.size();
+  family.position = points.position;
+  family.volume = points.volume;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (contains(mirrored, f)) add_ghosts(family, faces[f], static_cast<int>(f), reach, bondless);
+  }
+
+  CellGrid<D> grid;
+  grid.build(positions_of(family.position), reach);
+  Neighbours near;
+  grid.find_others(points.size(), reach, near);
+  remove_bonds(bondless, near);
+  family.offset = std::move(near.offset);
+  family.other = std::move(near.other);
+  family.weight.resize(family.other.size());
+  for_each_point(points.size(), [&](Index i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const Index j = family.other[bond];
+      const double r = std::sqrt(squared_distance(family, i, j));
+      family.weight[bond] = influence(influence_function, r, horizon) * family.volume[j];
+    }
+  });
+  return family;
+}
+
+template <int D>
+Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored) {
+  Family<D> part;
+  part.point_count = family.point_count;
+  std::vector<Index> number(family.node_count(), -1);  // of a node in the part, -1 if it goes
+  for (Index node = 0; node < family.node_count(); ++node) {
+    const Index ghost = node - family.point_count;
+    if (ghost >= 0 && (family.ghost_faces[ghost] & ~mirrored) != 0) continue;
+    number[node] = static_cast<Index>(part.volume.size());
+    for (int a = 0; a < D; ++a) part.position[a].push_back(family.position[a][node]);
+    part.volume.push_back(family.volume[node]);
+    if (ghost < 0) continue;
+    part.ghost_source.push_back(family.ghost_source[ghost]);
+    part.ghost_faces.push_back(family.ghost_faces[ghost]);
+    part.ghost_axes.push_back(family.ghost_axes[ghost]);
+  }
+  part.curved = family.curved;
+  part.offset.push_back(0);
+  for (Index i = 0; i < family.point_count; ++i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      if (number[family.other[bond]] < 0) continue;
+      part.other.push_back(number[family.other[bond]]);
+      part.weight.push_back(family.weight[bond]);
+    }
+    part.offset.push_back(static_cast<Index>(part.other.size()));
+  }
+  return part;
+}
+
+template struct Family<2>;
+template struct Family<3>;
+template Family<2> build_family<2>(const Points<2>&, std::span<const Face>, FaceSet, double,
+                                   InfluenceFunction, std::vector<bool>);
+template Family<3> build_family<3>(const Points<3>&, std::span<const Face>, FaceSet, double,
+                                   InfluenceFunction, std::vector<bool>);
+template Family<2> without_other_ghosts<2>(const Family<2>&, FaceSet);
+template Family<3> without_other_ghosts<3>(const Family<3>&, FaceSet);
+
+}  // namespace perifrac

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/points.hpp"
+#include "core/bonds/influence_function.hpp"
+#include "core/geometry/faces.hpp"
+
+namespace perifrac {
+
+/// The family of every point of a body: its bonds to the points within the horizon.
+///
+/// A mirrored face adds ghosts: images of the points near it. Ghosts are numbered after the real
+/// points; a ghost's value follows from its source and the face's condition (mirror_condition.hpp).
+/// Only real points have bonds; the image of a bond is not stored.
+/// The image at a sphere of radius R lies on the same ray at r' = 2 R - r, with the volume times
+/// (r' / r)^(D-1); unlike that at planes it keeps no distances.
+template <int D>
+struct Family {
+  Index point_count = 0;                        ///< real points
+  std::array<std::vector<double>, D> position;  ///< [m], real points, then ghosts
+  std::vector<double> volume;                   ///< real points, then ghosts
+  std::vector<Index> ghost_source;              ///< real point that a ghost is the image of
+  std::vector<FaceSet> ghost_faces;             ///< the faces that it was mirrored at
+  std::vector<std::uint8_t> ghost_axes;         ///< bit a: its coordinate a is reversed
+  bool curved = false;                          ///< some ghosts are images at a sphere
+  std::vector<Index> offset;                    ///< bonds of i: offset[i] .. offset[i + 1]
+  std::vector<Index> other;                     ///< the bond's other end
+  std::vector<double> weight;                   ///< omega(|xi|) V_other
+
+  Index ghost_count() const { return static_cast<Index>(ghost_source.size()); }
+  Index node_count() const { return point_count + ghost_count(); }
+  Index bond_count(Index i) const { return offset[i + 1] - offset[i]; }
+  std::size_t bytes() const;
+};
+
+/// Finds all families. Bonds of a point are sorted by their other end, so that they depend on
+/// nothing but the points. Points that are marked as `bondless` have no bonds and no ghosts; empty:
+/// none is.
+template <int D>
+Family<D> build_family(const Points<D>& points, std::span<const Face> faces, FaceSet mirrored,
+                       double horizon, InfluenceFunction influence,
+                       std::vector<bool> bondless = {});
+
+/// The part of a family that has ghosts behind the faces in `mirrored` alone: what build_family
+/// gives for them, with the weights that the bonds have here.
+template <int D>
+Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored);
+
+}  // namespace perifrac

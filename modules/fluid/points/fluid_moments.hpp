@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/geometry/neighbour_traversal.hpp"
+#include "modules/fluid/points/fluid_neighbours.hpp"
+#include "modules/fluid/points/fluid_properties.hpp"
+
+namespace perifrac {
+
+/// What the first of a step's two loops over neighbours finds at every fluid point.
+template <int D>
+struct FluidMoments {
+  /// Inverse of the shape tensor (paper Eqs 19, 23), regularised.
+  std::array<std::vector<double>, symmetric_size<D>> inverse_shape;
+  std::vector<double> trace;       ///< of the shape tensor, likewise, with images
+  std::vector<double> divergence;  ///< of the velocity (paper Eq 20) [1/s]
+  std::vector<double> diffusion;   ///< Laplacian of the density, its slope left out [kg/m^5]
+  /// Which way neighbours are denser: their mean bond over the shape of a lattice [1/m].
+  std::array<std::vector<double>, D> crowding;
+
+  /// tr M of an endless lattice: what a point inside the fluid has, and every wall point is given.
+  double bulk_trace = 0.0;
+};
+
+/// tr M of a lattice of `spacing` that fills space [m^(D+2)].
+template <int D>
+double lattice_trace(double spacing, double horizon);
+
+/// sum of omega V about a point of the same lattice [m^D].
+template <int D>
+double lattice_weight(double spacing, double horizon);
+
+/// Finds the moments of all points from positions, velocities, densities and volumes, those of
+/// images and near walls included.
+template <int D>
+void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
+                  const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
+                  FluidMoments<D>& moments);
+
+}  // namespace perifrac

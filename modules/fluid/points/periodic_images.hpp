@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/base/points.hpp"
+
+namespace perifrac {
+
+/// Space that repeats along some axes: what leaves at one end comes in at the other.
+template <int D>
+struct Period {
+  /// Per axis the two ends [m]; nothing where space does not repeat.
+  std::array<std::optional<std::pair<double, double>>, D> ends;
+
+  bool any() const {
+    for (const auto& end : ends) {
+      if (end) return true;
+    }
+    return false;
+  }
+
+  /// x, brought back between the ends along `axis`.
+  double wrapped(int axis, double x) const {
+    if (!ends[axis]) return x;
+    const auto [low, high] = *ends[axis];
+    return x - (high - low) * std::floor((x - low) / (high - low));
+  }
+  Vector<D> wrapped(Vector<D> x) const {
+    for (int a = 0; a < D; ++a) x[a] = wrapped(a, x[a]);
+    return x;
+  }
+};
+
+/// Images of points near the ends of a period, so that loops over neighbours need not know of it.
+/// Image k stands for `source[k]`, moved by `shift`.
+template <int D>
+struct PeriodicImages {
+  std::vector<Index> source;
+  std::array<std::vector<double>, D> shift;  ///< [m]
+
+  /// Images of all points within `reach` [m] of an end, corners included.
+  void find(const Period<D>& period, const std::array<std::vector<double>, D>& position,
+            Index count, double reach) {
+    source.clear();
+    for (auto& s : shift) s.clear();
+    for (int a = 0; a < D; ++a) {
+      if (!period.ends[a]) continue;
+      const double low = period.ends[a]->first;
+      const double high = period.ends[a]->second;
+      const Index before = static_cast<Index>(source.size());
+      const auto add = [&](Index point, const Vector<D>& moved) {
+        const double x = position[a][point] + moved[a];
+        for (const double by : {high - low, low - high}) {
+          if (by > 0.0 ? x >= low + reach : x <= high - reach) continue;
+          source.push_back(point);
+          for (int b = 0; b < D; ++b) shift[b].push_back(moved[b] + (b == a ? by : 0.0));
+        }
+      };
+      for (Index i = 0; i < count; ++i) add(i, {});
+      for (Index k = 0; k < before; ++k) {
+        Vector<D> moved;
+        for (int b = 0; b < D; ++b) moved[b] = shift[b][k];
+        add(source[k], moved);
+      }
+    }
+  }
+
+  Index size() const { return static_cast<Index>(source.size()); }
+
+  /// Puts the sources' values behind the first `count` values.
+  void copy(std::vector<double>& values, Index count) const {
+    values.resize(count + source.size());
+    for (Index k = 0; k < size(); ++k) values[count + k] = values[source[k]];
+  }
+  void copy_positions(std::array<std::vector<double>, D>& position, Index count) const {
+    for (int a = 0; a < D; ++a) {
+      copy(position[a], count);
+      for (Index k = 0; k < size(); ++k) position[a][count + k] += shift[a][k];
+    }
+  }
+};
+
+}  // namespace perifrac

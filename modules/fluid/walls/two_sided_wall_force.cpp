@@ -1,0 +1,60 @@
+#include "modules/fluid/walls/two_sided_wall_force.hpp"
+
+#include <algorithm>
+
+#include "modules/fluid/walls/wall_pairs.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// The force of wall point w on fluid point i, y from i to w.
+template <int D>
+Vector<D> pair_force(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index w,
+                     const Vector<D>& y, double omega) {
+  const FluidPoints<D>& points = step.points;
+  const double bulk = step.moments.bulk_trace / D;
+  const double volumes = omega * points.volume[i] * walls.volume[w];
+  Vector<D> force = wall_drag<D>(step, walls, i, w, y);
+  const Vector<D> stress = points.pressure[i] > 0.0 ? stress_along<D>(step, i, y) : Vector<D>{};
+  for (int a = 0; a < D; ++a) force[a] += stress[a] - walls.pressure[w] / bulk * y[a];
+  for (double& component : force) component *= volumes;
+  return force;
+}
+
+}  // namespace
+
+template <int D>
+void TwoSidedWallForce<D>::extrapolate_pressure(const FluidStep<D>& step,
+                                                NearWalls<D>& walls) const {
+  const FluidPoints<D>& points = step.points;
+  walls.pressure.resize(walls.count);
+  for_each_point(walls.count, [&](Index w) {
+    Vector<D> x;
+    for (int a = 0; a < D; ++a) x[a] = walls.position[a][w];
+    const auto [weighted, weights] = sum_over_neighbours<2, D>(
+        step.neighbours.fluid_of_walls(), w, x, points.position, step.influence,
+        [&](Index j, const Vector<D>& y, double omega) {
+          double depth = 0.0;
+          for (int a = 0; a < D; ++a) depth -= step.gravity[a] * y[a];
+          const double weight = omega * points.volume[j];
+          return std::array{weight * (points.pressure[j] + points.density[j] * depth), weight};
+        });
+    walls.pressure[w] = weights > 0.0 ? std::max(0.0, weighted / weights) : 0.0;
+  });
+  step.neighbours.wall_images().copy(walls.pressure, walls.count);
+}
+
+template <int D>
+void TwoSidedWallForce<D>::add(const FluidStep<D>& step, NearWalls<D>& walls,
+                               std::array<std::vector<double>, D>& force) {
+  extrapolate_pressure(step, walls);
+  add_pair_forces<D>(step, walls, force, [&](Index i, Index w, const Vector<D>& y, double omega) {
+    return pair_force<D>(step, walls, i, w, y, omega);
+  });
+}
+
+template class TwoSidedWallForce<2>;
+template class TwoSidedWallForce<3>;
+
+}  // namespace perifrac

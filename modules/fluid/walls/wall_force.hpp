@@ -1,0 +1,35 @@
+#pragma once
+
+#include "modules/fluid/points/fluid_moments.hpp"
+
+namespace perifrac {
+
+/// All that the forces of one step are found from: positions, velocities, volumes, pressures and
+/// moments of points, images and near walls.
+template <int D>
+struct FluidStep {
+  const FluidPoints<D>& points;
+  const WallCloud<D>& cloud;
+  const FluidNeighbours<D>& neighbours;
+  const FluidMoments<D>& moments;
+  const FluidProperties& fluid;
+  const FluidScheme& scheme;
+  const GaussianInfluence& influence;
+  const Vector<D>& gravity;
+  /// -p M^-1 at every fluid point, with images.
+  const std::array<std::vector<double>, symmetric_size<D>>& stress;
+};
+
+/// How fluid and walls press on each other.
+template <int D>
+class WallForce {
+ public:
+  virtual ~WallForce() = default;
+
+  /// Adds the walls' force to that on each fluid point [N], and sets the opposite one on every near
+  /// wall point.
+  virtual void add(const FluidStep<D>& step, NearWalls<D>& walls,
+                   std::array<std::vector<double>, D>& force) = 0;
+};
+
+}  // namespace perifrac

@@ -1,0 +1,123 @@
+#include "modules/fluid/walls/wall_motion.hpp"
+
+#include <cmath>
+
+namespace perifrac {
+
+template <int D>
+void WallMotion<D>::follow(double t) {
+  for (RigidWall<D>& wall : rigid_) wall.follow(t);
+}
+
+template <int D>
+void WallMotion<D>::drift(double length) {
+  for (RigidWall<D>& wall : rigid_) wall.drift(length);
+}
+
+template <int D>
+void WallMotion<D>::kick(double t, double length, const Vector<D>& gravity,
+                         const NearWalls<D>& near, std::vector<double>& impulse) {
+  on_rigid_.assign(rigid_.size(), Vector<D>{});
+  for (Index k = 0; k < near.count; ++k) {
+    const Index w = near.wall[k];
+    for (int a = 0; a < D; ++a) {
+      if (cloud_.is_rigid(w)) {
+        on_rigid_[cloud_.owner[w]][a] += near.force[a][k];
+      } else {
+        impulse[a * body_points_ + cloud_.owner[w]] += length * near.force[a][k];
+      }
+    }
+  }
+  for (std::size_t r = 0; r < rigid_.size(); ++r) {
+    rigid_[r].kick(t, length, on_rigid_[r], gravity);
+  }
+}
+
+template <int D>
+Vector<D> WallMotion<D>::displacement(Index w, double t) const {
+  if (cloud_.is_rigid(w)) return rigid_[cloud_.owner[w]].displacement;
+  Vector<D> result{};
+  if (body_.displacement.empty()) return result;
+  for (int a = 0; a < D; ++a) {
+    const std::size_t k = a * body_points_ + cloud_.owner[w];
+    result[a] = body_.displacement[k] + body_.rate[k] * (t - body_.end);
+  }
+  return result;
+}
+
+template <int D>
+Vector<D> WallMotion<D>::velocity(Index w) const {
+  if (cloud_.is_rigid(w)) return rigid_[cloud_.owner[w]].velocity;
+  Vector<D> result{};
+  if (body_.displacement.empty()) return result;
+  for (int a = 0; a < D; ++a) result[a] = body_.rate[a * body_points_ + cloud_.owner[w]];
+  return result;
+}
+
+template <int D>
+const std::array<std::vector<double>, D>& WallMotion<D>::positions(double t) {
+  for (int a = 0; a < D; ++a) position_[a].resize(cloud_.size());
+  for (Index w = 0; w < cloud_.size(); ++w) {
+    const Vector<D> moved = displacement(w, t);
+    for (int a = 0; a < D; ++a) position_[a][w] = cloud_.position[a][w] + moved[a];
+  }
+  return position_;
+}
+
+template <int D>
+void WallMotion<D>::place(double t, const PeriodicImages<D>& images, NearWalls<D>& near) const {
+  for (int a = 0; a < D; ++a) {
+    near.position[a].resize(near.wall.size());
+    near.velocity[a].resize(near.wall.size());
+  }
+  for (Index k = 0; k < near.count; ++k) {
+    const Index w = near.wall[k];
+    const Vector<D> moved = displacement(w, t), v = velocity(w);
+    for (int a = 0; a < D; ++a) {
+      near.position[a][k] = cloud_.position[a][w] + moved[a];
+      near.velocity[a][k] = v[a];
+    }
+  }
+  images.copy_positions(near.position, near.count);
+  for (int a = 0; a < D; ++a) images.copy(near.velocity[a], near.count);
+}
+
+template <int D>
+void WallMotion<D>::copy_volumes(NearWalls<D>& near) const {
+  near.volume.resize(near.wall.size());
+  for (std::size_t k = 0; k < near.wall.size(); ++k) near.volume[k] = cloud_.volume[near.wall[k]];
+}
+
+template <int D>
+bool WallMotion<D>::leaves_room(const Vector<D>& x, double t, double spacing) const {
+  for (Index w = 0; w < cloud_.size(); ++w) {
+    const Vector<D> moved = displacement(w, t);
+    double square = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double y = cloud_.position[a][w] + moved[a] - x[a];
+      square += y * y;
+    }
+    const double reach = 0.45 * (spacing + std::pow(cloud_.volume[w], 1.0 / D));
+    if (square < reach * reach) return false;
+  }
+  return true;
+}
+
+template <int D>
+void WallMotion<D>::visit_state(StateVisitor& visitor) {
+  constexpr std::array axes = {"x", "y", "z"};
+  for (RigidWall<D>& wall : rigid_) {
+    if (wall.motion == RigidWall<D>::Motion::fixed) continue;
+    visitor.enter(wall.name);
+    for (int a = 0; a < D; ++a) {
+      visitor.visit(std::string("displacement_") + axes[a], wall.displacement[a]);
+      visitor.visit(std::string("velocity_") + axes[a], wall.velocity[a]);
+    }
+    visitor.leave();
+  }
+}
+
+template class WallMotion<2>;
+template class WallMotion<3>;
+
+}  // namespace perifrac

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/bonds/bond_traversal.hpp"
+#include "modules/fluid/walls/wall_force.hpp"
+
+namespace perifrac {
+
+/// The one loop over pairs of fluid and wall points: sums pair(i, w, y, omega), K numbers of fluid
+/// point i and near wall point w, y [m] from i to w, and hands over of_fluid(i, sum) for every
+/// fluid point that is near a wall and of_wall(w, sum) for every near wall point. Each pair is
+/// found twice, so that no two threads write the same; i and w may be images.
+template <int K, int D, class Pair, class OfFluid, class OfWall>
+void sum_wall_pairs(const FluidStep<D>& step, const NearWalls<D>& walls, Pair&& pair,
+                    OfFluid&& of_fluid, OfWall&& of_wall) {
+  const FluidPoints<D>& points = step.points;
+  const Neighbours& near = step.neighbours.walls_of_fluid();
+  for_each_point(points.count, [&](Index i) {
+    if (near.offset[i] == near.offset[i + 1]) return;
+    of_fluid(i, sum_over_neighbours<K, D>(near, i, points.at(i), walls.position, step.influence,
+                                          [&](Index w, const Vector<D>& y, double omega) {
+                                            return pair(i, w, y, omega);
+                                          }));
+  });
+  for_each_point(walls.count, [&](Index w) {
+    of_wall(w, sum_over_neighbours<K, D>(step.neighbours.fluid_of_walls(), w, walls.at(w),
+                                         points.position, step.influence,
+                                         [&](Index i, Vector<D> y, double omega) {
+                                           for (double& component : y) component = -component;
+                                           return pair(i, w, y, omega);
+                                         }));
+  });
+}
+
+/// Adds pair(i, w, y, omega), the force of wall point w on fluid point i [N], to that on every
+/// fluid point, and sets the opposite one on every near wall point.
+template <int D, class Pair>
+void add_pair_forces(const FluidStep<D>& step, NearWalls<D>& walls,
+                     std::array<std::vector<double>, D>& force, Pair&& pair) {
+  for (auto& values : walls.force) values.resize(walls.count);
+  sum_wall_pairs<D, D>(
+      step, walls, pair,
+      [&](Index i, const Vector<D>& sum) {
+        for (int a = 0; a < D; ++a) force[a][i] += sum[a];
+      },
+      [&](Index w, const Vector<D>& sum) {
+        for (int a = 0; a < D; ++a) walls.force[a][w] = -sum[a];
+      });
+}
+
+/// The stress -p M^-1 of fluid point i times y.
+template <int D>
+Vector<D> stress_along(const FluidStep<D>& step, Index i, const Vector<D>& y) {
+  Vector<D> result{};
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b < D; ++b) {
+      result[a] += step.stress[symmetric_index<D>(std::min(a, b), std::max(a, b))][i] * y[b];
+    }
+  }
+  return result;
+}
+
+/// Dynamic, between fluid and walls that do not slip [Pa s].
+template <int D>
+double wall_viscosity(const FluidStep<D>& step) {
+  return std::max(step.fluid.viscosity, step.fluid.density * step.scheme.wall_viscosity *
+                                            step.fluid.sound_speed() * step.scheme.spacing);
+}
+
+/// The drag of wall point w on fluid point i over omega V_i V_w; 0 where the wall slips. Velocities
+/// are mirrored at the surface: linear between the two points, the wall's own in between.
+template <int D>
+Vector<D> wall_drag(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index w,
+                    const Vector<D>& y) {
+  const Index wall = walls.wall[w];
+  Vector<D> drag{};
+  if (step.cloud.slips[wall]) return drag;
+  double height = -step.cloud.depth[wall];
+  double along_normal = 0.0;
+  Vector<D> normal, relative;
+  for (int a = 0; a < D; ++a) {
+    normal[a] = step.cloud.normal[a][wall];
+    relative[a] = step.points.velocity[a][i] - walls.velocity[a][w];
+    height -= normal[a] * y[a];
+    along_normal += normal[a] * relative[a];
+  }
+  const double steepness =
+      1.0 + step.cloud.depth[wall] / std::max(height, 0.5 * step.scheme.spacing);
+  const double factor = wall_viscosity(step) * 4.0 * D /
+                        (step.moments.trace[i] + step.moments.bulk_trace) * steepness;
+  for (int a = 0; a < D; ++a) drag[a] = -factor * (relative[a] - along_normal * normal[a]);
+  return drag;
+}
+
+}  // namespace perifrac

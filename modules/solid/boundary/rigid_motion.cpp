@@ -1,0 +1,89 @@
+#include "modules/solid/boundary/rigid_motion.hpp"
+
+#include <array>
+
+#include <Eigen/Dense>
+
+namespace perifrac {
+
+namespace {
+
+constexpr std::array axis_names = {"x", "y", "z"};
+
+/// Displacement of all unknowns, face values at rest, by a motion of the points along an axis.
+template <int D>
+Eigen::VectorXd translation(const Points<D>& points, Eigen::Index unknowns, int a) {
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(unknowns);
+  motion.segment(a * points.size(), points.size()).setOnes();
+  return motion;
+}
+
+/// The same by a rotation in the plane (a, b), about the middle of the points.
+template <int D>
+Eigen::VectorXd rotation(const Points<D>& points, Eigen::Index unknowns, int a, int b) {
+  const Index n = points.size();
+  const Eigen::Map<const Eigen::VectorXd> xa(points.position[a].data(), n);
+  const Eigen::Map<const Eigen::VectorXd> xb(points.position[b].data(), n);
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(unknowns);
+  motion.segment(a * n, n) = -(xb.array() - xb.mean());
+  motion.segment(b * n, n) = xa.array() - xa.mean();
+  return motion;
+}
+
+/// Lets the plates go along with a motion as far as that costs nothing: their own best answer.
+void answer_of_plates(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index plates,
+                      Eigen::VectorXd& motion) {
+  if (plates == 0) return;
+  const Eigen::MatrixXd rows = stiffness.rightCols(plates);
+  motion.tail(plates) = rows.bottomRows(plates).ldlt().solve(-(rows.transpose() * motion));
+}
+
+}  // namespace
+
+template <int D>
+std::string rigid_motion_without_energy(const Points<D>& points,
+                                        const Eigen::SparseMatrix<double>& stiffness,
+                                        const Eigen::SparseMatrix<double>& free_unknowns,
+                                        Eigen::Index plates) {
+  const Eigen::Index all = free_unknowns.rows();
+  Eigen::MatrixXd motions(stiffness.rows(), D * (D + 1) / 2);
+  std::vector<std::string> names;
+  int column = 0;
+  const auto add = [&](const Eigen::VectorXd& motion_of_all, bool plates_follow) {
+    Eigen::VectorXd motion = free_unknowns.transpose() * motion_of_all;
+    motion.tail(plates).setZero();
+    if (plates_follow) answer_of_plates(stiffness, plates, motion);
+    motions.col(column++) = motion.normalized();
+  };
+  for (int a = 0; a < D; ++a) {
+    add(translation(points, all, a), true);
+    names.push_back(std::string("it can slide along ") + axis_names[a]);
+  }
+  for (int a = 0; a < D; ++a) {
+    for (int b = a + 1; b < D; ++b) {
+      add(rotation(points, all, a, b), false);
+      names.push_back(std::string("it can turn in the plane of ") + axis_names[a] + " and " +
+                      axis_names[b]);
+    }
+  }
+  const Eigen::MatrixXd energy = motions.transpose() * (stiffness * motions);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(energy);
+  const double typical = stiffness.diagonal().mean();
+  // Held by one face, a motion costs about 1 / (points across) of a bond's stiffness; free, only
+  // rounding is left.
+  if (spectrum.eigenvalues()[0] > 1e-11 * typical) return {};
+  Eigen::Index worst;
+  spectrum.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+  return names[worst];
+}
+
+template std::string rigid_motion_without_energy<2>(const Points<2>&,
+                                                    const Eigen::SparseMatrix<double>&,
+                                                    const Eigen::SparseMatrix<double>&,
+                                                    Eigen::Index);
+template std::string rigid_motion_without_energy<3>(const Points<3>&,
+                                                    const Eigen::SparseMatrix<double>&,
+                                                    const Eigen::SparseMatrix<double>&,
+                                                    Eigen::Index);
+
+}  // namespace perifrac

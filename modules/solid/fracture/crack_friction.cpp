@@ -1,0 +1,95 @@
+#include "modules/solid/fracture/crack_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/base/errors.hpp"
+#include "core/solvers/frictional_contact.hpp"
+
+namespace perifrac {
+
+void CrackFriction::start(const CrackedBody<2>& body) {
+  slip_.clear();
+  limit_.clear();
+  for (Index f = 0; f < static_cast<Index>(body.facets().size()); ++f) {
+    limit_.push_back(coefficient_ * std::max(0.0, -body.relief(f)[0]));
+  }
+  dissipation_ = elastic_energy_ = 0.0;
+  version_.reset();
+}
+
+/// Facets that came change how all answer.
+void CrackFriction::follow(CrackedBody<2>& body) {
+  if (version_ == body.version()) return;
+  version_ = body.version();
+  const auto count = static_cast<Eigen::Index>(body.jumps().size());
+  layer_.clear();
+  for (const FaceJump<2>& jump : body.jumps()) {
+    double thickness = 0.0, softness = 0.0;
+    for (const auto& [point, coefficient] : jump.terms) {
+      for (int a = 0; a < 2; ++a) {
+        thickness += coefficient * jump.normal[a] * body.family().position[a][point];
+      }
+      softness += 0.5 * std::abs(coefficient) / body.elastic().law(point).shear_modulus;
+    }
+    layer_.push_back(thickness * softness);
+  }
+  compliance_.resize(2 * count, 2 * count);
+  compliance_ << body.compliance(), body.compliance(0, 1), body.compliance(1, 0),
+      body.compliance(1, 1);
+  for (Eigen::Index f = 0; f < count; ++f) compliance_(count + f, count + f) += layer_[f];
+}
+
+CrackedBody<2>::Faces CrackFriction::faces(CrackedBody<2>& body, const Eigen::VectorXd& pressure,
+                                           double t) {
+  const Eigen::Index count = pressure.size();
+  slip_.resize(count, 0.0);
+  follow(body);
+  const std::vector<Vector<2>> apart = body.jumps_under(pressure);
+  Eigen::VectorXd jump(2 * count);
+  for (Eigen::Index f = 0; f < count; ++f) {
+    jump[f] = apart[f][0];
+    jump[count + f] = apart[f][1] + layer_[f] * body.relief(f)[1] - slip_[f];
+  }
+  FrictionalContact contact;
+  try {
+    contact = solve_frictional_contact(compliance_, jump, coefficient_, 1e-14 * body.spacing());
+  } catch (const std::runtime_error& error) {
+    throw NumericalError("face_shear", "the faces of the cracks", t, error.what());
+  }
+  CrackedBody<2>::Faces faces{contact.jump.head(count).cwiseMax(0.0),
+                              pressure + contact.traction.head(count), std::vector<bool>(count),
+                              std::vector<double>(count), std::vector<double>(count)};
+  for (Eigen::Index f = 0; f < count; ++f) {
+    faces.closed[f] = contact.traction[f] > 0.0;
+    faces.shear[f] = contact.traction[count + f];
+    faces.slip[f] = slip_[f] + contact.jump[count + f];
+  }
+  return faces;
+}
+
+/// While faces slide the shear is at its limit, which goes evenly from what it was to what it is.
+void CrackFriction::book(const CrackedBody<2>& body, const CrackedBody<2>::Faces& faces,
+                         const Eigen::VectorXd& pressure) {
+  limit_.resize(faces.slip.size(), 0.0);  // a new facet has borne nothing yet
+  elastic_energy_ = 0.0;
+  for (std::size_t f = 0; f < faces.slip.size(); ++f) {
+    const double limit = coefficient_ * (faces.pressure[f] - pressure[f]);
+    dissipation_ +=
+        body.jumps()[f].area * 0.5 * (limit_[f] + limit) * std::abs(faces.slip[f] - slip_[f]);
+    const double shear = faces.shear[f], first = body.relief(f)[1];
+    elastic_energy_ += body.jumps()[f].area * 0.5 * layer_[f] * (shear * shear - first * first);
+    slip_[f] = faces.slip[f];
+    limit_[f] = limit;
+  }
+}
+
+void CrackFriction::visit_state(StateVisitor& visitor) {
+  visitor.visit("friction_limit", limit_);
+  visitor.visit("crack_slip", slip_);
+  visitor.visit("friction_dissipation", dissipation_);
+  visitor.visit("friction_elastic_energy", elastic_energy_);
+}
+
+}  // namespace perifrac

@@ -1,0 +1,296 @@
+#include "modules/solid/fracture/crack_tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/require.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity
+/// asks for is taken further on. Chosen between 0.1 and 0.38, the middle of the facet, by
+/// docs/decisions/0012-cracks-are-facets.md.
+constexpr double viscous_offset = 0.25;
+
+/// Of what it takes: below this the opening says for certain that J is not enough.
+constexpr double worth_asking = 0.9;
+
+/// K_I and the opening of the last facet may differ by so much of what the opening has changed by
+/// (1.3 was met), up to this change. What a guess leaves open decides nothing: windows end, and
+/// tips go on, within `near` of the criterion.
+constexpr double guess_error = 1.5, telling_change = 0.15, near = 0.005;
+
+/// A turn below this is rounding [rad].
+constexpr double straight = 1e-6;
+
+}  // namespace
+
+CrackTips::CrackTips(const Body<2>& body, CutBody<2>& cracked, FractureEnergy<2> fracture_energy)
+    : body_(body),
+      cracked_(cracked),
+      fracture_energy_(std::move(fracture_energy)),
+      energy_release_(cracked, body.spacing()) {}
+
+void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
+  tips_.clear();
+  take_ends(seeds, 0, t);
+}
+
+void CrackTips::take_ends(std::span<const CrackFacet<2>> facets, std::size_t first, double t) {
+  for (std::size_t f = first; f < facets.size(); ++f) {
+    for (const int end : {0, 1}) {
+      const Vector<2>& place = facets[f][end];
+      Index before = no_facet;
+      bool joined = false;
+      for (std::size_t g = 0; g < facets.size(); ++g) {
+        if (g == f) continue;
+        joined = joined || facets[g][0] == place || facets[g][1] == place;
+        if (facets[g][0] == facets[f][1 - end] || facets[g][1] == facets[f][1 - end]) {
+          before = static_cast<Index>(g);
+        }
+      }
+      if (joined) continue;
+      const double sign = end == 1 ? 1.0 : -1.0;
+      const Vector<2>& along = cracked_.jumps()[f].tangents[0];
+      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before},
+              t,
+              true,
+              body_.nearest_point(place)};
+      tip.grows = cracked_.is_intact_along(next_facet(tip.at, 0.0));
+      if (tip.grows) tips_.push_back(tip);
+    }
+  }
+}
+
+CrackFacet<2> CrackTips::next_facet(const CrackTip& tip, double turn) const {
+  const double c = std::cos(turn), s = std::sin(turn);
+  const Vector<2> ahead = {c * tip.direction[0] - s * tip.direction[1],
+                           s * tip.direction[0] + c * tip.direction[1]};
+  return {tip.place,
+          {tip.place[0] + body_.spacing() * ahead[0], tip.place[1] + body_.spacing() * ahead[1]}};
+}
+
+/// Per length of it [J/m^2].
+double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
+  return fracture_energy_.at(
+      {0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
+}
+
+double CrackTips::readiness(Tip& tip, const CrackState<2>& state) const {
+  // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
+  // what counts is the mean of its beginning and end.
+  const double needed =
+      state.has_fluid() ? 2.0 / (1.0 + tip.intensity_ratio * tip.intensity_ratio) : 1.0;
+  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(),
+                       needed * energy_to_cut(next_facet(tip.at, 0.0))};
+  const bool is_followed =
+      state.has_fluid() && tip.at.before != no_facet && state.viscosity[tip.at.facet] > 0.0;
+  if (!is_followed) return dry_readiness(tip, tip_law, state, 0.0);
+  return std::max(followed_readiness(tip, tip_law, state), lagging_readiness(tip, tip_law, state));
+}
+
+/// From K_I, without what fluid does beyond its pressure. J asks for the displacements, which are
+/// dear: away from growth, `lost` taken off, K_I goes with the opening of the last facet since J
+/// was asked last, where that is the fluid's doing. Other loads may shear the crack as well.
+double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
+                                double lost) const {
+  const double opening = state.opening[tip.at.facet];
+  if (tip.asked_opening > 0.0 && state.has_fluid() && !state.inertia) {
+    const double guess = tip.asked * opening / tip.asked_opening;
+    const double change = std::abs(opening / tip.asked_opening - 1.0);
+    const bool is_telling = std::abs(guess - lost - 1.0) > near + guess_error * change;
+    if (change < telling_change && is_telling) return guess;
+  }
+  const TipLoad load =
+      energy_release_.at(tip.at, state.unknowns([&] { return energy_release_.looks_at(tip.at); }),
+                         state.pressure, state.pore_stress, state.inertia, state.shear);
+  // A tip that is closed may go on where its faces slide under friction.
+  const bool opens = (load.opening > 0.0 || !state.shear.empty()) && load.energy_release > 0.0;
+  tip.asked = opens ? std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
+  tip.asked_opening = opens ? opening : 0.0;
+  return tip.asked;
+}
+
+/// From the opening at the last facet but one, for fluid that stays up with the tip.
+double CrackTips::followed_readiness(const Tip& tip, const TipLaw& tip_law,
+                                     const CrackState<2>& state) const {
+  const CrackTip& at = tip.at;
+  const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
+  const TipFluid fluid{state.viscosity[at.facet],
+                       state.leak_off.empty() ? 0.0 : state.leak_off[at.facet]};
+  const double s = behind(at);
+  return (state.opening[at.before] - opening_by_layers(at, s, tip_law)) /
+         tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
+}
+
+/// Fluid holds a tip back by the pressure that it loses on its way there, and it cannot lose more
+/// than it has: a tip that would go on if its last facet were empty does, and the fluid lags.
+double CrackTips::lagging_readiness(Tip& tip, const TipLaw& tip_law,
+                                    const CrackState<2>& state) const {
+  const CrackTip& at = tip.at;
+  // K_I of a pressure that ends a facet behind the tip of a long crack.
+  const double lost = 2.0 * std::sqrt(2.0 / M_PI * cracked_.jumps()[at.facet].area) *
+                      state.pressure[at.facet] / tip_law.toughness();
+  // J asks for the displacements, which are dear. Pressure that falls towards the tip opens the
+  // crack behind it by more than K_I alone, so that the opening says where J is in vain.
+  const double most =
+      state.opening[at.before] / tip_law.opening(within_crack(tip, behind(at)), 0.0, {}, 1.0);
+  if (most - lost < worth_asking) return 0.0;
+  return dry_readiness(tip, tip_law, state, lost) - lost;
+}
+
+/// What the opening at s behind the tip has beyond K_I's share of it, K' sqrt(s) / E', where the
+/// rock that faces are relieved of is not under the same stress as at the tip: of the load q(s')
+/// behind the tip of a long crack
+///   w(s) = 4 / (pi E') int q ln|(sqrt s + sqrt s') / (sqrt s - sqrt s')| ds',
+///   K_I = sqrt(8 / pi) int q / sqrt(4 s') ds'   [m].
+double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const {
+  if (!cracked_.relief_varies()) return 0.0;
+  const auto integral = [s](double t) {
+    if (t == s) return -2.0 * s;
+    const double a = std::sqrt(s), b = std::sqrt(t);
+    return (t - s) * std::log(std::abs((a + b) / (a - b))) - 2.0 * a * b;
+  };
+  double sum = 0.0;
+  for (std::size_t f = 0; f < cracked_.facets().size(); ++f) {
+    const CrackFacet<2>& facet = cracked_.facets()[f];
+    const auto from_tip = [&](const Vector<2>& x) {
+      return std::hypot(x[0] - at.place[0], x[1] - at.place[1]);
+    };
+    const double one = from_tip(facet[0]), other = from_tip(facet[1]);
+    const double more = cracked_.relief(static_cast<Index>(f))[0] - cracked_.relief(at.facet)[0];
+    sum += more * (integral(std::max(one, other)) - integral(std::min(one, other)));
+  }
+  return 4.0 / (M_PI * tip_law.plane_strain_modulus) * sum;
+}
+
+/// From the tip to the middle of the last facet but one [m].
+double CrackTips::behind(const CrackTip& at) const {
+  const CrackFacet<2>& facet = cracked_.facets()[at.before];
+  return std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
+                    at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
+}
+
+/// Openings end to go as sqrt(s) where the crack's other end makes itself felt: as that of a crack
+/// of half length l under uniform pressure, sqrt(s (1 - s / 2l)), whose K_I at fixed volume goes as
+/// l^-1.5. The s of an endless crack that is as open [m].
+double CrackTips::within_crack(const Tip& tip, double s) const {
+  const double by_length = (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing();  // 1 / l
+  return s * (1.0 - 0.5 * s * by_length);
+}
+
+double CrackTips::find_readiness(const CrackState<2>& state) {
+  double most = 0.0;
+  for (Tip& tip : tips_) {
+    const bool may_go = tip.grows && state.t >= tip.since + state.pause;
+    tip.readiness = may_go ? readiness(tip, state) : 0.0;
+    most = std::max(most, tip.readiness);
+  }
+  return most;
+}
+
+double CrackTips::grow(const CrackState<2>& state) {
+  // Where to is asked before the first facet makes the displacements old.
+  const std::vector<Vector<2>> jumps = state.jumps();
+  std::vector<double> turns;
+  for (const Tip& tip : tips_) {
+    double turn = 0.0;
+    if (tip.grows && tip.readiness >= ready) {
+      turn = kink_angle(energy_release_.jump(tip.at, jumps));
+    }
+    turns.push_back(std::abs(turn) < straight ? 0.0 : turn);
+  }
+  double energy = 0.0;
+  for (std::size_t k = 0; k < tips_.size(); ++k) {
+    Tip& tip = tips_[k];
+    const bool goes_on = tip.grows && tip.readiness >= ready;
+    tip.spent = goes_on ? advance(tip, turns[k], state.t) : 0.0;
+    tip.released = tip.readiness * tip.readiness * tip.spent;
+    energy += tip.spent;
+  }
+  return energy;
+}
+
+std::optional<double> CrackTips::excess_release() const {
+  double sum = 0.0;
+  for (const Tip& tip : tips_) {
+    if (tip.spent == 0.0) continue;
+    if (!tip.grows) return std::nullopt;
+    const double at_end = tip.readiness * tip.readiness * energy_to_cut(next_facet(tip.at, 0.0)) *
+                          cracked_.jumps()[tip.at.facet].area;
+    sum += 0.5 * (tip.released + at_end) - tip.spent;
+  }
+  return sum;
+}
+
+double CrackTips::advance(Tip& tip, double turn, double t) {
+  CrackFacet<2> facet = next_facet(tip.at, turn);
+  const bool joined = joins(facet, tip.at, facet[1]);
+  const bool known = tip.at.before != no_facet;
+  const double before = known ? cracked_.intensity_at_fixed_volume(tip.at.before) : 1.0;
+  if (!cracked_.cut(facet)) {
+    tip.grows = false;
+    return 0.0;
+  }
+  const FaceJump<2>& jump = cracked_.jumps().back();
+  tip.at = {facet[1], jump.tangents[0], static_cast<Index>(cracked_.facets().size()) - 1,
+            tip.at.facet};
+  tip.since = t;
+  tip.asked = tip.asked_opening = 0.0;
+  tip.nearest = body_.nearest_point(tip.at.place);
+  tip.intensity_ratio =
+      known ? std::min(1.0, cracked_.intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
+  tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
+  return jump.area * energy_to_cut(facet);
+}
+
+/// The facet would come close to an end of another crack's, where it is to end.
+bool CrackTips::joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const {
+  double nearest = 0.75 * body_.spacing();
+  bool found = false;
+  for (std::size_t f = 0; f < cracked_.facets().size(); ++f) {
+    if (static_cast<Index>(f) == tip.facet || static_cast<Index>(f) == tip.before) continue;
+    for (const Vector<2>& corner : cracked_.facets()[f]) {
+      const double away = std::hypot(corner[0] - facet[1][0], corner[1] - facet[1][1]);
+      if (corner == tip.place || away > nearest) continue;
+      nearest = away;
+      end = corner;
+      found = true;
+    }
+  }
+  return found;
+}
+
+void CrackTips::visit_state(StateVisitor& visitor) {
+  std::vector<double> numbers;
+  std::vector<std::int64_t> indices;
+  for (const Tip& tip : tips_) {
+    numbers.insert(numbers.end(),
+                   {tip.at.place[0], tip.at.place[1], tip.at.direction[0], tip.at.direction[1],
+                    tip.since, tip.intensity_ratio, tip.asked, tip.asked_opening});
+    indices.insert(indices.end(), {tip.at.facet, tip.at.before, tip.grows});
+  }
+  visitor.visit("tips", numbers);
+  visitor.visit("tip_facets", indices);
+  require(indices.size() % 3 == 0 && numbers.size() == indices.size() / 3 * 8,
+          "a state of tips in parts that do not fit");
+  tips_.resize(indices.size() / 3);
+  for (std::size_t k = 0; k < tips_.size(); ++k) {
+    const double* const n = &numbers[8 * k];
+    const std::int64_t* const i = &indices[3 * k];
+    const Vector<2> place = {n[0], n[1]};
+    const bool is_known = tips_[k].nearest >= 0 && tips_[k].at.place == place;
+    const Index nearest = is_known ? tips_[k].nearest : body_.nearest_point(place);
+    tips_[k] = {{place, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
+                n[4],
+                i[2] != 0,
+                nearest,
+                n[5],
+                n[6],
+                n[7]};
+  }
+}
+
+}  // namespace perifrac

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/body/body.hpp"
+#include "core/state/state_visitor.hpp"
+#include "modules/solid/fracture/crack_state.hpp"
+#include "modules/solid/fracture/cut_body.hpp"
+#include "modules/solid/fracture/energy_release.hpp"
+#include "modules/solid/fracture/fracture_energy.hpp"
+#include "modules/solid/fracture/tip_law.hpp"
+
+namespace perifrac {
+
+/// The tips of a body's cracks: when they go on, where to, and where they end. A tip goes on by one
+/// facet of a spacing where J >= Gc or, where a viscous fluid reaches it, where the opening behind
+/// it has grown to the tip's asymptote (tip_law.hpp); straight ahead or turned by the kink angle.
+/// Where the facet would come close to the end of another it ends there, and so does the tip.
+class CrackTips {
+ public:
+  CrackTips(const Body<2>& body, CutBody<2>& cracked, FractureEnergy<2> fracture_energy);
+
+  /// Takes the ends of the seeds that no other seed touches and that lie in the rock.
+  void start(std::span<const CrackFacet<2>> seeds, double t);
+  /// Likewise those of all facets from `first` on.
+  void take_ends(std::span<const CrackFacet<2>> facets, std::size_t first, double t);
+
+  /// How close the tips are to growth, the largest: 1 at it.
+  double find_readiness(const CrackState<2>& state);
+  /// Those that were found ready go on; returns the energy that the new facets take [J/m].
+  double grow(const CrackState<2>& state);
+  /// What the rock set free in that growth beyond the energy of the new facets, by the mean of J at
+  /// their beginning and end; asked once readiness has been found again, in rock without fluid in
+  /// its cracks [J/m]. Nothing where a tip ended: of the rock that it parted last J says nothing.
+  std::optional<double> excess_release() const;
+
+  void visit_state(StateVisitor& visitor);
+
+ private:
+  struct Tip {
+    CrackTip at;
+    double since;        ///< when it came there [s]
+    bool grows;          ///< some bond lies ahead
+    Index nearest = -1;  ///< point, whose rock it is in
+    /// K_I under fluid of fixed volume, over that before the last step: falls as the crack grows.
+    double intensity_ratio = 1.0;
+    /// What J said last, in the same unit, and the opening of the last facet then [m].
+    double asked = 0.0, asked_opening = 0.0;
+    double readiness = 0.0;
+    /// The last facet's energy, 0 if it is not of the last growth, and what J would have made of it
+    /// at its beginning [J/m].
+    double spent = 0.0, released = 0.0;
+  };
+
+  double energy_to_cut(const CrackFacet<2>& facet) const;
+  double readiness(Tip& tip, const CrackState<2>& state) const;
+  double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
+                       double lost) const;
+  double followed_readiness(const Tip& tip, const TipLaw& tip_law,
+                            const CrackState<2>& state) const;
+  double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
+  double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
+  double behind(const CrackTip& at) const;
+  double within_crack(const Tip& tip, double s) const;
+  CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
+  bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
+  double advance(Tip& tip, double turn, double t);
+
+  const Body<2>& body_;
+  CutBody<2>& cracked_;
+  FractureEnergy<2> fracture_energy_;
+  EnergyRelease energy_release_;
+  std::vector<Tip> tips_;
+};
+
+}  // namespace perifrac

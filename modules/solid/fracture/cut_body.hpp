@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/bonds/bond_state.hpp"
+#include "modules/solid/fracture/face_jump.hpp"
+#include "modules/solid/material/breakable_elasticity.hpp"
+#include "modules/solid/material/initial_stress.hpp"
+
+namespace perifrac {
+
+/// A linear elastic body while cracks cut its bonds facet by facet: what its cracks are, whatever
+/// moves it. In 2D in plane strain.
+template <int D>
+class CutBody {
+ public:
+  /// `family` is the one of `elastic`, with nothing broken. New faces are relieved
+  /// of the `initial_stress`. Writes `bonds`.
+  CutBody(std::shared_ptr<Family<D>> family, double spacing,
+          std::shared_ptr<BreakableElasticity<D>> elastic, BondState<D>& bonds,
+          std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds);
+  virtual ~CutBody() = default;
+  CutBody(const CutBody&) = delete;
+  CutBody& operator=(const CutBody&) = delete;
+
+  /// Cuts one more facet; false, and nothing done, where it meets no bond.
+  virtual bool cut(const CrackFacet<D>& facet) = 0;
+  /// Would cut() meet a bond?
+  bool is_intact_along(const CrackFacet<D>& facet) const;
+
+  /// K_I at a tip that this facet is close behind, up to a factor that stays, under fluid of fixed
+  /// volume.
+  virtual double intensity_at_fixed_volume(Index facet) const = 0;
+
+  std::span<const FaceJump<D>> jumps() const { return jumps_; }
+  /// Normal and tangential stress that facet f is relieved of [Pa].
+  Vector<D> relief(Index f) const;
+  bool relief_varies() const { return initial_stress_ && !initial_stress_->inside.empty(); }
+  /// Mean jump across facet f in a field of all unknowns, along normal and tangents [m].
+  Vector<D> jump(Index f, std::span<const double> unknowns) const;
+
+  std::span<const CrackFacet<D>> facets() const { return bonds_.facets(); }
+  /// Changes with every cut and every restored state.
+  std::uint64_t version() const { return bonds_.version(); }
+  /// The body's bounding box goes on beyond `distance` [m] from x on all sides.
+  bool reaches(const Vector<D>& x, double distance) const;
+
+  const Family<D>& family() const { return *family_; }
+  double spacing() const { return spacing_; }
+  BreakableElasticity<D>& elastic() { return *elastic_; }
+
+ protected:
+  void cut_seeds();
+  void break_bonds(std::span<const std::pair<Index, Index>> bonds);
+  /// Takes the last break_bonds() of these back.
+  void heal_bonds(std::span<const std::pair<Index, Index>> bonds);
+  /// Takes family and material back to the body without cracks.
+  void mend();
+
+  std::shared_ptr<Family<D>> family_;
+  Family<D> intact_;
+  double spacing_;
+  std::shared_ptr<BreakableElasticity<D>> elastic_;
+  BondState<D>& bonds_;
+  std::uint64_t followed_ = 0;  ///< version of the bonds that this body has
+  std::vector<CrackFacet<D>> seeds_;
+  std::optional<InitialStress<D>> initial_stress_;
+  std::vector<FaceJump<D>> jumps_;                ///< by facet
+  std::array<std::pair<double, double>, D> box_;  ///< of the points, by axis
+};
+
+}  // namespace perifrac

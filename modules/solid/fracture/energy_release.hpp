@@ -1,0 +1,78 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "modules/solid/fracture/crack_state.hpp"
+#include "modules/solid/fracture/cut_body.hpp"
+
+namespace perifrac {
+
+/// A tip of a crack in 2D.
+struct CrackTip {
+  Vector<2> place;      ///< [m]
+  Vector<2> direction;  ///< of unit length, ahead
+  Index facet;          ///< the one that ends here
+  Index before;         ///< the one behind that; no_facet: none
+};
+
+/// Mean jumps of the faces one to three spacings behind a tip, in its frame.
+struct TipJump {
+  double opening;  ///< [m]
+  double sliding;  ///< positive turns the crack to its right [m]
+};
+
+/// What a crack has at a tip, per length of its front.
+struct TipLoad : TipJump {
+  double energy_release;  ///< J, what growth straight ahead would set free [J/m^2]
+};
+
+/// J as an integral over the points around the tip (Li, Shih & Needleman 1985; with inertia
+/// Nakamura, Shih & Freund 1985), from the remaining bonds' gradients and the whole energy of every
+/// point:
+///   J = sum V [(grad u^T sigma) grad q . d - W d . grad q + rho u'' . (grad u d) q]
+///       - int q (p dw/ds + tau dv/ds) ds,
+/// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry, w
+/// and v their jumps, s along the crack to the tip. Of displacements from the state at rest, so
+/// that an initial stress counts as what faces are relieved of. With a pore stress a, sigma is the
+/// total stress, W is less a theta, and there is
+///   + sum V theta (d . grad a) q,
+/// for a field that is held while the crack grows makes the rock another along the crack. The
+/// kinetic energy T is left out: its two terms, -T d . grad q and -rho u' . (grad u' d) q, are the
+/// integral of -d . grad(T q), which vanishes along a crack but for what a tip carries along with
+/// it, a part of (speed of the tip / speed of sound)^2.
+class EnergyRelease {
+ public:
+  EnergyRelease(CutBody<2>& body, double spacing);
+
+  /// `unknowns`: all displacements; `pressure`: on the faces, by facet [Pa]; `pore_stress`: of all
+  /// points [Pa], or empty; `shear`: of friction on the faces, by facet [Pa], or empty.
+  TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
+             std::span<const double> pore_stress = {}, const PointInertia<2>& inertia = {},
+             std::span<const double> shear = {}) const;
+  /// The unknowns that at() depends on, but for `inertia`.
+  std::vector<Index> looks_at(const CrackTip& tip) const;
+  /// The jumps alone, from those of all facets along their normal and tangent.
+  TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
+
+ private:
+  double radius(const CrackTip& tip) const;
+  std::vector<Index> points_around(const Vector<2>& centre, double radius) const;
+  Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
+                    std::span<const Vector<2>> jumps) const;
+  double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
+                         const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
+                         const PointInertia<2>& inertia, std::span<const double> shear) const;
+
+  CutBody<2>& body_;
+  double spacing_;
+  std::vector<Index> by_x_;  ///< points
+};
+
+/// The angle by which a crack turns, to the left positive, in the direction of largest hoop stress
+/// (Erdogan & Sih 1963) for K_II / K_I from the jumps near the tip; at most 70 degrees.
+double kink_angle(const TipJump& jump);
+
+}  // namespace perifrac

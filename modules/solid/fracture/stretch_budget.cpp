@@ -1,0 +1,123 @@
+#include "modules/solid/fracture/stretch_budget.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/bonds/bond_lengths.hpp"
+#include "core/bonds/bond_traversal.hpp"
+
+namespace perifrac {
+
+namespace {
+
+constexpr double at_once = -1.0;
+
+/// Of the longest bond: the margin of what is left, and how far a point may be from where it began
+/// for rounding to stay far below that.
+constexpr double margin = 1e-9, farthest = 1e3;
+
+}  // namespace
+
+template <int D>
+StretchBudget<D>::StretchBudget(const Family<D>& family)
+    : points_(family.point_count),
+      rounding_(margin * bond_lengths(family).longest),
+      last_(static_cast<std::size_t>(D) * points_) {
+  for (Index i = 0; i < points_; ++i) {
+    const auto begin = family.other.begin() + family.offset[i];
+    const auto end = family.other.begin() + family.offset[i + 1];
+    const auto ghosts = std::lower_bound(begin, end, points_);  // they come last
+    real_end_.push_back(static_cast<Index>(ghosts - family.other.begin()));
+  }
+  const Index count = (points_ + block_size - 1) / block_size;
+  left_.assign(count, at_once);
+  motion_.resize(count);
+  first_near_.push_back(0);
+  std::vector<Index> near;
+  for (Index block = 0; block < count; ++block) {
+    near.assign(1, block);
+    for (Index bond = family.offset[begin(block)]; bond < family.offset[end(block)]; ++bond) {
+      if (family.other[bond] < points_) near.push_back(family.other[bond] / block_size);
+    }
+    std::ranges::sort(near);
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    near_.insert(near_.end(), near.begin(), near.end());
+    first_near_.push_back(static_cast<Index>(near_.size()));
+  }
+}
+
+template <int D>
+void StretchBudget<D>::forget() {
+  std::ranges::fill(left_, at_once);
+}
+
+template <int D>
+std::span<const Index> StretchBudget<D>::due(std::span<const double> u) {
+#pragma omp parallel for schedule(static) if (points_ >= points_worth_threads)
+  for (Index block = 0; block < blocks(); ++block) motion_[block] = motion_of(block, u);
+  watch_rounding(u);
+#pragma omp parallel for schedule(static) if (points_ >= points_worth_threads)
+  for (Index block = 0; block < blocks(); ++block) left_[block] -= farthest_apart(block);
+  due_.clear();
+  for (Index block = 0; block < blocks(); ++block) {
+    if (!(left_[block] > 0.0)) due_.push_back(block);
+  }
+  return due_;
+}
+
+/// Where displacements are so large that rounding might hide a way, nothing is left alone.
+template <int D>
+void StretchBudget<D>::watch_rounding(std::span<const double> u) {
+  const double most = farthest / margin * rounding_;
+  double way = 0.0;
+  for (const Box& box : motion_) {
+    for (int a = 0; a < D; ++a) way = std::max({way, std::abs(box.low[a]), std::abs(box.high[a])});
+  }
+  largest_ += way;
+  if (largest_ < most) return;
+  largest_ = 0.0;
+  for (std::size_t k = 0; k < last_.size(); ++k) largest_ = std::max(largest_, std::abs(u[k]));
+  if (!(largest_ < 0.5 * most)) forget();
+}
+
+/// The box that holds the ways of its points since the last call.
+template <int D>
+auto StretchBudget<D>::motion_of(Index block, std::span<const double> u) -> Box {
+  Box box;
+  for (int a = 0; a < D; ++a) {
+    const double* const now = u.data() + static_cast<std::size_t>(a) * points_;
+    double* const before = last_.data() + static_cast<std::size_t>(a) * points_;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+#pragma omp simd reduction(min : low) reduction(max : high)
+    for (Index i = begin(block); i < end(block); ++i) {
+      const double way = now[i] - before[i];
+      low = way < low ? way : low;
+      high = way > high ? way : high;
+      before[i] = now[i];
+    }
+    box.low[a] = low;
+    box.high[a] = high;
+  }
+  return box;
+}
+
+/// A bound of how far any end of its bonds moved against the other.
+template <int D>
+double StretchBudget<D>::farthest_apart(Index block) const {
+  Box box = motion_[block];
+  for (Index k = first_near_[block]; k < first_near_[block + 1]; ++k) {
+    const Box& near = motion_[near_[k]];
+    for (int a = 0; a < D; ++a) {
+      box.low[a] = std::min(box.low[a], near.low[a]);
+      box.high[a] = std::max(box.high[a], near.high[a]);
+    }
+  }
+  double square = 0.0;
+  for (int a = 0; a < D; ++a) square += (box.high[a] - box.low[a]) * (box.high[a] - box.low[a]);
+  return std::sqrt(square);
+}
+
+template class StretchBudget<2>;
+template class StretchBudget<3>;
+
+}  // namespace perifrac

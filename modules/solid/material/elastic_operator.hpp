@@ -1,0 +1,92 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include "core/base/points.hpp"
+
+namespace perifrac {
+
+/// The pore stress that loads a solid: at point i value[i] + slope[i] * dilatation[i] [Pa].
+/// Empty spans: none, or no slope.
+struct PoreStress {
+  std::span<const double> value{};
+  std::span<const double> slope{};
+};
+
+/// Calls use(at), at(i, dilatation) being the pore stress of point i, so that its kind is asked for
+/// once and not at every point.
+template <class Use>
+void with_pore_stress(const PoreStress& pore, Use&& use) {
+  const double* const value = pore.value.data();
+  const double* const slope = pore.slope.data();
+  if (value == nullptr) {
+    use([](Index, double) { return 0.0; });
+  } else if (slope == nullptr) {
+    use([=](Index i, double) { return value[i]; });
+  } else {
+    use([=](Index i, double dilatation) { return value[i] + slope[i] * dilatation; });
+  }
+}
+
+/// An elastic material on a body's bonds: all that a solid needs to know of it. Displacements are a
+/// vector of size(): D blocks of point displacements, then face values (MirrorCondition) [m].
+template <int D>
+class ElasticOperator {
+ public:
+  virtual ~ElasticOperator() = default;
+
+  virtual Index size() const = 0;
+
+  /// force = dE/du, the inner force on every unknown [N, per metre in 2D], pore stress included,
+  /// and the points' dilatation on the way (empty: it is not asked for).
+  virtual void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
+                     std::span<double> dilatation) = 0;
+
+  /// The same for displacements that are small: linear in u.
+  virtual void apply_small(std::span<const double> u, const PoreStress& pore,
+                           std::span<double> force, std::span<double> dilatation) {
+    apply(u, pore, force, dilatation);
+  }
+
+  /// E(u) without pore stress and initial stress [J, per metre in 2D]; `force` is that of apply()
+  /// without them.
+  virtual double energy(std::span<const double> u, std::span<const double> force) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < u.size(); ++k) sum += 0.5 * u[k] * force[k];
+    return sum;
+  }
+
+  /// Inner force at u = 0 [N]: that of the initial stress. What lies behind the faces of the intact
+  /// body bears it, so that a solid counts it, once, among its external forces.
+  std::vector<double> initial_force() {
+    std::vector<double> rest(size(), 0.0), force(size()), dilatation(size());
+    apply(rest, {}, force, dilatation);
+    return force;
+  }
+
+  /// Stress in the solid without pore stress (effective), initial stress included, tension
+  /// positive: D * D blocks of points [Pa].
+  virtual void stress(std::span<const double> u, std::span<double> stress) = 0;
+
+  /// The stiffness: apply_small without pore stress and initial stress as a matrix.
+  virtual Eigen::SparseMatrix<double> assemble() const = 0;
+
+  /// Takes displacements to point dilatations; volume-weighted, its transpose makes force of pore
+  /// stress.
+  virtual Eigen::SparseMatrix<double> dilatation_matrix() const = 0;
+
+  /// Takes displacements to D * D blocks of point gradients; its transpose makes loads of
+  /// tractions.
+  virtual Eigen::SparseMatrix<double> gradient_matrix() const = 0;
+
+  /// Stiffness of a point against a change of volume at fixed mean stress [Pa].
+  virtual double drained_bulk_modulus(Index i) const = 0;
+
+  /// 1, the pore stress pushes points apart; -1 in formulas that have its sign wrong.
+  virtual double pore_sign() const { return 1.0; }
+};
+
+}  // namespace perifrac

@@ -1,0 +1,382 @@
+#include "modules/solid/material/lps_elasticity.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/bonds/bond_traversal.hpp"
+#include "core/operators/node_unknowns.hpp"
+#include "core/operators/nonlocal_gradient.hpp"
+#include "modules/solid/material/bond_energy.hpp"
+
+namespace perifrac {
+
+namespace {
+
+template <int D>
+double dot(const Vector<D>& a, const Vector<D>& b) {
+  double sum = 0.0;
+  for (int k = 0; k < D; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+template <int D>
+constexpr double bonds_per_shear_modulus = D == 2 ? 8.0 : 15.0;  // c / mu
+
+}  // namespace
+
+template <int D>
+LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
+                                MirrorCondition<D, D> mirror,
+                                LawByRegion<IsotropicElasticity<D>> law,
+                                std::optional<Vector<D>> initial_stress, double pore_sign)
+    : family_(std::move(family)),
+      mirror_(std::move(mirror)),
+      law_(std::move(law)),
+      initial_stress_(initial_stress),
+      pore_sign_(pore_sign),
+      moments_(family_moments(*family_)),
+      field_(static_cast<std::size_t>(D) * family_->node_count()),
+      dilatation_scale_(family_->point_count),
+      bond_stiffness_(family_->node_count(), 0.0),
+      volume_state_(family_->node_count(), 0.0) {
+  const Index points = family_->point_count;
+  if (initial_stress_) {
+    initial_state_.resize(static_cast<std::size_t>(D) * D * family_->node_count());
+  }
+  for (Index i = 0; i < points; ++i) {
+    take_moments(i);
+    const auto bonds =
+        std::span(family_->other).subspan(family_->offset[i], family_->bond_count(i));
+    if (std::ranges::any_of(bonds, [&](Index j) { return j >= points; })) face_points_.push_back(i);
+  }
+  for (const FaceSet faces : family_->ghost_faces) {
+    Vector<D> sign;
+    for (int r = 0; r < D; ++r) {
+      const bool reflected = contains(faces, 2 * r) != contains(faces, 2 * r + 1);
+      sign[r] = (reflected ? -1.0 : 1.0) * mirror_.image(faces, r).sign;
+    }
+    image_sign_.push_back(sign);
+  }
+  if (initial_stress_) mirror_.fill_conjugate(initial_state_);
+}
+
+/// What follows from the moments of a point's family.
+template <int D>
+void LpsElasticity<D>::take_moments(Index i) {
+  const double m = moments_.weighted_volume[i];
+  dilatation_scale_[i] = D / m;
+  bond_stiffness_[i] = bonds_per_shear_modulus<D> * law_.at(i).shear_modulus / m;
+  if (!initial_stress_) return;
+  for (int k = 0; k < D * D; ++k) {
+    initial_state_[static_cast<std::size_t>(k) * family_->node_count() + i] =
+        (*initial_stress_)[k / D] * moments_.inverse_shape[k][i];
+  }
+}
+
+template <int D>
+void LpsElasticity<D>::update(std::span<const Index> points) {
+  for (const Index i : points) {
+    set_moments(*family_, i, moments_);
+    take_moments(i);
+  }
+  if (initial_stress_) mirror_.fill_conjugate(initial_state_);
+}
+
+template <int D>
+Index LpsElasticity<D>::size() const {
+  return D * family_->point_count + mirror_.face_value_count();
+}
+
+template <int D>
+void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
+                             std::span<double> force, std::span<double> dilatation) {
+  assert(static_cast<Index>(u.size()) == size() && u.size() == force.size());
+  mirror_.spread(u, field_);
+  with_pore_stress(pore, [&](auto pore_stress) { store_state(dilatation, pore_stress); });
+  const Index points = family_->point_count;
+  const auto write_forces = [&]<bool initially_stressed>() {
+    for_each_point(points, [&](Index i) {
+      const Vector<D> f = bond_forces<initially_stressed>(i);
+      for (int r = 0; r < D; ++r) force[static_cast<std::size_t>(r) * points + i] = -f[r];
+    });
+  };
+  if (initial_state_.empty()) {
+    write_forces.template operator()<false>();
+  } else {
+    write_forces.template operator()<true>();
+  }
+  for_each_point(static_cast<Index>(face_points_.size()), [&](Index k) {
+    const Index i = face_points_[k];
+    const Vector<D> f = image_forces(i);
+    for (int r = 0; r < D; ++r) force[static_cast<std::size_t>(r) * points + i] -= f[r];
+  });
+  add_face_reactions(force.subspan(static_cast<std::size_t>(D) * points));
+}
+
+template <int D>
+template <class PoreStressAt>
+void LpsElasticity<D>::store_state(std::span<double> dilatation, PoreStressAt&& pore_stress) {
+  for_each_point(family_->point_count, [&](Index i) {
+    const double theta = dilatation_at(i);
+    if (!dilatation.empty()) dilatation[i] = theta;
+    volume_state_[i] = dilatation_scale_[i] *
+                       (dilatation_stiffness(i) * theta - pore_sign_ * pore_stress(i, theta));
+  });
+}
+
+template <int D>
+double LpsElasticity<D>::dilatation_at(Index i) const {
+  const Index nodes = family_->node_count();
+  const double* const u = field_.data();
+  Vector<D> own;
+  for (int r = 0; r < D; ++r) own[r] = u[static_cast<std::size_t>(r) * nodes + i];
+  const auto sum = sum_over_bonds<1>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+    double along = 0.0;
+    for (int r = 0; r < D; ++r) {
+      along += xi[r] * (u[static_cast<std::size_t>(r) * nodes + j] - own[r]);
+    }
+    return std::array<double, 1>{w * along};
+  });
+  return dilatation_scale_[i] * sum[0];
+}
+
+/// The forces of a point's bonds without the ghosts' halves, which image_forces() adds.
+template <int D>
+template <bool initially_stressed>
+Vector<D> LpsElasticity<D>::bond_forces(Index i) const {
+  const std::size_t nodes = family_->node_count();
+  const double* const u = field_.data();
+  const double* const volume_state = volume_state_.data();
+  const double* const stiffness = bond_stiffness_.data();
+  const double* const initial = initial_state_.data();
+  const double own_state = volume_state[i];
+  const double own_stiffness = stiffness[i];
+  Vector<D> own;
+  for (int r = 0; r < D; ++r) own[r] = u[r * nodes + i];
+  std::array<double, initially_stressed ? D * D : 0> own_initial;
+  for (std::size_t k = 0; k < own_initial.size(); ++k) own_initial[k] = initial[k * nodes + i];
+  Vector<D> force = sum_over_bonds<D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+    double along = 0.0, square = 0.0;
+    for (int r = 0; r < D; ++r) {
+      along += xi[r] * (u[r * nodes + j] - own[r]);
+      square += xi[r] * xi[r];
+    }
+    const double pull =
+        own_state + volume_state[j] + (own_stiffness + stiffness[j]) * along / square;
+    std::array<double, D> t;
+    for (int r = 0; r < D; ++r) {
+      t[r] = pull * xi[r];
+      if constexpr (initially_stressed) {
+        for (int b = 0; b < D; ++b) {
+          t[r] += (own_initial[r * D + b] + initial[(r * D + b) * nodes + j]) * xi[b];
+        }
+      }
+      t[r] *= w;
+    }
+    return t;
+  });
+  for (double& component : force) component *= family_->volume[i];
+  return force;
+}
+
+/// What the sources of a point's ghosts put into its bonds to them. A ghost's displacement need not
+/// be the reflection of its source's: with sigma_r = 1 where the image of component r is as a
+/// reflection's and -1 where it is not, the reflected bond has xi' = -R xi and du' = -S du
+/// (R, S: signs of the reflection and of the image), so that its force, brought back by S, is
+/// [d s/m + (c/m) (sigma xi).du / |xi|^2] sigma xi, with s and m of the source.
+template <int D>
+Vector<D> LpsElasticity<D>::image_forces(Index i) const {
+  const Index points = family_->point_count;
+  Vector<D> force{};
+  for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+    const Index ghost = family_->other[bond] - points;
+    if (ghost < 0) continue;
+    const Index source = family_->ghost_source[ghost];
+    const Vector<D> xi = bond_vector(i, points + ghost);
+    Vector<D> image = xi;
+    for (int r = 0; r < D; ++r) image[r] *= image_sign_[ghost][r];
+    const double pull = volume_state_[source] + bond_stiffness_[source] *
+                                                    dot<D>(image, difference(i, points + ghost)) /
+                                                    dot<D>(xi, xi);
+    for (int r = 0; r < D; ++r) force[r] += family_->weight[bond] * pull * image[r];
+  }
+  for (double& component : force) component *= family_->volume[i];
+  return force;
+}
+
+/// dE/dU of the face values: the part of real points' bonds in the ghosts at their ends. Serial, so
+/// that the order of the sum is fixed.
+template <int D>
+void LpsElasticity<D>::add_face_reactions(std::span<double> reaction) const {
+  std::ranges::fill(reaction, 0.0);
+  if (reaction.empty()) return;
+  const Index points = family_->point_count;
+  const std::size_t nodes = family_->node_count();
+  for (const Index i : face_points_) {
+    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+      const Index j = family_->other[bond];
+      if (j < points) continue;
+      const Vector<D> xi = bond_vector(i, j);
+      const double pull =
+          volume_state_[i] + bond_stiffness_[i] * dot<D>(xi, difference(i, j)) / dot<D>(xi, xi);
+      for (int r = 0; r < D; ++r) {
+        const auto image = mirror_.image(family_->ghost_faces[j - points], r);
+        if (image.term_count == 0) continue;
+        double force = pull * xi[r];
+        for (int b = 0; b < D && initial_stress_; ++b) {
+          force += initial_state_[(r * D + b) * nodes + i] * xi[b];
+        }
+        force *= family_->volume[i] * family_->weight[bond];
+        for (int k = 0; k < image.term_count; ++k) {
+          reaction[image.terms[k].face_value] += image.terms[k].coefficient * force;
+        }
+      }
+    }
+  }
+}
+
+template <int D>
+Vector<D> LpsElasticity<D>::bond_vector(Index i, Index j) const {
+  Vector<D> xi;
+  for (int a = 0; a < D; ++a) xi[a] = family_->position[a][j] - family_->position[a][i];
+  return xi;
+}
+
+template <int D>
+Vector<D> LpsElasticity<D>::difference(Index i, Index j) const {
+  const std::size_t nodes = family_->node_count();
+  Vector<D> result;
+  for (int r = 0; r < D; ++r) result[r] = field_[r * nodes + j] - field_[r * nodes + i];
+  return result;
+}
+
+/// sum_j T(xi) (x) xi of the point's own force states T: dW/dF for a uniform gradient F.
+template <int D>
+Tensor<D, D> LpsElasticity<D>::stress_at(Index i, const Tensor<D, D>&) const {
+  const std::size_t nodes = family_->node_count();
+  const double pull = dilatation_scale_[i] * dilatation_stiffness(i) * dilatation_at(i);
+  const double stiffness = bond_stiffness_[i];
+  return sum_over_bonds<D * D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+    double along = 0.0, square = 0.0;
+    for (int r = 0; r < D; ++r) {
+      along += xi[r] * (field_[r * nodes + j] - field_[r * nodes + i]);
+      square += xi[r] * xi[r];
+    }
+    const double t = w * (pull + stiffness * along / square);
+    Tensor<D, D> product;
+    for (int k = 0; k < D * D; ++k) product[k] = t * xi[k / D] * xi[k % D];
+    return product;
+  });
+}
+
+template <int D>
+void LpsElasticity<D>::stress(std::span<const double> u, std::span<double> stress) {
+  mirror_.spread(u, field_);
+  const Index points = family_->point_count;
+  for_each_point(points, [&](Index i) {
+    Tensor<D, D> result = stress_at(i, {});
+    for (int a = 0; a < D && initial_stress_; ++a) result[a * D + a] += (*initial_stress_)[a];
+    for (int k = 0; k < D * D; ++k) stress[static_cast<std::size_t>(k) * points + i] = result[k];
+  });
+}
+
+template <int D>
+Tensor<D, D> LpsElasticity<D>::gradient_at(Index i) const {
+  return perifrac::gradient_at<D, D>(*family_, moments_, field_.data(), i);
+}
+
+template <int D>
+void LpsElasticity<D>::append_unknowns(Index i, std::vector<Index>& unknowns) const {
+  append_family_unknowns(*family_, mirror_, i, unknowns);
+}
+
+template <int D>
+PointStiffness LpsElasticity<D>::point_stiffness(Index i) const {
+  return bond_energy_stiffness(*family_, mirror_, law_.at(i), i);
+}
+
+template <int D>
+double LpsElasticity<D>::point_energy(Index i, std::span<const double>) const {
+  const std::size_t nodes = family_->node_count();
+  const auto stretch = sum_over_bonds<1>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
+    double along = 0.0, square = 0.0;
+    for (int r = 0; r < D; ++r) {
+      along += xi[r] * (field_[r * nodes + j] - field_[r * nodes + i]);
+      square += xi[r] * xi[r];
+    }
+    return std::array<double, 1>{w * along * along / square};
+  });
+  const double theta = dilatation_at(i);
+  return 0.5 * family_->volume[i] *
+         (dilatation_stiffness(i) * theta * theta + bond_stiffness_[i] * stretch[0]);
+}
+
+/// Takes displacements to the extension xi.(u_j - u_i) / |xi| of every bond.
+template <int D>
+Eigen::SparseMatrix<double> LpsElasticity<D>::extension_matrix() const {
+  const Index points = family_->point_count;
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(family_->other.size() * 2 * D);
+  for (Index i = 0; i < points; ++i) {
+    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+      const Index j = family_->other[bond];
+      const Vector<D> xi = bond_vector(i, j);
+      const double length = std::sqrt(dot<D>(xi, xi));
+      for (int r = 0; r < D; ++r) {
+        Combination end = node_unknowns(*family_, mirror_, j, r);
+        end.add(r * points + i, -1.0);
+        for (int k = 0; k < end.count; ++k) {
+          triplets.emplace_back(bond, end.terms[k].unknown,
+                                end.terms[k].coefficient * xi[r] / length);
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(static_cast<Index>(family_->other.size()), size());
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  return matrix;
+}
+
+template <int D>
+Eigen::SparseMatrix<double> LpsElasticity<D>::dilatation_matrix() const {
+  const Index points = family_->point_count;
+  Eigen::SparseMatrix<double> sum(points, static_cast<Index>(family_->other.size()));
+  sum.reserve(Eigen::VectorXi::Ones(sum.cols()));
+  for (Index i = 0; i < points; ++i) {
+    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+      const Vector<D> xi = bond_vector(i, family_->other[bond]);
+      sum.insert(i, bond) =
+          dilatation_scale_[i] * family_->weight[bond] * std::sqrt(dot<D>(xi, xi));
+    }
+  }
+  return sum * extension_matrix();
+}
+
+template <int D>
+Eigen::SparseMatrix<double> LpsElasticity<D>::assemble() const {
+  const Index points = family_->point_count;
+  Eigen::VectorXd volume_stiffness(points), stiffness(family_->other.size());
+  for (Index i = 0; i < points; ++i) {
+    volume_stiffness[i] = family_->volume[i] * dilatation_stiffness(i);
+    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+      stiffness[bond] = family_->volume[i] * bond_stiffness_[i] * family_->weight[bond];
+    }
+  }
+  const Eigen::SparseMatrix<double> theta = dilatation_matrix();
+  const Eigen::SparseMatrix<double> extension = extension_matrix();
+  Eigen::SparseMatrix<double> a =
+      theta.transpose() * Eigen::SparseMatrix<double>(volume_stiffness.asDiagonal() * theta);
+  a += extension.transpose() * Eigen::SparseMatrix<double>(stiffness.asDiagonal() * extension);
+  return a;
+}
+
+template <int D>
+Eigen::SparseMatrix<double> LpsElasticity<D>::gradient_matrix() const {
+  return perifrac::gradient_matrix(*family_, moments_, mirror_);
+}
+
+template class LpsElasticity<2>;
+template class LpsElasticity<3>;
+
+}  // namespace perifrac
