@@ -39,7 +39,6 @@ double Link::Mismatch::of_output() const { return over(absolute, output); }
 Link::Link(LinkEnd source, LinkEnd target, bool lagged)
     : name_(source.module->ports()[source.port].name),
       kind_(source.module->ports()[source.port].kind),
-      is_pure_number_(source.module->ports()[source.port].unit == "1"),
       source_(std::move(source)),
       target_(std::move(target)),
       lagged_(lagged),
@@ -50,10 +49,11 @@ std::string Link::path() const {
 }
 
 void Link::start() {
-  read_source(reached_);
+  const PortView out = source_.module->port(source_.port);
+  read_source(out, reached_);
   find_rates(0.0);
   accept();
-  is_foretold_ = !source_.module->port(source_.port).forecast.empty();
+  is_foretold_ = !out.forecast.empty();
 }
 
 void Link::predict(double length) {
@@ -69,12 +69,12 @@ void Link::predict(double length) {
   if (out.value.size() == accepted_.output.size()) {
     accepted_.points = freeze(*out.points, accepted_.points);
   } else {  // points came or went at the window's end
-    read_source(accepted_);
+    read_source(out, accepted_);
     accepted_.output_rate.assign(accepted_.output.size(), 0.0);
     accepted_.counter_rate.assign(accepted_.counter.size(), 0.0);
   }
   start_counter();
-  read_slope();
+  read_slope(out);
   form_value(accepted_);
   if (kind_ == PortKind::extensive) {
     for (std::size_t i = 0; i < value_.size(); ++i) {
@@ -122,9 +122,10 @@ void Link::deliver() {
 void Link::collect(double length) {
   if (is_foretold_) return;
   std::swap(used_, value_);
-  read_source(reached_);
+  const PortView out = source_.module->port(source_.port);
+  read_source(out, reached_);
   find_rates(length);
-  read_slope();
+  read_slope(out);
   if (lagged_ && !sent_points_->set().same_points(reached_.points->set())) {
     Mapping moved(kind_);
     moved.update(sent_points_->set(), reached_.points->set());
@@ -156,8 +157,7 @@ void Link::visit_state(StateVisitor& visitor) {
   visitor.leave();
 }
 
-void Link::read_source(Sample& sample) {
-  const PortView out = source_.module->port(source_.port);
+void Link::read_source(const PortView& out, Sample& sample) {
   sample.points = freeze(*out.points, sample.points);
   sample.output.assign(out.value.begin(), out.value.end());
   if (!uses_slope()) return;
@@ -171,10 +171,8 @@ void Link::read_source(Sample& sample) {
   }
 }
 
-void Link::read_slope() {
-  if (!uses_slope()) return;
-  const PortView out = source_.module->port(source_.port);
-  slope_.assign(out.slope.begin(), out.slope.end());
+void Link::read_slope(const PortView& out) {
+  if (uses_slope()) slope_.assign(out.slope.begin(), out.slope.end());
 }
 
 void Link::find_rates(double length) {
@@ -215,15 +213,9 @@ void Link::compare() {
   std::vector<double> difference(value_.size());
   for (std::size_t i = 0; i < value_.size(); ++i) difference[i] = value_[i] - used_[i];
   mismatch_.absolute = norm(difference);
-  // A strain below the rounding of 1 is none, nor is what that comes to as a pressure in pores that
-  // are as good as empty: a body at rest has nothing to be compared with.
-  constexpr double no_pressure = 1e-6;  // [Pa]
+  const double negligible = source_.module->ports()[source_.port].negligible;
   const double root = std::sqrt(static_cast<double>(value_.size()));
-  const bool is_pressure = source_.module->ports()[source_.port].unit == "Pa";
-  const double least = is_pure_number_ ? root * std::numeric_limits<double>::epsilon()
-                       : is_pressure   ? root * no_pressure
-                                       : 0.0;
-  if (mismatch_.absolute <= least) mismatch_.absolute = 0.0;
+  if (mismatch_.absolute <= root * negligible) mismatch_.absolute = 0.0;
   mismatch_.scale = mismatch_.output = norm(reached_.output);
   if (!uses_slope()) return;
   for (std::size_t i = 0; i < value_.size(); ++i) {

@@ -111,8 +111,8 @@ class Link {
     std::vector<double> counter_rate;
   };
 
-  void read_source(Sample& sample);
-  void read_slope();
+  void read_source(const PortView& out, Sample& sample);
+  void read_slope(const PortView& out);
   void start_counter();
   void find_rates(double length);
   void rate_since(const std::vector<double>& now, const std::vector<double>& before, double length,
@@ -122,7 +122,6 @@ class Link {
 
   std::string name_;
   PortKind kind_;
-  bool is_pure_number_;  ///< its unit is 1
   LinkEnd source_;
   LinkEnd target_;
   bool lagged_;

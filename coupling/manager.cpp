@@ -195,10 +195,10 @@ double CouplingManager::advance(double stop) {
   return time_;
 }
 
-/// An undrained split in one pass holds the fluid content while the solid moves. What the content
-/// changes by in a window, as pore stress, is off at the window's end, and falls with its length.
+/// An undrained split in one pass holds what it sends over a window. What that should have changed
+/// by is off at the window's end, and falls with its length.
 void CouplingManager::choose_next_window() {
-  constexpr double most = 0.02, room = 1.5;  // of the pore stress
+  constexpr double most = 0.02, room = 1.5;  // of what is held
   const double held_back = solver_->held_back();
   const bool can = options_.window == WindowType::schedule && options_.retries > 0;
   if (can && held_back > most) {
@@ -206,9 +206,8 @@ void CouplingManager::choose_next_window() {
     if (!has_shortened_) {
       log_info(
           fmt::format("windows from t = {:.6g} s on are shorter than coupling.window says: in one "
-                      "pass {:.2g} of "
-                      "the pore stress changed unseen",
-                      time_, held_back));
+                      "pass {:.2g} of {} changed unseen",
+                      time_, held_back, solver_->holding_link()->path()));
     }
     has_shortened_ = true;
     return;

@@ -43,7 +43,6 @@ WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
       watches_(links.size()) {}
 
 double WindowSolver::solve(const TimeWindow& window, const Iterations& iterations) {
-  const bool alone = modules_.size() == 1;
   is_saved_ = may_go_back(iterations);
   if (is_saved_) {
     const ProfilePart profiled("rollback");
@@ -53,7 +52,7 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
   double reached = conclude(tried, iterate(tried, iterations));
-  for (int redone = 0; reached < tried.end && !alone; ++redone) {
+  for (int redone = 0; reached < tried.end; ++redone) {
     if (redone == most_redos)
       fail(reached, redone, "finds an earlier event each time the window is redone");
     go_back(tried.begin);
@@ -74,14 +73,16 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
 
 void WindowSolver::find_held_back(const Iterations& iterations) {
   held_back_ = 0.0;
+  holding_link_ = nullptr;
   for (const Link& link : links_) {
     if (iterations.max > 1 || !link.predicts() || !link.holds()) continue;
-    held_back_ = std::max(held_back_, link.mismatch().of_output());
+    if (link.mismatch().of_output() <= held_back_) continue;
+    held_back_ = link.mismatch().of_output();
+    holding_link_ = &link;
   }
 }
 
 bool WindowSolver::may_go_back(const Iterations& iterations) const {
-  if (modules_.size() == 1) return false;
   return may_cut_ || (iterations.max > 1 && std::ranges::any_of(links_, &Link::predicts)) ||
          std::ranges::any_of(modules_,
                              [](const ModuleSlot& slot) { return slot.module->may_end_windows(); });

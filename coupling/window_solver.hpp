@@ -36,10 +36,9 @@ struct CouplingWork {
 /// Takes all modules through one window: predict, advance in order and exchange, compare, go back
 /// and repeat; after an event, go back and redo the window to the event.
 ///
-/// The modules' state is saved at every window's beginning if there is more than one module and the
-/// window may be repeated: by iterations, or because some module may end it at an event, which is
-/// known only once the state is gone. A module alone simply stands where its event was. Windows
-/// that may be cut are saved too, unless nothing but the modules' own steps is in them.
+/// The modules' state is saved at every window's beginning if it may be repeated: by iterations,
+/// because some module may end it at an event, which is known only once the state is gone, or
+/// because it may be cut, unless nothing but the modules' own steps is in it.
 class WindowSolver {
  public:
   WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
@@ -61,6 +60,8 @@ class WindowSolver {
   /// What changed, over the last window, of the values that a split held, over the size of what
   /// they stand for: the error that one pass leaves at the window's end. 0 with iterations.
   double held_back() const { return held_back_; }
+  /// The link that holds most of what it sends; null where none does.
+  const Link* holding_link() const { return holding_link_; }
 
   /// A lagged link whose prediction was seen to grow apart from the answer, over windows of one
   /// pass; null until then.
@@ -107,6 +108,7 @@ class WindowSolver {
   bool is_saved_ = false;  ///< what begin_ holds is this window's beginning
   bool was_easy_ = true;
   double held_back_ = 0.0;
+  const Link* holding_link_ = nullptr;
   std::string ended_by_;
   Eigen::Index accelerated_size_ = 0;
   std::vector<double> weights_;          ///< one a link; of use for the lagged ones

@@ -63,10 +63,10 @@ std::vector<double> steps_in(const CouplingManager& manager, double length) {
   return steps;
 }
 
-/// What a step costs every part, and a facet all of them [s].
+/// What a step and a facet cost every part [s].
 struct Cost {
   std::vector<double> step;
-  double facet = 0.0;
+  std::vector<double> facet;
 };
 
 /// Means over windows in which no crack grew; a facet costs what the others took more.
@@ -85,14 +85,17 @@ Cost cost_of(const CouplingManager& manager, std::span<const Trial> trial) {
   for (std::size_t k = 0; k < parts; ++k) {
     cost.step.push_back(steps[k] > 0.0 ? seconds[k] / steps[k] : 0.0);
   }
-  double facets = 0.0, more = 0.0;
+  cost.facet.resize(parts);
+  double facets = 0.0;
   for (const Trial& window : trial) {
     if (window.facets == 0) continue;
     facets += window.facets;
     const std::vector<double> taken = steps_in(manager, window.length);
-    for (std::size_t k = 0; k < parts; ++k) more += window.seconds[k] - cost.step[k] * taken[k];
+    for (std::size_t k = 0; k < parts; ++k) {
+      cost.facet[k] += window.seconds[k] - cost.step[k] * taken[k];
+    }
   }
-  if (facets > 0.0) cost.facet = std::max(0.0, more / facets);
+  for (double& seconds : cost.facet) seconds = facets > 0.0 ? std::max(0.0, seconds / facets) : 0.0;
   return cost;
 }
 
@@ -201,8 +204,9 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
     });
     const double facets = std::max(0.0, facets_at_end.value_or(0.0) - facet_count(simulation));
     // A facet costs half a window of its own, too: growth ends the one that it comes in, anywhere.
-    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * 0.5 * facets;
-    parts[parts.size() - 2] += cost.facet * facets;  // the solid is the last module
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      parts[k] += (0.5 * cost.step[k] + cost.facet[k]) * facets;
+    }
     result.windows += std::llround(0.5 * facets);
   }
   // As if nothing else ran: one thread is then never kept waiting.

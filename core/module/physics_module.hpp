@@ -13,14 +13,17 @@ namespace perifrac {
 /// visit_state with what was saved before it, and on_restored.
 class PhysicsModule {
  public:
+  PhysicsModule() = default;
+  PhysicsModule(const PhysicsModule&) = delete;  // ports show the module they were made by
+  PhysicsModule& operator=(const PhysicsModule&) = delete;
   virtual ~PhysicsModule() = default;
 
   /// The ports, in an order that never changes.
   virtual std::span<const Port> ports() const = 0;
 
   /// Values of one port as they stand now; to read them changes nothing. Only the coupling manager
-  /// writes inputs; one that is not connected has no values. Spans stay valid until the next
-  /// advance, visit_state or on_restored.
+  /// writes inputs; one that is not connected has no values, or zeros. Spans stay valid until the
+  /// next advance, visit_state or on_restored.
   virtual PortView port(PortId id) = 0;
 
   /// Makes the state ready at time t [s], before anything is exchanged.
@@ -46,7 +49,7 @@ class PhysicsModule {
   /// All modules agree at the window's end. Where something happened within it that changes what
   /// follows, and the module wants the window to end there: returns that time [s], and the manager
   /// takes every module back and redoes the window up to it. Otherwise the window stands: does what
-  /// its end brings about (bonds break) and returns window.end. A module alone may not cut.
+  /// its end brings about (bonds break) and returns window.end.
   virtual double conclude(const TimeWindow& window) { return window.end; }
 
   /// False: neither advance() nor conclude() ever ends a window early.

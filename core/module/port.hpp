@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 
@@ -35,15 +36,35 @@ using PortId = int;
 struct Port {
   std::string name;
   std::string unit;
-  PortDirection direction;
+  PortDirection direction = PortDirection::out;
   PortKind kind = PortKind::intensive;
   PortRole role = PortRole::field;
   int components = 1;
+  /// A value of this size is as good as none: two that differ by less agree.
+  double negligible = 0.0;
 };
+
+/// A strain below the rounding of 1 is none, nor is what that comes to as a pressure in pores that
+/// are as good as empty: a body at rest has nothing to be compared with.
+inline constexpr double negligible_strain = std::numeric_limits<double>::epsilon();
+inline constexpr double negligible_pressure = 1e-6;  // [Pa]
 
 /// The unit of a total, such as a mass or an energy: in 2D it is per metre of thickness.
 inline std::string unit_of_total(const std::string& unit, int dimension) {
   return dimension == 2 ? unit + "/m" : unit;
+}
+
+/// A mass [kg] or energy [J] for the ledger.
+inline Port total_port(const char* name, const char* unit, PortRole role, int dimension) {
+  return {.name = name,
+          .unit = unit_of_total(unit, dimension),
+          .kind = PortKind::extensive,
+          .role = role};
+}
+
+/// How often a solver did something.
+inline Port work_port(const char* name) {
+  return {.name = name, .unit = "1", .kind = PortKind::extensive, .role = PortRole::work};
 }
 
 /// The changing part of a port, refetched at every exchange. Arrays hold components * count values,

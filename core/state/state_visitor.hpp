@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace perifrac {
 
@@ -16,6 +19,11 @@ class StateVisitor {
   void visit(std::string_view name, std::vector<double>& values) { real(path(name), values); }
   void visit(std::string_view name, std::vector<std::int64_t>& values) {
     integer(path(name), values);
+  }
+  void visit(std::string_view name, Eigen::VectorXd& values) {
+    std::vector<double> all(values.begin(), values.end());
+    visit(name, all);
+    values = Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all));
   }
   void visit(std::string_view name, double& value) { visit_scalar(name, value); }
   void visit(std::string_view name, std::int64_t& value) { visit_scalar(name, value); }

@@ -11,34 +11,28 @@ const PointSet whole_body{.name = "solid"};
 }  // namespace
 
 Compaction::Compaction(std::shared_ptr<const Body<2>> body, double stiffness, double overburden)
-    : body_(std::move(body)), stiffness_(stiffness), overburden_(overburden) {}
-
-std::span<const Port> Compaction::ports() const {
-  static const std::vector<Port> ports = {
-      {"pore_stress", "Pa", PortDirection::in},
-      {"dilatation", "1", PortDirection::out},
-      {"compaction_energy", "J/m", PortDirection::out, PortKind::extensive,
-       PortRole::energy_stored},
-      {"overburden_work", "J/m", PortDirection::out, PortKind::extensive, PortRole::energy_gained}};
-  return ports;
+    : body_(std::move(body)), stiffness_(stiffness), overburden_(overburden) {
+  const PointSet* const points = &body_->point_set();
+  ports_.in(
+      {"pore_stress", "Pa"}, [] {},  // it has room from the start
+      [this, points] {
+        return PortView{points, pore_stress_};
+      });
+  ports_.out({.name = "dilatation", .unit = "1", .negligible = negligible_strain}, [this, points] {
+    return PortView{points, dilatation_, {}, slope_};
+  });
+  ports_.total(total_port("compaction_energy", "J", PortRole::energy_stored, 2), whole_body,
+               [this] { return energy(); });
+  ports_.total(total_port("overburden_work", "J", PortRole::energy_gained, 2), whole_body,
+               [this] { return work_; });
 }
 
-PortView Compaction::port(PortId id) {
-  const PointSet* const points = &body_->point_set();
-  switch (id) {
-    case pore_stress:
-      return {points, pore_stress_};
-    case dilatation:
-      return {points, dilatation_, {}, slope_};
-    case compaction_energy:
-      energy_ = 0.0;
-      for (std::size_t i = 0; i < dilatation_.size(); ++i) {
-        energy_ += 0.5 * stiffness_ * dilatation_[i] * dilatation_[i] * body_->points().volume[i];
-      }
-      return {&whole_body, {&energy_, 1}};
-    default:
-      return {&whole_body, {&work_, 1}};
+double Compaction::energy() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < dilatation_.size(); ++i) {
+    sum += 0.5 * stiffness_ * dilatation_[i] * dilatation_[i] * body_->points().volume[i];
   }
+  return sum;
 }
 
 void Compaction::initialize(double) {

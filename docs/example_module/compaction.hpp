@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/module/module_type.hpp"
+#include "core/module/port_table.hpp"
 
 namespace perifrac {
 
@@ -18,16 +19,17 @@ class Compaction final : public PhysicsModule {
   /// `stiffness` is lambda + 2 mu of the drained rock [Pa]; `overburden` presses, positive [Pa].
   Compaction(std::shared_ptr<const Body<2>> body, double stiffness, double overburden);
 
-  std::span<const Port> ports() const override;
-  PortView port(PortId id) override;
+  std::span<const Port> ports() const override { return ports_.list(); }
+  PortView port(PortId id) override { return ports_.view(id); }
   void initialize(double t) override;
+  void connect(PortId in) override { ports_.connect(in); }
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
   void visit_state(StateVisitor& visitor) override;
   void on_restored(double t) override;
 
  private:
-  enum Id : PortId { pore_stress, dilatation, compaction_energy, overburden_work };
+  double energy() const;
 
   std::shared_ptr<const Body<2>> body_;
   double stiffness_;   ///< [Pa]
@@ -38,7 +40,7 @@ class Compaction final : public PhysicsModule {
   std::vector<double> slope_;        ///< [1/Pa]
   double load_ = 0.0;                ///< state: the overburden so far, none before the start [Pa]
   double work_ = 0.0;                ///< state [J per metre]
-  double energy_ = 0.0;              ///< [J per metre]
+  PortTable ports_;
 };
 
 /// `solid: {type: compaction}`.

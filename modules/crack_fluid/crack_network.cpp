@@ -34,27 +34,20 @@ void CrackNetwork<D>::match_facets() {
     if (outlets_) outlets_->match(lubrication_.graph());
   }
   const std::size_t count = bonds.facets().size();
-  mass_.resize(count, 0.0);
-  unknown_.resize(count, liquid_.empty());
-  settled_.resize(count, liquid_.empty());
-  aperture_.resize(count, liquid_.residual_aperture);
+  facets_.match(count, liquid_);
+  opening_.match(count);
   if (leak_off_) leak_off_->match(bonds.facet_points(), lubrication_.graph());
-  for (std::vector<double>* input : {&opening_, &opening_rate_}) input->resize(count);
-  if (opening_slope_.size() != count * count) opening_slope_.assign(count * count, 0.0);
 }
 
 template <int D>
 void CrackNetwork<D>::initialize(double) {
   if (outlets_) outlets_->start();
   match_facets();
-  std::ranges::fill(mass_, 0.0);
-  std::ranges::fill(unknown_, liquid_.empty());
-  std::ranges::fill(settled_, liquid_.empty());
-  std::ranges::fill(aperture_, liquid_.residual_aperture);
+  facets_.clear(liquid_);
   face_work_.clear();
   mouths_.clear();
   has_begun_ = 0;
-  injected_ = leaked_ = work_ = dissipation_ = {};
+  books_ = {};
   leak_off_rate_ = 0.0;
 }
 
@@ -67,8 +60,8 @@ double CrackNetwork<D>::stable_time_step() const {
 template <int D>
 LubricationStep CrackNetwork<D>::at_rest(const TimeWindow& window) const {
   return {.time = {window.begin, window.begin},
-          .opening = {opening_, opening_rate_, opening_slope_, window.end},
-          .mass = mass_};
+          .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
+          .mass = facets_.mass};
 }
 
 /// Cracks of the start, now that their opening is known. Their fluid counts as injected, with what
@@ -77,33 +70,33 @@ template <int D>
 void CrackNetwork<D>::fill_at_start(const TimeWindow& window) {
   has_begun_ = 1;
   const PointSet& facets = body_->bond_state().facet_points();
-  for (std::size_t f = 0; f < mass_.size(); ++f) {
+  for (std::size_t f = 0; f < facets_.count(); ++f) {
     for (const auto& [box, pressure] : fillings_) {
       Vector<D> place;
       for (int a = 0; a < D; ++a) place[a] = facets.position[a][f];
-      if (box.contains(place)) unknown_[f] = pressure;
+      if (box.contains(place)) facets_.unknown[f] = pressure;
     }
   }
-  lubrication_.evaluate(at_rest(window), vector_of(unknown_));
+  lubrication_.evaluate(at_rest(window), vector_of(facets_.unknown));
   face_work_.start(lubrication_.graph().facet_count());
-  for (std::size_t f = 0; f < mass_.size(); ++f) {
-    work_.add(face_work_.book(lubrication_, static_cast<Index>(f)));
-    if (!liquid_.is_full(unknown_[f])) continue;
-    mass_[f] = lubrication_.residual()[f];
-    injected_.add(mass_[f]);
-    work_.add(mass_[f] * liquid_.internal_energy(unknown_[f]));
+  for (std::size_t f = 0; f < facets_.count(); ++f) {
+    books_.work.add(face_work_.book(lubrication_, static_cast<Index>(f)));
+    if (!liquid_.is_full(facets_.unknown[f])) continue;
+    facets_.mass[f] = lubrication_.residual()[f];
+    books_.injected.add(facets_.mass[f]);
+    books_.work.add(facets_.mass[f] * liquid_.internal_energy(facets_.unknown[f]));
   }
-  settled_ = unknown_;
+  facets_.settled = facets_.unknown;
 }
 
 template <int D>
 double CrackNetwork<D>::advance(const TimeWindow& window) {
   match_facets();
-  if (mass_.empty()) return window.end;
+  if (facets_.count() == 0) return window.end;
   if (has_begun_ == 0) fill_at_start(window);
   if (outlets_) outlets_->tell(window.begin);
   if (!face_work_.knows_all_of(lubrication_)) {
-    lubrication_.evaluate(at_rest(window), vector_of(unknown_));
+    lubrication_.evaluate(at_rest(window), vector_of(facets_.unknown));
     face_work_.add_new(lubrication_);
   }
   if (mouths_.any()) mouths_.begin_window(inlets_);
@@ -132,13 +125,13 @@ double CrackNetwork<D>::advance(const TimeWindow& window) {
 /// them, as a new one behind a thin fluid is at once.
 template <int D>
 std::vector<double> CrackNetwork<D>::filled_from_neighbours() const {
-  std::vector<double> guess = unknown_;
+  std::vector<double> guess = facets_.unknown;
   const CrackGraph& graph = lubrication_.graph();
   for (std::size_t k = 0; k < graph.joint_count(); ++k) {
     for (const CrackGraph::Branch& a : graph.joint(k)) {
-      if (liquid_.is_full(unknown_[a.facet])) continue;
+      if (liquid_.is_full(facets_.unknown[a.facet])) continue;
       for (const CrackGraph::Branch& b : graph.joint(k)) {
-        guess[a.facet] = std::max(guess[a.facet], unknown_[b.facet]);
+        guess[a.facet] = std::max(guess[a.facet], facets_.unknown[b.facet]);
       }
     }
   }
@@ -148,19 +141,17 @@ std::vector<double> CrackNetwork<D>::filled_from_neighbours() const {
 /// Tries one step; false where a shorter one is called for. Throws NumericalError where none is.
 template <int D>
 bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
-  require(opening_.size() == mass_.size() && opening_rate_.size() == mass_.size() &&
-              opening_slope_.size() == mass_.size() * mass_.size(),
-          "an opening of other facets than the crack has");
+  require(opening_.fits(facets_.count()), "an opening of other facets than the crack has");
   const auto given = inlets_.inflows(time);
   std::vector<FacetInflow> inflows(given.begin(), given.end());
   if (outlets_) outlets_->append_to(inflows, time, liquid_.vapour_pressure);
   const LubricationStep step{.time = time,
-                             .opening = {opening_, opening_rate_, opening_slope_, window.end},
-                             .mass = mass_,
+                             .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
+                             .mass = facets_.mass,
                              .inflows = inflows,
                              .leak_off = leak_off_.get()};
   if (leak_off_) leak_off_->begin(time);
-  Eigen::VectorXd v = vector_of(time.length() > 0.0 ? unknown_ : settled_);
+  Eigen::VectorXd v = vector_of(time.length() > 0.0 ? facets_.unknown : facets_.settled);
   const auto solved = [&] {
     try {
       return solve(lubrication_, liquid_, step, v);
@@ -178,7 +169,7 @@ bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
   ++steps_;
   if (report.converged) {
     book(v);
-    if (time.length() > 0.0) settled_ = unknown_;
+    if (time.length() > 0.0) facets_.settled = facets_.unknown;
     return true;
   }
   if (time.length() > shortest_part * window.length()) return false;
@@ -199,46 +190,41 @@ void CrackNetwork<D>::book(const Eigen::VectorXd& v) {
   const auto energy_of = [&](double mass, double unknown) {
     return mass * liquid_.internal_energy(liquid_.pressure(unknown));
   };
-  for (std::size_t f = 0; f < mass_.size(); ++f) {
+  for (std::size_t f = 0; f < facets_.count(); ++f) {
     const double inflow = lubrication_.inflow()[f];
     const double outflow = lubrication_.outflow()[f];
     const double leaked = lubrication_.leaked()[f];
     const double more = inflow - outflow - leaked;
-    const double received = energy_of(mass_[f] + more, v[f]) - energy_of(mass_[f], unknown_[f]) +
+    const double received = energy_of(facets_.mass[f] + more, v[f]) -
+                            energy_of(facets_.mass[f], facets_.unknown[f]) +
                             face_work_.book(lubrication_, static_cast<Index>(f));
     const double last = liquid_.enthalpy(liquid_.pressure(v[f]));
-    double enthalpy = 0.5 * (liquid_.enthalpy(liquid_.pressure(unknown_[f])) + last);
-    if (!liquid_.is_full(unknown_[f])) {
+    double enthalpy = 0.5 * (liquid_.enthalpy(liquid_.pressure(facets_.unknown[f])) + last);
+    if (!liquid_.is_full(facets_.unknown[f])) {
       enthalpy = more > 0.0 ? std::clamp(received / more, 0.0, std::max(last, 0.0)) : 0.0;
     }
-    mass_[f] += more;
-    if (!mouths_.book(static_cast<Index>(f), inflow, inlets_)) injected_.add(inflow);
-    leaked_.add(-leaked);
+    facets_.mass[f] += more;
+    if (!mouths_.book(static_cast<Index>(f), inflow, inlets_)) books_.injected.add(inflow);
+    books_.leaked.add(-leaked);
     const double brought = enthalpy * (is_sink ? inflow - leaked : inflow);
-    work_.add(brought);
-    dissipation_.add(brought - received);
-    unknown_[f] = v[f];
-    aperture_[f] = lubrication_.aperture()[f];
+    books_.work.add(brought);
+    books_.dissipation.add(brought - received);
+    facets_.unknown[f] = v[f];
+    facets_.aperture[f] = lubrication_.aperture()[f];
   }
   if (!leak_off_) return;
-  const double handed_over = leak_off_->accept(mass_);  // which pore flow counts as gained
-  work_.add(-handed_over);
-  dissipation_.add(-handed_over);
+  const double handed_over = leak_off_->accept(facets_.mass);  // which pore flow counts as gained
+  books_.work.add(-handed_over);
+  books_.dissipation.add(-handed_over);
 }
 
 template <int D>
 void CrackNetwork<D>::visit_state(StateVisitor& visitor) {
-  visitor.visit("crack_fluid_mass", mass_);
-  visitor.visit("crack_pressure", unknown_);
-  visitor.visit("crack_pressure_settled", settled_);
-  visitor.visit("crack_aperture", aperture_);
+  facets_.visit_state(visitor);
   face_work_.visit_state(visitor);
   mouths_.visit_state(visitor);
   visitor.visit("crack_has_begun", has_begun_);
-  injected_.visit_state(visitor, "injected_crack_fluid_mass");
-  leaked_.visit_state(visitor, "leaked_crack_fluid_mass");
-  work_.visit_state(visitor, "crack_fluid_work");
-  dissipation_.visit_state(visitor, "crack_flow_dissipation");
+  books_.visit_state(visitor);
   if (!leak_off_) return;
   visitor.visit("leak_off_rate", leak_off_rate_);
   leak_off_->visit_state(visitor);

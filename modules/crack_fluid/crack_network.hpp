@@ -6,14 +6,17 @@
 
 #include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
-#include "core/state/compensated_sum.hpp"
+#include "core/module/port_table.hpp"
+#include "modules/crack_fluid/crack_books.hpp"
 #include "modules/crack_fluid/crack_extent.hpp"
 #include "modules/crack_fluid/crack_inlets.hpp"
 #include "modules/crack_fluid/crack_mouths.hpp"
 #include "modules/crack_fluid/crack_outlets.hpp"
 #include "modules/crack_fluid/face_work.hpp"
+#include "modules/crack_fluid/facet_fluid.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/lubrication.hpp"
+#include "modules/crack_fluid/opening_input.hpp"
 #include "modules/crack_fluid/pore_leak_off.hpp"
 
 namespace perifrac {
@@ -52,7 +55,7 @@ class CrackNetwork final : public PhysicsModule {
                std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off,
                std::unique_ptr<CrackOutlets<D>> outlets = nullptr);
 
-  std::span<const Port> ports() const override { return ports_; }
+  std::span<const Port> ports() const override { return ports_.list(); }
   PortView port(PortId id) override;
   void initialize(double t) override;
   double stable_time_step() const override;
@@ -62,56 +65,25 @@ class CrackNetwork final : public PhysicsModule {
   void on_restored(double t) override;
 
  private:
-  enum class Quantity {
-    opening,
-    pressure,
-    mass,
-    wetted_fraction,
-    flow_rate,
-    viscosity,
-    leak_off,
-    volume,
-    wetted_area,
-    dry_area,
-    mean_pressure,
-    inlet_pressure,
-    inlet_opening,
-    leak_off_volume,
-    leak_off_rate,
-    stored_mass,
-    injected_mass,
-    leaked_mass,
-    pore_pressure,
-    pore_mobility,
-    exchanged_mass,
-    mouth_pressure,
-    mouth_stiffness,
-    mouth_intake,
-    taken_mass,
-    energy,
-    work,
-    dissipation,
-    steps,
-    iterations
-  };
-
-  void add_port(Quantity quantity, Port port, std::size_t inlet = 0);
+  void make_ports();
+  void make_facet_ports();
+  void make_extent_ports();
+  void make_inlet_ports();
+  void make_mass_ports();
+  void make_exchange_ports();
+  void make_energy_ports();
   void match_facets();
   void fill_at_start(const TimeWindow& window);
   std::vector<double> filled_from_neighbours() const;
   bool step(const TimeWindow& time, const TimeWindow& window);
   void book(const Eigen::VectorXd& v);
   LubricationStep at_rest(const TimeWindow& window) const;
-  std::vector<double>& field(Quantity quantity);
-  void find_flow_rate();
-  template <class Value>
-  void set_where_wet(std::vector<double>& field, Value&& value_of) const;
-  double scalar(Quantity quantity, PortId id) const;
+  std::vector<double> flow_rate();
   CrackExtent extent() const {
-    return crack_extent(lubrication_.graph(), liquid_, unknown_, aperture_);
+    return crack_extent(lubrication_.graph(), liquid_, facets_.unknown, facets_.aperture);
   }
   double stored_mass() const;
-  double leak_off_volume() const { return -leaked_.value() / liquid_.density; }  ///< [m^2]
+  double leak_off_volume() const { return -books_.leaked.value() / liquid_.density; }  ///< [m^2]
 
   std::shared_ptr<const Body<D>> body_;
   CrackLiquid liquid_;
@@ -121,31 +93,18 @@ class CrackNetwork final : public PhysicsModule {
   std::unique_ptr<LeakOff> leak_off_;
   std::unique_ptr<CrackOutlets<D>> outlets_;
   PoreLeakOff<D>* pores_;  ///< which is the leak-off, or null
-  std::vector<Port> ports_;
-  std::vector<Quantity> quantities_;   ///< by port
-  std::vector<std::size_t> inlet_of_;  ///< by port; 0 where it is of none
-  std::int64_t steps_ = 0;             ///< in this process
-  std::int64_t iterations_ = 0;        ///< likewise
+  PortTable ports_;
+  std::int64_t steps_ = 0;       ///< in this process
+  std::int64_t iterations_ = 0;  ///< likewise
 
   std::uint64_t version_ = 0;  ///< of the facets that the graph is made of
   Lubrication lubrication_;
-
-  // State, by facet.
-  std::vector<double> mass_;      ///< [kg/m]
-  std::vector<double> unknown_;   ///< v of crack_liquid.hpp [Pa]
-  std::vector<double> settled_;   ///< v after the last window of some length: where Newton begins
-  std::vector<double> aperture_;  ///< [m]
+  FacetFluid facets_;
   FaceWork face_work_;
-  // State, since the start.
-  std::int64_t has_begun_ = 0;
-  CompensatedSum injected_, leaked_, work_, dissipation_;
+  std::int64_t has_begun_ = 0;  ///< state: what holds fluid at the start has been filled
+  CrackBooks books_;
   double leak_off_rate_ = 0.0;  ///< mean of the last window of some length [m^2/s]
-
-  // The input and its companions.
-  std::vector<double> opening_, opening_rate_, opening_slope_;
-  // Outputs, made when they are asked for.
-  std::vector<double> pressure_, wetted_fraction_, flow_rate_, viscosity_, leak_off_coefficient_;
-  std::vector<double> scalars_;  ///< by port
+  OpeningInput opening_;
 };
 
 }  // namespace perifrac

@@ -1,5 +1,7 @@
 #include "modules/crack_fluid/face_work.hpp"
 
+#include "core/state/visit_each.hpp"
+
 namespace perifrac {
 
 void FaceWork::add_new(const Lubrication& before) {
@@ -28,15 +30,11 @@ double FaceWork::book(const Lubrication& now, Index f) {
 }
 
 void FaceWork::visit_state(StateVisitor& visitor) {
-  std::vector<double> numbers;
-  for (const Facet& facet : facets_) {
-    numbers.insert(numbers.end(), {facet.opening, facet.pressure, facet.fluid_follows ? 1.0 : 0.0});
-  }
-  visitor.visit("face_work", numbers);
-  facets_.resize(numbers.size() / 3);
-  for (std::size_t f = 0; f < facets_.size(); ++f) {
-    facets_[f] = {numbers[3 * f], numbers[3 * f + 1], numbers[3 * f + 2] != 0.0};
-  }
+  visit_each(
+      visitor, "face_work", facets_,
+      FieldOfEach("opening", [](Facet& facet) -> double& { return facet.opening; }),
+      FieldOfEach("pressure", [](Facet& facet) -> double& { return facet.pressure; }),
+      FieldOfEach("fluid_follows", [](Facet& facet) -> bool& { return facet.fluid_follows; }));
 }
 
 }  // namespace perifrac

@@ -100,30 +100,6 @@ void Lubrication::leak(LeakOff& leak_off) {
   by_pressure_.insert(by_pressure_.end(), leaked_.by_pressure.begin(), leaked_.by_pressure.end());
 }
 
-void Lubrication::find_conductances(std::span<const CrackGraph::Branch> joint,
-                                    std::span<const double> aperture) {
-  conductance_.resize(joint.size());
-  growth_.resize(joint.size());
-  partner_.resize(joint.size());
-  sum_ = 0.0;
-  for (std::size_t a = 0; a < joint.size(); ++a) {
-    double widest = 0.0;
-    for (std::size_t b = 0; b < joint.size(); ++b) {
-      const Index other = joint[b].facet;
-      if (b == a || aperture[other] <= widest) continue;
-      widest = aperture[other];
-      partner_[a] = other;
-    }
-    const double w = 0.5 * (aperture[joint[a].facet] + widest);
-    // From the middle to the side is half the area over the side's width.
-    const double width = joint[a].width;
-    const double way = 0.5 * graph_.area(joint[a].facet) / width;
-    conductance_[a] = width * w * w * w / (12.0 * liquid_.viscosity * way);
-    growth_[a] = 1.5 * conductance_[a] / w;
-    sum_ += conductance_[a];
-  }
-}
-
 void Lubrication::flow(double dt) {
   const std::span pressure(pressure_.data(), pressure_.size());
   const std::span aperture(aperture_.data(), aperture_.size());
@@ -138,7 +114,7 @@ void Lubrication::flow(double dt) {
                   rounding_[b.facet] += std::abs(passed);
                 });
   for (std::size_t k = 0; k < graph_.joint_count(); ++k) {
-    find_conductances(graph_.joint(k), aperture);
+    at_joint_.find(graph_.joint(k), aperture, graph_, liquid_.viscosity);
     differentiate_joint(graph_.joint(k), dt);
   }
 }
@@ -156,6 +132,7 @@ double Lubrication::rounding_of_fall(Index from, Index to) const {
 }
 
 void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt) {
+  const auto& [conductance, growth, partner, sum] = at_joint_;
   for (std::size_t a = 0; a < joint.size(); ++a) {
     for (std::size_t b = 0; b < joint.size(); ++b) {
       if (a == b) continue;
@@ -165,19 +142,19 @@ void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint,
       const double fall = pressure_[from] - pressure_[to];
       const Index upstream = fall >= 0.0 ? from : to;
       const double density = liquid_.density_at(pressure_[upstream]);
-      const double g = conductance_[a] * conductance_[b] / sum_;
+      const double g = conductance[a] * conductance[b] / sum;
       rounding_[from] += dt * density * g * rounding_of_fall(from, to);
       by_pressure_.emplace_back(from, from, dt * density * g);
       by_pressure_.emplace_back(from, to, -dt * density * g);
       by_pressure_.emplace_back(from, upstream,
                                 dt * liquid_.density / liquid_.bulk_modulus * g * fall);
       for (std::size_t m = 0; m < joint.size(); ++m) {
-        double by_conductance = -g / sum_;
-        if (m == a) by_conductance += conductance_[b] / sum_;
-        if (m == b) by_conductance += conductance_[a] / sum_;
-        const double slope = dt * density * fall * by_conductance * growth_[m];
+        double by_conductance = -g / sum;
+        if (m == a) by_conductance += conductance[b] / sum;
+        if (m == b) by_conductance += conductance[a] / sum;
+        const double slope = dt * density * fall * by_conductance * growth[m];
         by_aperture_.emplace_back(from, joint[m].facet, slope);
-        by_aperture_.emplace_back(from, partner_[m], slope);
+        by_aperture_.emplace_back(from, partner[m], slope);
       }
     }
   }

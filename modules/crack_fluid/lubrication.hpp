@@ -9,6 +9,7 @@
 #include "core/module/time_window.hpp"
 #include "modules/crack_fluid/crack_graph.hpp"
 #include "modules/crack_fluid/crack_liquid.hpp"
+#include "modules/crack_fluid/joint_conductances.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 
 namespace perifrac {
@@ -94,21 +95,20 @@ class Lubrication {
                      Use&& use) {
     for (std::size_t k = 0; k < graph_.joint_count(); ++k) {
       const auto joint = graph_.joint(k);
-      find_conductances(joint, aperture);
+      at_joint_.find(joint, aperture, graph_, liquid_.viscosity);
       for (std::size_t a = 0; a < joint.size(); ++a) {
         for (std::size_t b = a + 1; b < joint.size(); ++b) {
           const double fall = pressure[joint[a].facet] - pressure[joint[b].facet];
           const double upstream = pressure[joint[fall >= 0.0 ? a : b].facet];
           use(joint[a], joint[b],
-              liquid_.density_at(upstream) * conductance_[a] * conductance_[b] / sum_ * fall);
+              liquid_.density_at(upstream) * at_joint_.conductance[a] * at_joint_.conductance[b] /
+                  at_joint_.sum * fall);
         }
       }
     }
   }
 
  private:
-  void find_conductances(std::span<const CrackGraph::Branch> joint,
-                         std::span<const double> aperture);
   void store(const LubricationStep& step);
   void open(const LubricationStep& step);
   void leak(LeakOff& leak_off);
@@ -136,11 +136,7 @@ class Lubrication {
   };
   std::vector<Held> held_;
 
-  // Of the branches at the joint at hand.
-  std::vector<double> conductance_;  ///< c [m^2/(Pa s)]
-  std::vector<double> growth_;       ///< dc / d(aperture), own and partner's alike
-  std::vector<Index> partner_;       ///< facet whose aperture makes the mean with its own
-  double sum_ = 0.0;
+  JointConductances at_joint_;  ///< at hand
 };
 
 }  // namespace perifrac

@@ -40,14 +40,14 @@ PoreLeakOff<D>::PoreLeakOff(std::shared_ptr<const Body<D>> body, double density,
       sealed_(std::move(sealed)),
       received_(body_->points().size()) {
   // Where nobody writes them, the pores are empty and closed.
-  for (auto* input : {&pressure_, &pressure_rate_, &pressure_slope_, &mobility_}) {
+  for (auto* input : {&pressure_.value, &pressure_.rate, &pressure_.slope, &mobility_}) {
     input->resize(body_->points().size());
   }
 }
 
 template <int D>
 PortView PoreLeakOff<D>::pore_pressure() {
-  return {&body_->point_set(), pressure_, pressure_rate_, pressure_slope_};
+  return {&body_->point_set(), pressure_.value, pressure_.rate, pressure_.slope};
 }
 
 template <int D>
@@ -98,9 +98,9 @@ void PoreLeakOff<D>::begin(const TimeWindow& step) {
   step_ = step;
   for (std::size_t n = 0; n < touched_.size(); ++n) {
     const Index i = touched_[n];
-    const double answer = pressure_[i] + pressure_slope_[i] * received_[i];
-    base_[n] = answer + pressure_rate_[i] * (step.end - window_.end);
-    base_before_[n] = answer + pressure_rate_[i] * (step.begin - window_.end);
+    const double answer = pressure_.value[i] + pressure_.slope[i] * received_[i];
+    base_[n] = answer + pressure_.rate[i] * (step.end - window_.end);
+    base_before_[n] = answer + pressure_.rate[i] * (step.begin - window_.end);
   }
 }
 
@@ -119,7 +119,7 @@ void PoreLeakOff<D>::evaluate(const Eigen::VectorXd& pressure, const Eigen::Vect
     mean_[n] += conductance_[k] * pressure[f];
   }
   for (std::size_t n = 0; n < touched_.size(); ++n) {
-    const double slope = pressure_slope_[touched_[n]];
+    const double slope = pressure_.slope[touched_[n]];
     mean_[n] = (base_[n] + slope * mean_[n]) / (1.0 + slope * sum_[n]);
   }
   leaked.mass.setZero();
@@ -141,7 +141,7 @@ void PoreLeakOff<D>::differentiate(LeakedFluid& leaked) const {
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const Index n = contacts_[k].touched;
     if (contacts_[first].touched != n) first = k;
-    const double slope = pressure_slope_[touched_[n]];
+    const double slope = pressure_.slope[touched_[n]];
     const double answer = slope / (1.0 + slope * sum_[n]);
     for (std::size_t l = first; l < contacts_.size() && contacts_[l].touched == n; ++l) {
       leaked.by_pressure.emplace_back(contacts_[k].facet, contacts_[l].facet,

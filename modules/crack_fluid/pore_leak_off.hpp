@@ -70,7 +70,10 @@ class PoreLeakOff final : public LeakOff {
   std::vector<double> flux_;         ///< [kg/m]
 
   std::vector<double> received_;
-  std::vector<double> pressure_, pressure_rate_, pressure_slope_, mobility_;
+  struct {
+    std::vector<double> value, rate, slope;
+  } pressure_;  ///< of every point: the input and its companions
+  std::vector<double> mobility_;
 };
 
 }  // namespace perifrac

@@ -50,7 +50,7 @@ FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vecto
       wall_motion_(std::move(cloud), std::move(rigid), body_points),
       openings_(std::move(openings)),
       wall_force_(std::move(wall_force)),
-      exchange_(std::move(exchange)),
+      exchange_{.law = std::move(exchange)},
       damaged_walls_(std::move(damaged_walls)),
       neighbours_(scheme.horizon, skin * scheme.spacing, std::move(period)) {
   moments_.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon);
@@ -61,7 +61,7 @@ void FluidDynamics<D>::start_totals() {
   const std::size_t points = wall_motion_.body_points();
   if (points == 0) return;
   impulse_.assign(D * points, 0.0);
-  if (exchange_) exchanged_mass_.assign(points, 0.0);
+  if (exchange_.law) exchange_.mass.assign(points, 0.0);
 }
 
 /// A fluid point's pressure and that of the pores about it approach each other at a rate of up to
@@ -69,9 +69,9 @@ void FluidDynamics<D>::start_totals() {
 template <int D>
 void FluidDynamics<D>::set_pores(const PoreInput& pores) {
   const ProfileScope profiled("exchange with pores");
-  pores_ = pores;
+  exchange_.pores = pores;
   if (pores.mobility.empty()) return;
-  pores_.mass = exchanged_mass_;
+  exchange_.pores.mass = exchange_.mass;
   const WallCloud<D>& cloud = wall_motion_.cloud();
   double fastest = 0.0;
   for (Index w = cloud.rigid_count; w < cloud.size(); ++w) {
@@ -80,7 +80,7 @@ void FluidDynamics<D>::set_pores(const PoreInput& pores) {
     fastest = std::max(fastest, pores.mobility[i] * (fluid_.bulk_modulus + of_pores));
   }
   const double width = 0.4 * scheme_.horizon;
-  longest_exchange_ = width * width / (4.0 * fastest);
+  exchange_.longest_step = width * width / (4.0 * fastest);
 }
 
 template <int D>
@@ -102,7 +102,7 @@ double FluidDynamics<D>::longest_step(double t) const {
   const double diffusion =
       std::max(kinematic, scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing);
   const double square = scheme_.spacing * scheme_.spacing;
-  return std::min({scheme_.courant * scheme_.spacing / speed, longest_exchange_,
+  return std::min({scheme_.courant * scheme_.spacing / speed, exchange_.longest_step,
                    diffusion > 0.0 ? 0.25 / D * square / diffusion : 1e300});
 }
 
@@ -114,7 +114,7 @@ void FluidDynamics<D>::step(double t, double length) {
   wall_motion_.place(middle, neighbours_.wall_images(), walls_);
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
-  if (exchange_ || openings_.mouths) remove_small_points(middle);
+  if (exchange_.law || openings_.mouths) remove_small_points(middle);
   find_moments<D>(points_, walls_, neighbours_, influence_, moments_);
   find_densities(middle, length);
   kick(middle, length);
@@ -122,15 +122,15 @@ void FluidDynamics<D>::step(double t, double length) {
     shift_points<D>(step_view(), walls_, scheme_.shifting, length, points_);
   }
   drift(0.5 * length);
-  if (openings_.inlets || exchange_ || openings_.mouths) insert_points(t + length);
+  if (openings_.inlets || exchange_.law || openings_.mouths) insert_points(t + length);
 }
 
 template <int D>
 void FluidDynamics<D>::remove_small_points(double t) {
   const double whole = fluid_.density * std::pow(scheme_.spacing, D);
-  const Index soaked = exchange_ ? soak_points<D>(step_view(), walls_, remnant * whole, points_,
-                                                  exchanged_mass_, impulse_)
-                                 : 0;
+  const Index soaked = exchange_.law ? soak_points<D>(step_view(), walls_, remnant * whole, points_,
+                                                      exchange_.mass, impulse_)
+                                     : 0;
   const Index merged = merge_points(points_, neighbours_, influence_, scheme_.merge_below * whole);
   if (soaked + merged == 0) return;
   points_.remove_if([&](Index i) { return points_.mass[i] == 0.0; });
@@ -185,12 +185,12 @@ FluidStep<D> FluidDynamics<D>::step_view() const {
 template <int D>
 void FluidDynamics<D>::exchange_mass(double t, double length) {
   const ProfileScope profiled("exchange with pores");
-  mass_rate_.assign(points_.count, 0.0);
+  exchange_.mass_rate.assign(points_.count, 0.0);
   walls_.mass_rate.assign(walls_.count, 0.0);
   for (auto& values : walls_.momentum_rate) values.assign(walls_.count, 0.0);
-  exchange_->find(step_view(), pores_, t, walls_, mass_rate_);
+  exchange_.law->find(step_view(), exchange_.pores, t, walls_, exchange_.mass_rate);
   for (Index i = 0; i < points_.count; ++i) {
-    const double gained = length * mass_rate_[i];
+    const double gained = length * exchange_.mass_rate[i];
     points_.density[i] += gained / points_.volume[i];
     points_.mass[i] += gained;
     if (!(points_.mass[i] > 0.0)) {
@@ -198,28 +198,28 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
                            "more flows into the pores in a step than there is");
     }
   }
-  if (exchange_->keeps_mass()) even_masses_.step(step_view(), length, points_);
+  if (exchange_.law->keeps_mass()) even_masses_.step(step_view(), length, points_);
   const WallCloud<D>& cloud = wall_motion_.cloud();
   for (Index k = 0; k < walls_.count; ++k) {
     const Index w = walls_.wall[k];
     if (cloud.is_rigid(w)) continue;
-    exchanged_mass_[cloud.owner[w]] += length * walls_.mass_rate[k];
+    exchange_.mass[cloud.owner[w]] += length * walls_.mass_rate[k];
     for (int a = 0; a < D; ++a) {
-      impulse_[a * exchanged_mass_.size() + cloud.owner[w]] += length * walls_.momentum_rate[a][k];
+      impulse_[a * exchange_.mass.size() + cloud.owner[w]] += length * walls_.momentum_rate[a][k];
     }
   }
-  if (exchange_->keeps_mass()) return;
+  if (exchange_.law->keeps_mass()) return;
   double made = 0.0;
-  for (const double rate : mass_rate_) made += rate;
+  for (const double rate : exchange_.mass_rate) made += rate;
   for (const double rate : walls_.mass_rate) made += rate;
-  made_mass_ += length * made;
+  exchange_.made += length * made;
 }
 
 /// As what passes into pores, it comes from few points, which the others make up for.
 template <int D>
 void FluidDynamics<D>::feed_cracks(double length) {
   openings_.mouths->give(points_, length, impulse_);
-  if (!exchange_) even_masses_.step(step_view(), length, points_);
+  if (!exchange_.law) even_masses_.step(step_view(), length, points_);
 }
 
 /// Continuity (paper Eq 20), diffusion of density, and what passes into the pores; then pressures.
@@ -228,7 +228,7 @@ void FluidDynamics<D>::find_densities(double t, double length) {
   const PeriodicImages<D>& images = neighbours_.images();
   images.copy(moments_.trace, points_.count);
   const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
-  if (exchange_) exchange_mass(t, length);
+  if (exchange_.law) exchange_mass(t, length);
   if (openings_.mouths) feed_cracks(length);
   if (openings_.inlets) openings_.inlets->feed(points_, t, length);
   const double unpacking = unpacking_rate * fluid_.sound_speed() / scheme_.spacing;
@@ -297,7 +297,7 @@ void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("id", points_.id);
   visitor.visit("next_id", points_.next_id);
   points_.count = static_cast<Index>(points_.mass.size());
-  if (!exchange_keeps_mass()) visitor.visit("made_mass", made_mass_);
+  if (!exchange_keeps_mass()) visitor.visit("made_mass", exchange_.made);
   openings_.visit_state(visitor);
   wall_motion_.visit_state(visitor);
 }

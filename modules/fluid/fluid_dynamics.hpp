@@ -44,10 +44,10 @@ class FluidDynamics {
   /// All but `mass`, once the totals were started.
   void set_pores(const PoreInput& pores);
   const std::vector<double>& impulse() const { return impulse_; }
-  const std::vector<double>& exchanged_mass() const { return exchanged_mass_; }
-  bool exchange_keeps_mass() const { return !exchange_ || exchange_->keeps_mass(); }
+  const std::vector<double>& exchanged_mass() const { return exchange_.mass; }
+  bool exchange_keeps_mass() const { return !exchange_.law || exchange_.law->keeps_mass(); }
   /// What the exchange made since the start [kg].
-  double made_mass() const { return made_mass_; }
+  double made_mass() const { return exchange_.made; }
 
   /// The longest stable step now [s]. Throws NumericalError where a velocity is not finite.
   double longest_step(double t) const;
@@ -90,21 +90,24 @@ class FluidDynamics {
   WallMotion<D> wall_motion_;
   FluidOpenings<D> openings_;
   std::unique_ptr<WallForce<D>> wall_force_;
-  std::unique_ptr<Exchange<D>> exchange_;
+  struct PoreExchange {
+    std::unique_ptr<Exchange<D>> law;  ///< null: nothing passes
+    PoreInput pores{};
+    std::vector<double> mass_rate{};  ///< of the fluid's points, with images [kg/s]
+    std::vector<double> mass{};       ///< that passed, by point of the body [kg]
+    double made = 0.0;                ///< what the law made since the start [kg]
+    double longest_step = std::numeric_limits<double>::infinity();  ///< [s]
+  };
+  PoreExchange exchange_;
   std::unique_ptr<DamagedWalls<D>> damaged_walls_;  ///< null: they are as intact ones
-  PoreInput pores_;
 
   FluidNeighbours<D> neighbours_;
   NearWalls<D> walls_;
   FluidMoments<D> moments_;
   std::array<std::vector<double>, symmetric_size<D>> stress_;
   std::array<std::vector<double>, D> force_;
-  std::vector<double> mass_rate_;
   EvenMasses<D> even_masses_;
   std::vector<double> impulse_;
-  std::vector<double> exchanged_mass_;
-  double made_mass_ = 0.0;
-  double longest_exchange_ = std::numeric_limits<double>::infinity();  ///< step [s]
   std::int64_t merged_ = 0;
   std::uint64_t version_ = 1;
 };

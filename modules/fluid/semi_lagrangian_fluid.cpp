@@ -14,72 +14,174 @@ template <int D>
 SemiLagrangianFluid<D>::SemiLagrangianFluid(std::shared_ptr<const Body<D>> body, bool exchanges,
                                             std::unique_ptr<FluidDynamics<D>> dynamics)
     : body_(std::move(body)), dynamics_(std::move(dynamics)) {
-  using enum PortDirection;
-  using enum PortKind;
-  const auto total = [](const char* unit) { return unit_of_total(unit, D); };
-  add_port(Quantity::pressure, {"fluid_pressure", "Pa", out});
-  add_port(Quantity::velocity, {"fluid_velocity", "m/s", out, intensive, PortRole::field, D});
-  add_port(Quantity::density, {"fluid_density", "kg/m^3", out});
-  add_port(Quantity::mass, {"fluid_mass", total("kg"), out, extensive});
-  add_port(Quantity::free_mass,
-           {"free_fluid_mass", total("kg"), out, extensive, PortRole::mass_stored});
-  const FluidOpenings<D>& openings = dynamics_->openings();
-  if (openings.inlets) {
-    add_port(Quantity::injected_mass,
-             {"injected_fluid_mass", total("kg"), out, extensive, PortRole::mass_gained});
-  }
-  if (openings.may_lose()) {
-    add_port(Quantity::removed_mass,
-             {"removed_fluid_mass", total("kg"), out, extensive, PortRole::mass_gained});
-  }
-  if (openings.domain.may_lose()) {
-    add_port(Quantity::points_left, {"points_left", "1", out, extensive, PortRole::work});
-  }
-  add_port(Quantity::steps, {"integrator_steps", "1", out, extensive, PortRole::work});
-  add_port(Quantity::searches, {"neighbour_searches", "1", out, extensive, PortRole::work});
-  if (body_) {
-    add_port(Quantity::displacement, {"displacement", "m", in, intensive, PortRole::field, D});
-    add_port(Quantity::interface_impulse,
-             {"interface_impulse", total("N s"), out, extensive, PortRole::field, D});
-  }
-  if (dynamics_->enters_damaged_walls()) add_port(Quantity::damage, {"damage", "1", in});
-  if (exchanges) {
-    add_port(Quantity::pore_pressure, {"pore_pressure", "Pa", in});
-    add_port(Quantity::pore_mobility, {"pore_mobility", "m^2/(Pa s)", in});
-    add_port(Quantity::exchanged_mass, {"exchanged_mass", total("kg"), out, extensive});
-    if (!dynamics_->exchange_keeps_mass()) {
-      add_port(Quantity::made_mass,
-               {"mass_made_by_exchange", total("kg"), out, extensive, PortRole::mass_artificial});
-    }
-    add_port(Quantity::merged, {"merged_points", "1", out, extensive, PortRole::work});
-    // Where nobody writes them, the pores are empty and closed.
-    for (auto* input :
-         {&pore_pressure_, &pore_pressure_rate_, &pore_pressure_slope_, &pore_mobility_}) {
-      input->resize(body_->points().size());
-    }
-  }
-  if (openings.mouths) {
-    using enum PortRole;
-    add_port(Quantity::mouth_pressure, {"mouth_pressure", "Pa", out, intensive, property});
-    add_port(Quantity::mouth_stiffness,
-             {"mouth_stiffness", D == 2 ? "Pa m/kg" : "Pa/kg", out, intensive, property});
-    add_port(Quantity::mouth_intake, {"mouth_intake", total("kg"), in, extensive, property});
-    add_port(Quantity::given_mass,
-             {"mass_given_to_cracks", total("kg"), out, extensive, mass_stored});
-  }
-  for (const RigidWall<D>& wall : dynamics_->rigid_walls()) {
-    if (wall.motion != RigidWall<D>::Motion::piston) continue;
-    add_port(Quantity::piston,
-             {wall.name + "_displacement", "m", out, intensive, PortRole::field, D});
-  }
-  scalars_.resize(ports_.size() * D);
   point_set_ = {.name = "fluid", .dimension = D};
+  make_ports(exchanges);
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::add_port(Quantity quantity, Port port) {
-  quantities_.push_back(quantity);
-  ports_.push_back(std::move(port));
+void SemiLagrangianFluid<D>::make_ports(bool exchanges) {
+  make_point_ports();
+  make_total_ports();
+  if (body_) make_body_ports();
+  if (exchanges) make_pore_ports();
+  if (dynamics_->openings().mouths) make_mouth_ports();
+  make_piston_ports();
+}
+
+/// On its own moving points.
+template <int D>
+void SemiLagrangianFluid<D>::make_point_ports() {
+  const auto found = [this](Port port, auto find) {
+    ports_.out(std::move(port), [this, find, values = std::vector<double>()]() mutable {
+      values.clear();
+      find(dynamics_->points(), values);
+      return PortView{&moving_points(), values};
+    });
+  };
+  const auto append = [](std::vector<double>& values, const std::vector<double>& more,
+                         Index count) {
+    values.insert(values.end(), more.begin(), more.begin() + count);
+  };
+  found({"fluid_pressure", "Pa"}, [this](const FluidPoints<D>& points, auto& values) {
+    for (Index i = 0; i < points.count; ++i) {
+      values.push_back(dynamics_->fluid().pressure(points.density[i]));
+    }
+  });
+  found({.name = "fluid_velocity", .unit = "m/s", .components = D},
+        [append](const FluidPoints<D>& points, auto& values) {
+          for (int a = 0; a < D; ++a) append(values, points.velocity[a], points.count);
+        });
+  found({"fluid_density", "kg/m^3"}, [append](const FluidPoints<D>& points, auto& values) {
+    append(values, points.density, points.count);
+  });
+  found({.name = "fluid_mass", .unit = unit_of_total("kg", D), .kind = PortKind::extensive},
+        [](const FluidPoints<D>& points, auto& values) { values = points.mass; });
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::make_total_ports() {
+  const FluidOpenings<D>& openings = dynamics_->openings();
+  const auto mass = [this](const char* name, PortRole role, std::function<double()> find) {
+    ports_.total(total_port(name, "kg", role, D), whole_fluid, std::move(find));
+  };
+  mass("free_fluid_mass", PortRole::mass_stored, [this] {
+    double sum = 0.0;
+    for (const double mass : dynamics_->points().mass) sum += mass;
+    return sum;
+  });
+  if (openings.inlets) {
+    mass("injected_fluid_mass", PortRole::mass_gained,
+         [&openings] { return openings.inlets->injected(); });
+  }
+  if (openings.may_lose()) {
+    mass("removed_fluid_mass", PortRole::mass_gained, [&openings] {
+      return -openings.domain.removed() - (openings.outlets ? openings.outlets->removed() : 0.0);
+    });
+  }
+  if (openings.domain.may_lose()) {
+    ports_.total(work_port("points_left"), whole_fluid,
+                 [&openings] { return static_cast<double>(openings.domain.points_left()); });
+  }
+  ports_.total(work_port("integrator_steps"), whole_fluid,
+               [this] { return static_cast<double>(steps_); });
+  ports_.total(work_port("neighbour_searches"), whole_fluid,
+               [this] { return static_cast<double>(dynamics_->searches()); });
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::make_body_ports() {
+  const PointSet* const body = &body_->point_set();
+  const std::size_t count = body_->points().size();
+  ports_.in(
+      {.name = "displacement", .unit = "m", .components = D},
+      [this, count] {
+        displacement_.resize(D * count);
+        displacement_rate_.resize(D * count);
+      },
+      [this, body] {
+        return PortView{body, displacement_, displacement_rate_};
+      });
+  ports_.found({.name = "interface_impulse",
+                .unit = unit_of_total("N s", D),
+                .kind = PortKind::extensive,
+                .components = D},
+               *body, [this](std::vector<double>& impulse) { impulse = dynamics_->impulse(); });
+  if (!dynamics_->enters_damaged_walls()) return;
+  ports_.in(
+      {"damage", "1"},
+      [this, count] {
+        damage_.resize(count);
+        damage_rate_.resize(count);
+      },
+      [this, body] {
+        return PortView{body, damage_, damage_rate_};
+      });
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::make_pore_ports() {
+  const PointSet* const body = &body_->point_set();
+  // Where nobody writes them, the pores are empty and closed.
+  for (auto* input :
+       {&pore_pressure_, &pore_pressure_rate_, &pore_pressure_slope_, &pore_mobility_}) {
+    input->resize(body_->points().size());
+  }
+  ports_.in(
+      {"pore_pressure", "Pa"}, [] {},
+      [this, body] {
+        return PortView{body, pore_pressure_, pore_pressure_rate_, pore_pressure_slope_};
+      });
+  ports_.in(
+      {"pore_mobility", "m^2/(Pa s)"}, [] {},
+      [this, body] {
+        return PortView{body, pore_mobility_};
+      });
+  ports_.found(
+      {.name = "exchanged_mass", .unit = unit_of_total("kg", D), .kind = PortKind::extensive},
+      *body, [this](std::vector<double>& mass) { mass = dynamics_->exchanged_mass(); });
+  if (!dynamics_->exchange_keeps_mass()) {
+    ports_.total(total_port("mass_made_by_exchange", "kg", PortRole::mass_artificial, D),
+                 whole_fluid, [this] { return dynamics_->made_mass(); });
+  }
+  ports_.total(work_port("merged_points"), whole_fluid,
+               [this] { return static_cast<double>(dynamics_->merged()); });
+}
+
+/// Where cracks open into it.
+template <int D>
+void SemiLagrangianFluid<D>::make_mouth_ports() {
+  FluidMouths<D>* const mouths = dynamics_->mouths();
+  const auto property = [](const char* name, const std::string& unit, PortKind kind) {
+    return Port{.name = name, .unit = unit, .kind = kind, .role = PortRole::property};
+  };
+  Port pressure = property("mouth_pressure", "Pa", PortKind::intensive);
+  pressure.negligible = negligible_pressure;
+  ports_.out(std::move(pressure), [this, mouths] {
+    return PortView{&mouths->points(), mouths->pressure(dynamics_->points(), dynamics_->fluid())};
+  });
+  ports_.out(property("mouth_stiffness", D == 2 ? "Pa m/kg" : "Pa/kg", PortKind::intensive),
+             [this, mouths] {
+               return PortView{&mouths->points(),
+                               mouths->stiffness(dynamics_->points(), dynamics_->fluid())};
+             });
+  ports_.in(
+      property("mouth_intake", unit_of_total("kg", D), PortKind::extensive), [] {},
+      [mouths] {
+        return PortView{&mouths->points(), mouths->intake()};
+      });
+  ports_.total(total_port("mass_given_to_cracks", "kg", PortRole::mass_stored, D), whole_fluid,
+               [mouths] { return mouths->given(); });
+}
+
+template <int D>
+void SemiLagrangianFluid<D>::make_piston_ports() {
+  for (const RigidWall<D>& wall : dynamics_->rigid_walls()) {
+    if (wall.motion != RigidWall<D>::Motion::piston) continue;
+    ports_.found({.name = wall.name + "_displacement", .unit = "m", .components = D}, whole_fluid,
+                 [&wall](std::vector<double>& displacement) {
+                   displacement.assign(wall.displacement.begin(), wall.displacement.end());
+                 });
+  }
 }
 
 template <int D>
@@ -94,140 +196,9 @@ const PointSet& SemiLagrangianFluid<D>::moving_points() {
 }
 
 template <int D>
-std::vector<double>& SemiLagrangianFluid<D>::field(Quantity quantity) {
-  const FluidPoints<D>& points = dynamics_->points();
-  const auto first = [&](const std::vector<double>& values) {
-    return std::span(values).first(points.count);
-  };
-  switch (quantity) {
-    case Quantity::pressure:
-      pressure_.resize(points.count);
-      for (Index i = 0; i < points.count; ++i) {
-        pressure_[i] = dynamics_->fluid().pressure(points.density[i]);
-      }
-      return pressure_;
-    case Quantity::velocity:
-      velocity_.clear();
-      for (int a = 0; a < D; ++a) {
-        const auto values = first(points.velocity[a]);
-        velocity_.insert(velocity_.end(), values.begin(), values.end());
-      }
-      return velocity_;
-    case Quantity::density: {
-      const auto values = first(points.density);
-      density_.assign(values.begin(), values.end());
-      return density_;
-    }
-    default:
-      mass_ = points.mass;
-      return mass_;
-  }
-}
-
-template <int D>
-double SemiLagrangianFluid<D>::scalar(Quantity quantity, PortId) {
-  const FluidOpenings<D>& openings = dynamics_->openings();
-  switch (quantity) {
-    case Quantity::injected_mass:
-      return openings.inlets->injected();
-    case Quantity::removed_mass:
-      return -openings.domain.removed() - (openings.outlets ? openings.outlets->removed() : 0.0);
-    case Quantity::points_left:
-      return static_cast<double>(openings.domain.points_left());
-    case Quantity::free_mass: {
-      double sum = 0.0;
-      for (const double mass : dynamics_->points().mass) sum += mass;
-      return sum;
-    }
-    case Quantity::given_mass:
-      return openings.mouths->given();
-    case Quantity::steps:
-      return static_cast<double>(steps_);
-    case Quantity::made_mass:
-      return dynamics_->made_mass();
-    case Quantity::merged:
-      return static_cast<double>(dynamics_->merged());
-    default:
-      return static_cast<double>(dynamics_->searches());
-  }
-}
-
-template <int D>
-PortView SemiLagrangianFluid<D>::mouth_port(Quantity quantity) {
-  FluidMouths<D>& mouths = *dynamics_->mouths();
-  if (quantity == Quantity::mouth_intake) return {&mouths.points(), mouths.intake()};
-  if (quantity == Quantity::mouth_stiffness) {
-    return {&mouths.points(), mouths.stiffness(dynamics_->points(), dynamics_->fluid())};
-  }
-  return {&mouths.points(), mouths.pressure(dynamics_->points(), dynamics_->fluid())};
-}
-
-template <int D>
-PortView SemiLagrangianFluid<D>::port(PortId id) {
-  const Quantity quantity = quantities_[id];
-  const PointSet* const body = body_ ? &body_->point_set() : nullptr;
-  switch (quantity) {
-    case Quantity::pressure:
-    case Quantity::velocity:
-    case Quantity::density:
-    case Quantity::mass: {
-      std::vector<double>& values = field(quantity);
-      return {&moving_points(), values};
-    }
-    case Quantity::displacement:
-      return {body, displacement_, displacement_rate_};
-    case Quantity::damage:
-      return {body, damage_, damage_rate_};
-    case Quantity::pore_pressure:
-      return {body, pore_pressure_, pore_pressure_rate_, pore_pressure_slope_};
-    case Quantity::pore_mobility:
-      return {body, pore_mobility_};
-    case Quantity::interface_impulse:
-      impulse_ = dynamics_->impulse();
-      return {body, impulse_};
-    case Quantity::exchanged_mass:
-      exchanged_mass_ = dynamics_->exchanged_mass();
-      return {body, exchanged_mass_};
-    case Quantity::mouth_pressure:
-    case Quantity::mouth_stiffness:
-    case Quantity::mouth_intake:
-      return mouth_port(quantity);
-    case Quantity::piston: {
-      int piston = static_cast<int>(ports_.size()) - 1 - id;
-      const auto& walls = dynamics_->rigid_walls();
-      for (std::size_t r = walls.size(); r-- > 0;) {
-        if (walls[r].motion != RigidWall<D>::Motion::piston || piston-- > 0) continue;
-        std::copy_n(walls[r].displacement.begin(), D, scalars_.begin() + id * D);
-        break;
-      }
-      return {&whole_fluid, std::span(scalars_).subspan(id * D, D)};
-    }
-    default:
-      scalars_[id * D] = scalar(quantity, id);
-      return {&whole_fluid, std::span(scalars_).subspan(id * D, 1)};
-  }
-}
-
-template <int D>
 void SemiLagrangianFluid<D>::initialize(double t) {
   time_ = t;
   dynamics_->start_totals();
-}
-
-template <int D>
-void SemiLagrangianFluid<D>::connect(PortId in) {
-  const auto make_room = [](std::size_t count, std::initializer_list<std::vector<double>*> inputs) {
-    for (std::vector<double>* input : inputs) input->resize(count);
-  };
-  const std::size_t points = body_ ? body_->points().size() : 0;
-  switch (quantities_[in]) {
-    case Quantity::displacement:
-      return make_room(D * points, {&displacement_, &displacement_rate_});
-    case Quantity::damage:
-      return make_room(points, {&damage_, &damage_rate_});
-    default:  // others have room from the start
-      return;
-  }
 }
 
 template <int D>

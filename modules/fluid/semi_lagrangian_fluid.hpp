@@ -5,6 +5,7 @@
 
 #include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
+#include "core/module/port_table.hpp"
 #include "modules/fluid/fluid_dynamics.hpp"
 
 namespace perifrac {
@@ -29,53 +30,29 @@ class SemiLagrangianFluid final : public PhysicsModule {
   SemiLagrangianFluid(std::shared_ptr<const Body<D>> body, bool exchanges,
                       std::unique_ptr<FluidDynamics<D>> dynamics);
 
-  std::span<const Port> ports() const override { return ports_; }
-  PortView port(PortId id) override;
+  std::span<const Port> ports() const override { return ports_.list(); }
+  PortView port(PortId id) override { return ports_.view(id); }
   void initialize(double t) override;
-  void connect(PortId in) override;
+  void connect(PortId in) override { ports_.connect(in); }
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
+  bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor& visitor) override;
   void on_restored(double t) override;
 
  private:
-  enum class Quantity {
-    pressure,
-    velocity,
-    density,
-    mass,
-    free_mass,
-    injected_mass,
-    removed_mass,
-    points_left,
-    steps,
-    searches,
-    displacement,
-    interface_impulse,
-    damage,
-    pore_pressure,
-    pore_mobility,
-    exchanged_mass,
-    made_mass,
-    merged,
-    mouth_pressure,
-    mouth_stiffness,
-    mouth_intake,
-    given_mass,
-    piston
-  };
-
-  void add_port(Quantity quantity, Port port);
+  void make_ports(bool exchanges);
+  void make_point_ports();
+  void make_total_ports();
+  void make_body_ports();
+  void make_pore_ports();
+  void make_mouth_ports();
+  void make_piston_ports();
   const PointSet& moving_points();
-  std::vector<double>& field(Quantity quantity);
-  double scalar(Quantity quantity, PortId id);
-  PortView mouth_port(Quantity quantity);
 
   std::shared_ptr<const Body<D>> body_;
   std::unique_ptr<FluidDynamics<D>> dynamics_;
-  std::vector<Port> ports_;
-  std::vector<Quantity> quantities_;  ///< by port
-  PortId first_piston_ = 0;
+  PortTable ports_;
   double time_ = 0.0;           ///< [s]
   std::int64_t steps_ = 0;      ///< in this process
   std::uint64_t restored_ = 0;  ///< how often
@@ -86,10 +63,6 @@ class SemiLagrangianFluid final : public PhysicsModule {
   std::vector<double> pore_pressure_, pore_pressure_rate_, pore_pressure_slope_;
   std::vector<double> pore_mobility_;
   std::vector<double> damage_, damage_rate_;
-  // Outputs, made when they are asked for.
-  std::vector<double> impulse_, exchanged_mass_;
-  std::vector<double> pressure_, velocity_, density_, mass_;
-  std::vector<double> scalars_;  ///< by port
 };
 
 }  // namespace perifrac

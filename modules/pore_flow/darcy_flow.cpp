@@ -6,41 +6,6 @@ namespace perifrac {
 
 namespace {
 
-const std::vector<Port>& darcy_ports(int dimension) {
-  static const auto make = [](int d) -> std::vector<Port> {
-    const auto total = [d](const char* name, const char* unit, PortRole role) {
-      return Port{name, unit_of_total(unit, d), PortDirection::out, PortKind::extensive, role};
-    };
-    const auto count = [](const char* name) {
-      return Port{name, "1", PortDirection::out, PortKind::extensive, PortRole::work};
-    };
-    return {
-        {"dilatation", "1", PortDirection::in},
-        {"exchanged_mass", unit_of_total("kg", d), PortDirection::in, PortKind::extensive},
-        {"pore_pressure", "Pa", PortDirection::out},
-        {"pore_stress", "Pa", PortDirection::out},
-        {"fluid_content", "1", PortDirection::out},
-        {"darcy_velocity", "m/s", PortDirection::out, PortKind::intensive, PortRole::field, d},
-        {"pore_mobility", "m^2/(Pa s)", PortDirection::out, PortKind::intensive,
-         PortRole::property},
-        total("pore_fluid_mass", "kg", PortRole::mass_stored),
-        total("pore_fluid_at_rest", "kg", PortRole::mass_reference),
-        total("pore_fluid_gained", "kg", PortRole::mass_gained),
-        total("pore_fluid_energy", "J", PortRole::energy_stored),
-        total("pore_fluid_work", "J", PortRole::energy_gained),
-        total("darcy_dissipation", "J", PortRole::energy_dissipated),
-        count("integrator_steps"),
-        count("rhs_evaluations"),
-        count("newton_iterations"),
-        count("matrix_set_ups"),
-        count("linear_iterations"),
-        total("artificial_fluid_mass", "kg", PortRole::mass_artificial),
-    };
-  };
-  static const std::vector<Port> in_2d = make(2), in_3d = make(3);
-  return dimension == 2 ? in_2d : in_3d;
-}
-
 const PointSet whole_body{.name = "pore_flow"};
 
 }  // namespace
@@ -52,7 +17,9 @@ DarcyFlow<D>::DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> syst
     : body_(std::move(body)),
       system_(std::make_unique<DarcySystem<D>>(std::move(system))),
       integrator_(make_integrator(*system_)),
-      initial_pressure_(initial_pressure) {}
+      initial_pressure_(initial_pressure) {
+  make_ports();
+}
 
 template <int D>
 double DarcyFlow<D>::initial_pressure(Index i) const {
@@ -65,39 +32,106 @@ double DarcyFlow<D>::initial_pressure(Index i) const {
 }
 
 template <int D>
-std::span<const Port> DarcyFlow<D>::ports() const {
-  return std::span(darcy_ports(D)).first(system_->smooths() ? port_count : artificial_mass);
+void DarcyFlow<D>::make_ports() {
+  make_in_ports();
+  make_field_ports();
+  make_ledger_ports();
+  make_work_ports();
+  if (!system_->smooths()) return;
+  ports_.total(total_port("artificial_fluid_mass", "kg", PortRole::mass_artificial, D), whole_body,
+               [this] { return system_->fluid().density * system_->artificial_volume(unknowns_); });
 }
 
 template <int D>
-PortView DarcyFlow<D>::port(PortId id) {
+void DarcyFlow<D>::make_in_ports() {
   const PointSet* const points = &body_->point_set();
-  const std::size_t count = system_->points();
-  switch (id) {
-    case dilatation:
-      return {points, dilatation_, dilatation_rate_, dilatation_slope_};
-    case exchanged_mass:
-      return {points, system_->exchange().mass()};
-    case pore_pressure:
-      return {points, pressure_, {}, pressure_slope_};
-    case pore_stress:
-      if (!system_->storage().is_local()) return {points, pore_stress_};
-      return {points, pore_stress_, {}, pore_stress_slope_};
-    case fluid_content:
-      return {points, content()};
-    case darcy_velocity:
-      velocity_.resize(D * count);
-      system_->darcy_velocity(time_, pressure_, velocity_);
-      return {points, velocity_};
-    case pore_mobility:
-      if (mobility_.empty()) find_mobility();
-      return {points, mobility_};
-    default: {
-      double& value = scalars_[id - mass_stored];
-      value = id < integrator_steps || id == artificial_mass ? scalar(id) : work(id);
-      return {&whole_body, {&value, 1}};
+  ports_.in(
+      {"dilatation", "1"},
+      [this] {
+        for (auto* input : {&dilatation_, &dilatation_rate_, &dilatation_slope_}) {
+          input->resize(system_->points());
+        }
+      },
+      [this, points] {
+        return PortView{points, dilatation_, dilatation_rate_, dilatation_slope_};
+      });
+  ports_.in(
+      {.name = "exchanged_mass", .unit = unit_of_total("kg", D), .kind = PortKind::extensive},
+      [this] {
+        system_->exchange().connect(system_->points());
+        find_pressure_slope();
+      },
+      [this, points] {
+        return PortView{points, system_->exchange().mass()};
+      });
+}
+
+template <int D>
+void DarcyFlow<D>::make_field_ports() {
+  const PointSet* const points = &body_->point_set();
+  ports_.out({.name = "pore_pressure", .unit = "Pa", .negligible = negligible_pressure},
+             [this, points] {
+               return PortView{points, pressure_, {}, pressure_slope_};
+             });
+  ports_.out({.name = "pore_stress", .unit = "Pa", .negligible = negligible_pressure},
+             [this, points] {
+               if (!system_->storage().is_local()) return PortView{points, pore_stress_};
+               return PortView{points, pore_stress_, {}, pore_stress_slope_};
+             });
+  ports_.out({"fluid_content", "1"}, [this, points] { return PortView{points, content()}; });
+  ports_.found({.name = "darcy_velocity", .unit = "m/s", .components = D}, *points,
+               [this](std::vector<double>& velocity) {
+                 velocity.resize(D * system_->points());
+                 system_->darcy_velocity(time_, pressure_, velocity);
+               });
+  ports_.found({.name = "pore_mobility", .unit = "m^2/(Pa s)", .role = PortRole::property}, *points,
+               [this](std::vector<double>& values) {
+                 if (values.empty()) values = mobility();
+               });
+}
+
+template <int D>
+void DarcyFlow<D>::make_ledger_ports() {
+  const auto total = [this](const char* name, const char* unit, PortRole role,
+                            std::function<double()> find) {
+    ports_.total(total_port(name, unit, role, D), whole_body, std::move(find));
+  };
+  using enum PortRole;
+  total("pore_fluid_mass", "kg", mass_stored, [this] {
+    CompensatedSum volume;
+    const std::span<const double> zeta = content();
+    for (Index i = 0; i < system_->points(); ++i) volume.add(system_->volume()[i] * zeta[i]);
+    return system_->fluid().density * volume.value();
+  });
+  total("pore_fluid_at_rest", "kg", mass_reference, [this] {
+    CompensatedSum volume;
+    for (Index i = 0; i < system_->points(); ++i) {
+      volume.add(system_->volume()[i] * system_->storage().materials().at(i).porosity);
     }
-  }
+    return system_->fluid().density * volume.value();
+  });
+  total("pore_fluid_gained", "kg", mass_gained, [this] {
+    return system_->fluid().density * system_->gained_volume(start_, time_, unknowns_);
+  });
+  total("pore_fluid_energy", "J", energy_stored,
+        [this] { return system_->stored_energy(content(), pressure_); });
+  total("pore_fluid_work", "J", energy_gained,
+        [this] { return system_->gained_energy(unknowns_) + system_->exchange().energy(); });
+  total("darcy_dissipation", "J", energy_dissipated,
+        [this] { return system_->dissipated_energy(unknowns_); });
+}
+
+template <int D>
+void DarcyFlow<D>::make_work_ports() {
+  const auto count = [this](const char* name, std::int64_t IntegratorStatistics::*of) {
+    ports_.total(work_port(name), whole_body,
+                 [this, of] { return static_cast<double>(integrator_->statistics().*of); });
+  };
+  count("integrator_steps", &IntegratorStatistics::steps);
+  count("rhs_evaluations", &IntegratorStatistics::rhs_evaluations);
+  count("newton_iterations", &IntegratorStatistics::newton_iterations);
+  count("matrix_set_ups", &IntegratorStatistics::matrix_set_ups);
+  count("linear_iterations", &IntegratorStatistics::linear_iterations);
 }
 
 template <int D>
@@ -122,19 +156,6 @@ void DarcyFlow<D>::initialize(double t) {
   update_pore_stress();
   restart_integrator_ = true;
   note_jump(t);
-}
-
-template <int D>
-void DarcyFlow<D>::connect(PortId in) {
-  if (in == dilatation) {
-    for (auto* input : {&dilatation_, &dilatation_rate_, &dilatation_slope_}) {
-      input->resize(system_->points());
-    }
-  }
-  if (in == exchanged_mass) {
-    system_->exchange().connect(system_->points());
-    find_pressure_slope();
-  }
 }
 
 template <int D>
@@ -234,11 +255,13 @@ std::span<double> DarcyFlow<D>::content() {
 
 /// Nothing flows in or out of a sealed layer.
 template <int D>
-void DarcyFlow<D>::find_mobility() {
-  for (Index i = 0; i < system_->points(); ++i) mobility_.push_back(system_->flow().mobility(i));
+std::vector<double> DarcyFlow<D>::mobility() const {
+  std::vector<double> values;
+  for (Index i = 0; i < system_->points(); ++i) values.push_back(system_->flow().mobility(i));
   for (const auto& [i, face_value] : system_->held_points()) {
-    if (face_value < 0) mobility_[i] = 0.0;
+    if (face_value < 0) values[i] = 0.0;
   }
+  return values;
 }
 
 /// While no fluid moves, and the rock answers as the dilatation's slope says; empty where nobody
@@ -268,51 +291,6 @@ void DarcyFlow<D>::update_pore_stress() {
     pore_stress_slope_[i] = storage.undrained_slope(i, zeta[i], pressure_[i]);
   }
   for (const HeldPoint& held : system_->held_points()) pore_stress_slope_[held.point] = 0.0;
-}
-
-template <int D>
-double DarcyFlow<D>::scalar(PortId id) {
-  const double density = system_->fluid().density;
-  const std::vector<double>& volume = system_->volume();
-  const std::span<const double> zeta = content();
-  CompensatedSum sum;
-  switch (id) {
-    case mass_stored:
-      for (Index i = 0; i < system_->points(); ++i) sum.add(volume[i] * zeta[i]);
-      return density * sum.value();
-    case mass_reference:
-      for (Index i = 0; i < system_->points(); ++i) {
-        sum.add(volume[i] * system_->storage().materials().at(i).porosity);
-      }
-      return density * sum.value();
-    case mass_gained:
-      return density * system_->gained_volume(start_, time_, unknowns_);
-    case energy_stored:
-      return system_->stored_energy(zeta, pressure_);
-    case energy_gained:
-      return system_->gained_energy(unknowns_) + system_->exchange().energy();
-    case artificial_mass:
-      return density * system_->artificial_volume(unknowns_);
-    default:
-      return system_->dissipated_energy(unknowns_);
-  }
-}
-
-template <int D>
-double DarcyFlow<D>::work(PortId id) const {
-  const IntegratorStatistics done = integrator_->statistics();
-  switch (id) {
-    case integrator_steps:
-      return static_cast<double>(done.steps);
-    case rhs_evaluations:
-      return static_cast<double>(done.rhs_evaluations);
-    case newton_iterations:
-      return static_cast<double>(done.newton_iterations);
-    case matrix_set_ups:
-      return static_cast<double>(done.matrix_set_ups);
-    default:
-      return static_cast<double>(done.linear_iterations);
-  }
 }
 
 template <int D>

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
+#include "core/module/port_table.hpp"
 #include "core/time/integrator.hpp"
 #include "modules/pore_flow/darcy_system.hpp"
 
@@ -41,40 +41,23 @@ class DarcyFlow final : public PhysicsModule {
   DarcyFlow(std::shared_ptr<const Body<D>> body, DarcySystem<D> system,
             InitialPressure<D> initial_pressure, const DarcyIntegratorMaker<D>& make_integrator);
 
-  std::span<const Port> ports() const override;
-  PortView port(PortId id) override;
+  std::span<const Port> ports() const override { return ports_.list(); }
+  PortView port(PortId id) override { return ports_.view(id); }
   void initialize(double t) override;
-  void connect(PortId in) override;
+  void connect(PortId in) override { ports_.connect(in); }
   double stable_time_step() const override;
   void prepare(const TimeWindow& window) override;
   double advance(const TimeWindow& window) override;
+  bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor& visitor) override;
   void on_restored(double t) override;
 
  private:
-  enum Id : PortId {
-    dilatation,
-    exchanged_mass,
-    pore_pressure,
-    pore_stress,
-    fluid_content,
-    darcy_velocity,
-    pore_mobility,
-    mass_stored,
-    mass_reference,
-    mass_gained,
-    energy_stored,
-    energy_gained,
-    energy_dissipated,
-    integrator_steps,
-    rhs_evaluations,
-    newton_iterations,
-    matrix_set_ups,
-    linear_iterations,
-    artificial_mass,  ///< only where pressures are smoothed
-    port_count
-  };
-
+  void make_ports();
+  void make_in_ports();
+  void make_field_ports();
+  void make_ledger_ports();
+  void make_work_ports();
   double initial_pressure(Index i) const;
   void follow_bonds();
   void integrate(const TimeWindow& window);
@@ -83,10 +66,8 @@ class DarcyFlow final : public PhysicsModule {
   void update_content();
   std::span<double> content();
   void update_pore_stress();
-  void find_mobility();
+  std::vector<double> mobility() const;
   void find_pressure_slope();
-  double scalar(PortId id);
-  double work(PortId id) const;
 
   std::shared_ptr<const Body<D>> body_;
   std::unique_ptr<DarcySystem<D>> system_;
@@ -106,10 +87,8 @@ class DarcyFlow final : public PhysicsModule {
   std::vector<double> pressure_;
   std::vector<double> pore_stress_;
   std::vector<double> pore_stress_slope_;
-  std::vector<double> velocity_;        ///< empty until somebody asks
-  std::vector<double> mobility_;        ///< likewise
   std::vector<double> pressure_slope_;  ///< d(pore_pressure)/d(exchanged_mass) [Pa/kg]
-  std::array<double, port_count - mass_stored> scalars_{};
+  PortTable ports_;
 };
 
 }  // namespace perifrac

@@ -19,30 +19,17 @@ DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow,
     : flow_(std::move(flow)),
       storage_(std::move(storage)),
       fluid_(fluid),
-      face_pressures_(std::move(face_pressures)),
-      sources_(std::move(sources)),
+      drive_(std::move(face_pressures), std::move(sources)),
       gravity_(std::move(gravity)),
       held_(std::move(held)),
       held_rate_(held_.size(), 0.0),
       points_(flow_->family().point_count),
-      face_potential_(face_pressures_.size()),
-      source_rate_(sources_.size()),
+      face_potential_(drive_.faces()),
       potential_(flow_->size()),
       outflow_(flow_->size()),
       mobility_(fluid_.is_linear() ? 0 : points_) {
-  for (const ScheduledVector* scheduled : {&face_pressures_, &sources_}) {
-    const std::vector<double> times = scheduled->break_points();
-    break_points_.insert(break_points_.end(), times.begin(), times.end());
-  }
-  std::ranges::sort(break_points_);
   taken_out_.resize(2 * accumulators());
   find_face_potential(0.0);
-  sources_.at(0.0, source_rate_);
-  for (const double t : face_pressures_.is_constant() ? std::vector{0.0} : break_points_) {
-    for (const double p : face_pressures_.at(t)) {
-      largest_face_pressure_ = std::max(largest_face_pressure_, std::abs(p));
-    }
-  }
 }
 
 template <int D>
@@ -80,21 +67,11 @@ bool DarcySystem<D>::choose_storage(std::span<const double> slope) {
 
 template <int D>
 bool DarcySystem<D>::follow(const BondState<D>& bonds) {
-  if (bond_version_ == bonds.version()) return false;
+  if (bonds_.version() == bonds.version()) return false;
   const ProfileScope profiled("broken bonds");
-  bond_version_ = bonds.version();
-  if (!cut_family_) {
-    cut_family_ = std::make_shared<Family<D>>(flow_->family());
-    intact_weight_ = cut_family_->weight;
-  }
-  cut_family_->weight = intact_weight_;
-  for (const BrokenBond& bond : bonds.broken()) {
-    silence(*cut_family_, bond.i, bond.j);
-    cut_points_.insert(cut_points_.end(), {bond.i, bond.j});
-  }
-  keep_each_once(cut_points_);
-  flow_->take_bonds(cut_family_, cut_points_);
-  if (smoothing_) smoothing_->take_bonds(cut_family_);
+  bonds_.follow(bonds, flow_->family());
+  flow_->take_bonds(bonds_.family(), bonds_.points());
+  if (smoothing_) smoothing_->take_bonds(bonds_.family());
   storage_->take_bonds(bonds.broken());
   ++version_;
   ++pattern_version_;
@@ -104,7 +81,7 @@ bool DarcySystem<D>::follow(const BondState<D>& bonds) {
 template <int D>
 double DarcySystem<D>::held_pressure(double t, const HeldPoint& held) {
   if (held.face_value < 0) return 0.0;
-  if (!face_pressures_.is_constant()) find_face_potential(t);
+  if (drive_.pressures_change()) find_face_potential(t);
   return fluid_.pressure_of(face_potential_[held.face_value] - gravity(held.point));
 }
 
@@ -126,7 +103,6 @@ void DarcySystem<D>::lead_held_points(const TimeWindow& window, std::span<const 
 template <int D>
 void DarcySystem<D>::set_smoothing(PressureSmoothing<D> smoothing) {
   smoothing_ = std::move(smoothing);
-  smoothed_.resize(smoothing_->points().size());
   taken_out_.resize(2 * accumulators());
 }
 
@@ -135,13 +111,13 @@ void DarcySystem<D>::smooth(double t, std::span<double> y) {
   // Of the potential: a mean of pressures would stir fluid that is at rest under its own weight.
   pressure(t, y, potential_);
   pressure_to_potential(t);
-  smoothing_->apply(potential_, smoothed_);
+  const std::span<const double> smoothed = smoothing_->apply(potential_);
   const auto points = smoothing_->points();
   const std::span<const double> zeta = fluid_content(t, y);
   double made = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Index i = points[k];
-    const double p = fluid_.pressure_of(smoothed_[k] - gravity(i));
+    const double p = fluid_.pressure_of(smoothed[k] - gravity(i));
     const double change = storage_->content(t, i, p) - zeta[i];
     y[i] += change;
     made += volume()[i] * change;
@@ -152,9 +128,7 @@ void DarcySystem<D>::smooth(double t, std::span<double> y) {
 template <int D>
 std::span<const double> DarcySystem<D>::fluid_content(double t, std::span<const double> y) {
   if (!exchange_.is_beside()) return y.first(points_);
-  content_.resize(points_);
-  exchange_.add_to(t, y.first(points_), content_);
-  return content_;
+  return exchange_.content(t, y.first(points_));
 }
 
 template <int D>
@@ -181,7 +155,7 @@ std::span<const double> DarcySystem<D>::effective_storage(double t, std::span<co
 
 template <int D>
 void DarcySystem<D>::find_face_potential(double t) {
-  face_pressures_.at(t, face_potential_);
+  drive_.pressures_at(t, face_potential_);
   for (double& value : face_potential_) value = fluid_.potential(value);
   if (gravity_.size() > 0) face_potential_ += gravity_.tail(face_potential_.size());
 }
@@ -198,7 +172,7 @@ void DarcySystem<D>::scale_mobility(std::span<const double> p) {
 
 template <int D>
 void DarcySystem<D>::pressure_to_potential(double t) {
-  if (!face_pressures_.is_constant()) find_face_potential(t);
+  if (drive_.pressures_change()) find_face_potential(t);
   std::copy_n(face_potential_.data(), mirrored_faces(), potential_.begin() + points_);
   if (!fluid_.is_linear()) {
     scale_mobility(std::span(potential_).first(points_));
@@ -224,11 +198,12 @@ void DarcySystem<D>::rhs(double t, std::span<const double> y, std::span<double> 
   std::fill_n(accumulated.begin(), faces, 0.0);
   std::copy_n(outflow_.begin() + points_, mirrored_faces(), accumulated.begin());
   accumulated[faces] = dissipated;
-  if (has_sources()) {
-    if (brings_volume()) sources_.at(t, source_rate_);
+  if (drive_.has_sources()) {
+    if (brings_volume()) drive_.find_sources(t);
+    const Eigen::VectorXd& rate = drive_.source_rate();
     for (Index i = 0; i < points_; ++i) {
-      dydt[i] += source_rate_[i] / v[i];
-      brought += source_rate_[i] * potential_[i];
+      dydt[i] += rate[i] / v[i];
+      brought += rate[i] * potential_[i];
     }
   }
   if (exchange_.has_rate()) {
@@ -239,11 +214,11 @@ void DarcySystem<D>::rhs(double t, std::span<const double> y, std::span<double> 
     if (face_value >= 0) accumulated[face_value] += v[i] * (held_rate_[k] - dydt[i]);
     dydt[i] = held_rate_[k];
   }
-  if (!face_pressures_.is_constant()) {
+  if (drive_.pressures_change()) {
     for (std::size_t f = 0; f < faces; ++f) brought += face_potential_[f] * accumulated[f];
   }
   if (brings_energy()) accumulated[faces + 1] = brought;
-  if (brings_volume()) accumulated[faces + 2] = source_rate_.sum();
+  if (brings_volume()) accumulated[faces + 2] = drive_.source_rate().sum();
   if (smooths()) accumulated.back() = 0.0;
 }
 
@@ -291,7 +266,7 @@ void DarcySystem<D>::magnitudes(double t, std::span<const double> y, std::span<d
   // Where a run starts from no pressure at all: what strains the fluid by so little.
   constexpr double negligible = 1e-12;
   pressure(t, y, potential_);
-  double largest = std::max(negligible * fluid_.bulk_modulus, largest_face_pressure_);
+  double largest = std::max(negligible * fluid_.bulk_modulus, drive_.largest_pressure());
   for (Index i = 0; i < points_; ++i) largest = std::max(largest, std::abs(potential_[i]));
   const std::span<const double> storage = effective_storage(t, y);
   for (Index i = 0; i < points_; ++i) magnitude[i] = storage[i] * largest;
@@ -339,8 +314,8 @@ double DarcySystem<D>::gained_volume(double start, double t, std::span<const dou
   for (Index f = 0; f < faces(); ++f) add(f);
   if (brings_volume()) {
     add(faces() + 2);
-  } else if (has_sources()) {
-    sum.add((t - start) * source_rate_.sum());
+  } else if (drive_.has_sources()) {
+    sum.add((t - start) * drive_.source_rate().sum());
   }
   return sum.value();
 }
@@ -348,7 +323,7 @@ double DarcySystem<D>::gained_volume(double start, double t, std::span<const dou
 template <int D>
 double DarcySystem<D>::gained_energy(std::span<const double> y) const {
   double sum = brings_energy() ? accumulated(y, faces() + 1) : 0.0;
-  if (!face_pressures_.is_constant()) return sum;
+  if (drive_.pressures_change()) return sum;
   for (Index f = 0; f < faces(); ++f) sum += face_potential_[f] * accumulated(y, f);
   return sum;
 }

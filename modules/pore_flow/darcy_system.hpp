@@ -13,7 +13,9 @@
 #include "core/time/ode_system.hpp"
 #include "core/time/scheduled_vector.hpp"
 #include "modules/pore_flow/as_published/pressure_smoothing.hpp"
+#include "modules/pore_flow/boundary/flow_drive.hpp"
 #include "modules/pore_flow/boundary/held_point.hpp"
+#include "modules/pore_flow/flux/cut_bonds.hpp"
 #include "modules/pore_flow/flux/flow_operator.hpp"
 #include "modules/pore_flow/mass_exchange.hpp"
 #include "modules/pore_flow/storage/pore_storage.hpp"
@@ -50,7 +52,7 @@ class DarcySystem final : public OdeSystem {
   std::size_t size() const override { return points_ + accumulators(); }
   std::string place(std::size_t unknown) const override;
   std::size_t accumulators() const override {
-    return face_pressures_.size() + 1 + (brings_energy() ? 1 : 0) + (brings_volume() ? 1 : 0) +
+    return drive_.faces() + 1 + (brings_energy() ? 1 : 0) + (brings_volume() ? 1 : 0) +
            (smooths() ? 1 : 0);
   }
   void rhs(double t, std::span<const double> y, std::span<double> dydt) override;
@@ -72,7 +74,7 @@ class DarcySystem final : public OdeSystem {
   /// true where any did.
   bool follow(const BondState<D>& bonds);
   /// Of the bonds that flow follows: H is another matrix where it is another.
-  std::uint64_t bond_version() const { return bond_version_; }
+  std::uint64_t bond_version() const { return bonds_.version(); }
   /// Rises where H, or which points storage ties to each other, changes.
   std::uint64_t pattern_version() const { return pattern_version_; }
 
@@ -100,7 +102,7 @@ class DarcySystem final : public OdeSystem {
   void darcy_velocity(double t, std::span<const double> p, std::span<double> velocity);
 
   /// Where schedules change their rate, rising [s]: integrate up to them and start anew.
-  const std::vector<double>& break_points() const { return break_points_; }
+  const std::vector<double>& break_points() const { return drive_.break_points(); }
 
   /// An integrator starts anew: takes out of y what only added up, so that it stays small beside
   /// its own rounding, and puts in what was handed over.
@@ -146,9 +148,8 @@ class DarcySystem final : public OdeSystem {
   /// Face values that the flow operator knows; those of layers follow.
   Index mirrored_faces() const { return flow_->size() - points_; }
   Index faces() const { return static_cast<Index>(face_potential_.size()); }
-  bool has_sources() const { return sources_.size() > 0; }
-  bool brings_energy() const { return has_sources() || !face_pressures_.is_constant(); }
-  bool brings_volume() const { return !sources_.is_constant(); }
+  bool brings_energy() const { return drive_.has_sources() || drive_.pressures_change(); }
+  bool brings_volume() const { return drive_.sources_change(); }
   double accumulated(std::span<const double> y, std::size_t k) const {
     return taken_out_[2 * k] + (taken_out_[2 * k + 1] + y[points_ + k]);
   }
@@ -160,31 +161,22 @@ class DarcySystem final : public OdeSystem {
   std::unique_ptr<PoreStorage> storage_;
   StorageChoice choice_;
   PoreFluid fluid_;
-  ScheduledVector face_pressures_;
-  ScheduledVector sources_;
+  FlowDrive drive_;
   Eigen::VectorXd gravity_;
   std::vector<HeldPoint> held_;
   std::vector<double> held_rate_;  ///< dy/dt of the held points in this window [1/s]
   MassExchange exchange_;
-  std::vector<double> content_;    ///< workspace: zeta, where there is an exchange
   std::vector<double> taken_out_;  ///< of each accumulator: a sum, and what rounding cuts off it
   Index points_;
-  std::vector<double> break_points_;
-  double largest_face_pressure_ = 0.0;  ///< of all times [Pa]
   std::uint64_t version_ = 0;
   bool is_answered_late_ = false;
   Eigen::VectorXd face_potential_;
-  Eigen::VectorXd source_rate_;
   std::vector<double> potential_;  ///< workspace: pressures, then psi, of points and face values
   std::vector<double> outflow_;    ///< workspace: H psi
   std::vector<double> mobility_;   ///< (rho/rho_0)^2; empty for a linear fluid
   std::optional<PressureSmoothing<D>> smoothing_;
-  std::uint64_t bond_version_ = 0;
   std::uint64_t pattern_version_ = 1;
-  std::shared_ptr<Family<D>> cut_family_;  ///< made when the first bond breaks
-  std::vector<double> intact_weight_;      ///< likewise: of its bonds
-  std::vector<Index> cut_points_;          ///< ascending: whose bonds ever broke
-  std::vector<double> smoothed_;           ///< workspace: by its points
+  CutBonds<D> bonds_;
 };
 
 }  // namespace perifrac

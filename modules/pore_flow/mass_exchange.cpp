@@ -21,11 +21,13 @@ void MassExchange::end(double energy) {
   energy_[0] += energy;
 }
 
-void MassExchange::add_to(double t, std::span<const double> y, std::span<double> content) const {
+std::span<const double> MassExchange::content(double t, std::span<const double> y) {
   const double part = (t - begin_) / length_;
-  for (std::size_t i = 0; i < content_.size(); ++i) {
-    content[i] = y[i] + (content_[i] + part * added_[i]);
+  sum_.resize(content_.size());
+  for (std::size_t i = 0; i < sum_.size(); ++i) {
+    sum_[i] = y[i] + (content_[i] + part * added_[i]);
   }
+  return sum_;
 }
 
 void MassExchange::merge_into(std::span<double> y) {

@@ -35,8 +35,8 @@ class MassExchange {
 
   /// There is fluid beside y.
   bool is_beside() const { return !content_.empty(); }
-  /// content = y + what was handed over until t [s], at the points.
-  void add_to(double t, std::span<const double> y, std::span<double> content) const;
+  /// y and what was handed over until t [s], at the points. Valid until the next call.
+  std::span<const double> content(double t, std::span<const double> y);
   /// Makes it part of y, where an integrator starts anew.
   void merge_into(std::span<double> y);
 
@@ -53,6 +53,7 @@ class MassExchange {
   std::vector<double> energy_;   ///< one value once there was a window
   double begin_ = 0.0;           ///< [s]
   double length_ = 1.0;          ///< [s]
+  std::vector<double> sum_;      ///< workspace: content()
 };
 
 }  // namespace perifrac

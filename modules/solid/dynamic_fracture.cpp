@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
 #include "core/solvers/complementarity.hpp"
 #include "core/time/equal_steps.hpp"
@@ -22,21 +23,6 @@ double release_time(const Body<2>& body, const BreakableElasticity<2>& elastic, 
   return spacings_of_release * body.spacing() / speed;
 }
 
-std::span<double> view(Eigen::VectorXd& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
-
-enum CrackPort : PortId {
-  crack_pressure,
-  crack_viscosity,
-  crack_leak_off,
-  damage,
-  crack_opening,
-  free_crack_opening,
-  crack_length,
-  fracture_energy
-};
-
 }  // namespace
 
 DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
@@ -53,67 +39,41 @@ DynamicFracture::DynamicFracture(std::shared_ptr<const Body<2>> body,
       cracks_(family, body->spacing(), elastic, bonds_, initial_stress, std::move(seeds),
               release_time(*body, *elastic, density)),
       tips_(*body, cracks_, std::move(fracture_energy)),
-      first_port_(static_cast<PortId>(ports_.size())) {
+      fluid_(bonds_.facet_points()) {
   system_->set_fracture(cracks_);
-  using enum PortDirection;
-  for (const Port& port : std::initializer_list<Port>{
-           {"crack_pressure", "Pa", in},
-           {"crack_viscosity", "Pa s", in, PortKind::intensive, PortRole::property},
-           {"crack_leak_off", "m/s^0.5", in, PortKind::intensive, PortRole::property},
-           {"damage", "1", out},
-           {"crack_opening", "m", out},
-           {"free_crack_opening", "m", out, PortKind::intensive, PortRole::property},
-           {"crack_length", "m", out},
-           {"fracture_energy", "J/m", out, PortKind::extensive, PortRole::energy_dissipated}}) {
-    ports_.push_back(port);
-  }
+  add_ports();
 }
 
-void DynamicFracture::connect(PortId in) {
-  if (in < first_port_) return DynamicSolid<2>::connect(in);
-  connected_.set(in - first_port_);
-}
-
-/// An input on facets, to which cracks that grow have added.
-std::span<double> DynamicFracture::of_facets(PortId in, std::vector<double>& values) {
-  if (connected_[in - first_port_]) values.resize(bonds_.facet_points().count);
-  return values;
-}
-
-PortView DynamicFracture::port(PortId id) {
+void DynamicFracture::add_ports() {
   const PointSet* const facets = &bonds_.facet_points();
-  switch (id - first_port_) {
-    case crack_pressure:
-      return {facets, of_facets(id, crack_pressure_)};
-    case crack_viscosity:
-      return {facets, of_facets(id, crack_viscosity_)};
-    case crack_leak_off:
-      return {facets, of_facets(id, crack_leak_off_)};
-    case damage:
-      damage_.resize(body_->points().size());
-      find_damage(cracks_.family(), damage_);
-      return {&body_->point_set(), damage_};
-    case crack_opening:
-      return {facets, view(cracks_.opening())};
-    case free_crack_opening:
-      return {facets, view(cracks_.opening()), {}, cracks_.slope(), cracks_.forecast()};
-    case crack_length:
-      crack_length_ = 0.0;
-      for (const FaceJump<2>& jump : cracks_.jumps()) crack_length_ += jump.area;
-      return {&whole_body, {&crack_length_, 1}};
-    case fracture_energy:
-      fracture_energy_ = cracks_.spent_energy();
-      return {&whole_body, {&fracture_energy_, 1}};
-    default:
-      return DynamicSolid<2>::port(id);
-  }
+  fluid_.add_ports(ports_);
+  ports_.found({.name = "damage", .unit = "1", .negligible = negligible_strain}, body_->point_set(),
+               [this](std::vector<double>& damage) {
+                 damage.resize(body_->points().size());
+                 find_damage(cracks_.family(), damage);
+               });
+  ports_.out({"crack_opening", "m"}, [this, facets] {
+    return PortView{facets, view(cracks_.opening())};
+  });
+  ports_.out(
+      {.name = "free_crack_opening", .unit = "m", .role = PortRole::property}, [this, facets] {
+        return PortView{facets, view(cracks_.opening()), {}, cracks_.slope(), cracks_.forecast()};
+      });
+  ports_.total({"crack_length", "m"}, whole_body, [this] {
+    double length = 0.0;
+    for (const FaceJump<2>& jump : cracks_.jumps()) length += jump.area;
+    return length;
+  });
+  ports_.total(total_port("fracture_energy", "J", PortRole::energy_dissipated, 2), whole_body,
+               [this] { return cracks_.spent_energy(); });
 }
 
-double DynamicFracture::scalar(PortId id) {
-  const double own = DynamicSolid<2>::scalar(id);
-  if (id == external_work) return own + cracks_.relief_work();
-  if (id == damped_energy) return own + cracks_.contact_loss();
-  return own;
+double DynamicFracture::external_work() const {
+  return DynamicSolid<2>::external_work() + cracks_.relief_work();
+}
+
+double DynamicFracture::damped_energy() const {
+  return DynamicSolid<2>::damped_energy() + cracks_.contact_loss();
 }
 
 void DynamicFracture::initialize(double t) {
@@ -130,7 +90,6 @@ void DynamicFracture::foretell(double t, double step) {
 }
 
 double DynamicFracture::advance(const TimeWindow& window) {
-  crack_pressure_.resize(bonds_.facet_points().count, 0.0);
   const std::int64_t steps = equal_steps(window.length(), verlet_->longest_step(window.begin));
   double begin = window.begin;
   for (std::int64_t n = 1; n <= steps; ++n) {
@@ -138,7 +97,7 @@ double DynamicFracture::advance(const TimeWindow& window) {
     const double end = n == steps ? window.end : window.begin + part * window.length();
     foretell(begin, end - begin);
     try {
-      cracks_.press(crack_pressure_);
+      cracks_.press(fluid_.pressure());
     } catch (const NoContact& error) {
       throw NumericalError("crack_opening", "the faces of the cracks", end, error.what());
     }
@@ -149,39 +108,33 @@ double DynamicFracture::advance(const TimeWindow& window) {
 }
 
 double DynamicFracture::conclude(const TimeWindow& window) {
-  if (!(window.length() > 0.0) || tips_.find_readiness(crack_state()) < ready) return window.end;
-  if (tips_.grow(crack_state()) == 0.0) return window.end;
+  if (!(window.length() > 0.0) || tips_.find_readiness(state_of_cracks()) < ready)
+    return window.end;
+  if (tips_.grow(state_of_cracks()) == 0.0) return window.end;
   system_->note_broken_bonds();
   cracks_.find_answers();
   verlet_->evaluate(time_, motion_);
   return window.end;
 }
 
-CrackState<2> DynamicFracture::crack_state() {
-  const std::span<const double> on_faces = cracks_.face_force();
-  return {.t = time_,
-          .opening = cracks_.opening(),
-          .pressure = cracks_.pressure(),
-          .viscosity = crack_viscosity_,
-          .leak_off = crack_leak_off_,
-          .pore_stress = system_->acting_pore_stress(),
-          .unknowns = [this](const UnknownNames&) -> std::span<const double> {
-            return system_->unknowns();
-          },
-          .jumps = [this] { return cracks_.jumps_at(system_->unknowns()); },
-          .inertia =
-              [this, on_faces](Index i) {
-                Vector<2> force{};
-                for (int a = 0; a < 2; ++a) {
-                  const Index unknown = a * body_->points().size() + i;
-                  const Index moved = system_->moved_by(unknown);
-                  if (moved < 0) continue;
-                  force[a] =
-                      system_->mass()[moved] * motion_.acceleration[moved] + on_faces[unknown];
-                }
-                return force;
-              },
-          .pause = cracks_.release()};
+CrackState<2> DynamicFracture::state_of_cracks() {
+  return crack_state<2>(
+      time_, fluid_, cracks_.opening(), cracks_.pressure(), {}, system_->acting_pore_stress(),
+      [this](const UnknownNames&) -> std::span<const double> { return system_->unknowns(); },
+      [this] { return cracks_.jumps_at(system_->unknowns()); },
+      [this](Index i) { return inertia(i); }, cracks_.release());
+}
+
+/// What accelerates point i beside its bonds and loads [N/m].
+Vector<2> DynamicFracture::inertia(Index i) {
+  Vector<2> force{};
+  for (int a = 0; a < 2; ++a) {
+    const Index unknown = a * body_->points().size() + i;
+    const Index moved = system_->moved_by(unknown);
+    if (moved < 0) continue;
+    force[a] = system_->mass()[moved] * motion_.acceleration[moved] + cracks_.face_force()[unknown];
+  }
+  return force;
 }
 
 void DynamicFracture::visit_state(StateVisitor& visitor) {

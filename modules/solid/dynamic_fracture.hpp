@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bitset>
 #include <memory>
 #include <span>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "modules/solid/dynamic_solid.hpp"
 #include "modules/solid/fracture/crack_dynamics.hpp"
 #include "modules/solid/fracture/crack_tips.hpp"
+#include "modules/solid/fracture/fluid_in_cracks.hpp"
 
 namespace perifrac {
 
@@ -28,9 +28,7 @@ class DynamicFracture final : public DynamicSolid<2> {
                   std::optional<InitialStress<2>> initial_stress, std::vector<CrackFacet<2>> seeds,
                   FractureEnergy<2> fracture_energy);
 
-  PortView port(PortId id) override;
   void initialize(double t) override;
-  void connect(PortId in) override;
   void prepare(const TimeWindow& window) override;
   double advance(const TimeWindow& window) override;
   double conclude(const TimeWindow& window) override;
@@ -38,21 +36,19 @@ class DynamicFracture final : public DynamicSolid<2> {
   void on_restored(double t) override;
 
  private:
-  double scalar(PortId id) override;
-  CrackState<2> crack_state();
+  double external_work() const override;
+  double damped_energy() const override;
+  void add_ports();
+  CrackState<2> state_of_cracks();
+  Vector<2> inertia(Index i);
   void foretell(double t, double step);
-  std::span<double> of_facets(PortId in, std::vector<double>& values);
 
   double damping_;
   std::vector<CrackFacet<2>> seeds_;
   BondState<2>& bonds_;
   CrackDynamics cracks_;
   CrackTips tips_;
-  PortId first_port_;  ///< of those that cracks add
-
-  std::bitset<3> connected_;  ///< of the in-ports that cracks add
-  std::vector<double> crack_pressure_, crack_viscosity_, crack_leak_off_;
-  double crack_length_ = 0.0;  ///< made when it is asked for
+  FluidInCracks fluid_;
 };
 
 }  // namespace perifrac

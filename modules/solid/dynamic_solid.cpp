@@ -21,102 +21,70 @@ DynamicSolid<D>::DynamicSolid(std::shared_ptr<const Body<D>> body,
     breaking_->cut_seeds();
     system_->set_fracture(*breaking_);
   }
-  const auto vector = [](const char* name, const char* unit) {
-    return Port{name, unit, PortDirection::out, PortKind::intensive, PortRole::field, D};
-  };
-  const auto energy = [](const char* name, PortRole role) {
-    return Port{name, unit_of_total("J", D), PortDirection::out, PortKind::extensive, role};
-  };
-  ports_ = {
-      {"pore_stress", "Pa", PortDirection::in},
-      InterfaceForce::port(D),
-      vector("displacement", "m"),
-      vector("velocity", "m/s"),
-      {"dilatation", "1", PortDirection::out},
-      {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field, D * D},
-      energy("elastic_energy", PortRole::energy_stored),
-      energy("kinetic_energy", PortRole::energy_stored),
-      energy("external_work", PortRole::energy_gained),
-      energy("damped_energy", PortRole::energy_dissipated),
-      {"integrator_steps", "1", PortDirection::out, PortKind::extensive, PortRole::work},
-  };
-  const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
-  for (const auto& plate : boundary.plates(mirror)) {
-    ports_.push_back({plate.face + "_plate_displacement", "m", PortDirection::out});
-  }
-  if (!breaking_) return;
-  ports_.push_back({"damage", "1", PortDirection::out});
-  ports_.push_back(energy("fracture_energy", PortRole::energy_dissipated));
+  make_ports(boundary);
 }
 
 template <int D>
-PortId DynamicSolid<D>::first_of_breaking() const {
-  return static_cast<PortId>(first_plate + system_->plate_unknowns().size());
-}
-
-template <int D>
-PortView DynamicSolid<D>::breaking_port(PortId id) {
-  if (id == first_of_breaking()) {
-    damage_.resize(body_->points().size());
-    breaking_->damage(damage_);
-    return {&body_->point_set(), damage_};
-  }
-  fracture_energy_ = breaking_->released_energy();
-  return {&whole_body, {&fracture_energy_, 1}};
-}
-
-template <int D>
-std::span<const Port> DynamicSolid<D>::ports() const {
-  return ports_;
-}
-
-template <int D>
-PortView DynamicSolid<D>::port(PortId id) {
+void DynamicSolid<D>::make_ports(const SolidBoundary<D>& boundary) {
   const PointSet* const points = &body_->point_set();
   const std::size_t count = body_->points().size();
-  switch (id) {
-    case pore_stress:
-      return {points, pore_stress_, pore_stress_rate_, pore_stress_slope_};
-    case interface_impulse:
-      return {points, interface_.impulse()};
-    case displacement:
-      return {points, std::span(system_->unknowns()).first(D * count)};
-    case velocity:
-      velocity_.resize(D * count);
-      system_->point_velocity(time_, verlet_->longest_step(time_), motion_.velocity, velocity_);
-      return {points, velocity_};
-    case dilatation:
-      return {points, system_->dilatation()};
-    case effective_stress:
-      effective_stress_.resize(D * D * count);
-      system_->effective_stress(effective_stress_);
-      return {points, effective_stress_};
-    default:
-      if (id >= first_of_breaking()) return breaking_port(id);
-      if (id >= first_plate) {
-        const Index unknown = system_->plate_unknowns()[id - first_plate];
-        return {&whole_body, {&system_->unknowns()[unknown], 1}};
-      }
-      double& value = scalars_[id - elastic_energy];
-      value = scalar(id);
-      return {&whole_body, {&value, 1}};
+  const auto energy = [this](const char* name, PortRole role, std::function<double()> find) {
+    ports_.total(total_port(name, "J", role, D), whole_body, std::move(find));
+  };
+  ports_.in(
+      {"pore_stress", "Pa"},
+      [this, count] {
+        for (auto* input : {&pore_stress_, &pore_stress_rate_, &pore_stress_slope_}) {
+          input->resize(count);
+        }
+      },
+      [this, points] {
+        return PortView{points, pore_stress_, pore_stress_rate_, pore_stress_slope_};
+      });
+  ports_.in(
+      InterfaceForce::port(D), [this, count] { interface_.connect(D * count); },
+      [this, points] {
+        return PortView{points, interface_.impulse()};
+      });
+  ports_.out({.name = "displacement", .unit = "m", .components = D}, [this, points, count] {
+    return PortView{points, std::span(system_->unknowns()).first(D * count)};
+  });
+  ports_.found({.name = "velocity", .unit = "m/s", .components = D}, *points,
+               [this, count](std::vector<double>& velocity) {
+                 velocity.resize(D * count);
+                 system_->point_velocity(time_, verlet_->longest_step(time_), motion_.velocity,
+                                         velocity);
+               });
+  ports_.out({.name = "dilatation", .unit = "1", .negligible = negligible_strain}, [this, points] {
+    return PortView{points, system_->dilatation()};
+  });
+  ports_.found({.name = "effective_stress", .unit = "Pa", .components = D * D}, *points,
+               [this, count](std::vector<double>& stress) {
+                 stress.resize(D * D * count);
+                 system_->effective_stress(stress);
+               });
+  energy("elastic_energy", PortRole::energy_stored, [this] { return system_->elastic_energy(); });
+  energy("kinetic_energy", PortRole::energy_stored,
+         [this] { return kinetic_energy(system_->mass(), motion_.velocity); });
+  energy("external_work", PortRole::energy_gained, [this] { return external_work(); });
+  energy("damped_energy", PortRole::energy_dissipated, [this] { return damped_energy(); });
+  ports_.total(work_port("integrator_steps"), whole_body,
+               [this] { return static_cast<double>(verlet_->steps()); });
+  const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
+  std::size_t plate = 0;
+  for (const auto& [face, column] : boundary.plates(mirror)) {
+    const Index unknown = system_->plate_unknowns()[plate++];
+    ports_.total({face + "_plate_displacement", "m"}, whole_body,
+                 [this, unknown] { return system_->unknowns()[unknown]; });
   }
-}
-
-template <int D>
-double DynamicSolid<D>::scalar(PortId id) {
-  switch (id) {
-    case elastic_energy:
-      return system_->elastic_energy();
-    case kinetic_energy:
-      return perifrac::kinetic_energy(system_->mass(), motion_.velocity);
-    case external_work:
-      return system_->external_work();
-    case damped_energy:
-      return motion_.damped_energy;
-    default:
-      return static_cast<double>(verlet_->steps());
-  }
+  if (!breaking_) return;
+  ports_.found({.name = "damage", .unit = "1", .negligible = negligible_strain}, *points,
+               [this, count](std::vector<double>& damage) {
+                 damage.resize(count);
+                 breaking_->damage(damage);
+               });
+  energy("fracture_energy", PortRole::energy_dissipated,
+         [this] { return breaking_->released_energy(); });
 }
 
 template <int D>
@@ -125,17 +93,6 @@ void DynamicSolid<D>::initialize(double t) {
   system_->start();
   const std::size_t size = system_->mass().size();
   motion_ = {std::vector<double>(size, 0.0), std::vector<double>(size, 0.0), {}};
-}
-
-template <int D>
-void DynamicSolid<D>::connect(PortId in) {
-  const std::size_t count = body_->points().size();
-  if (in == pore_stress) {
-    for (auto* input : {&pore_stress_, &pore_stress_rate_, &pore_stress_slope_}) {
-      input->resize(count);
-    }
-  }
-  if (in == interface_impulse) interface_.connect(D * count);
 }
 
 template <int D>

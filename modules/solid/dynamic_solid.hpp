@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
+#include "core/module/port_table.hpp"
 #include "core/time/velocity_verlet.hpp"
 #include "modules/solid/boundary/interface_force.hpp"
 #include "modules/solid/fracture/critical_stretch.hpp"
@@ -35,10 +34,10 @@ class DynamicSolid : public PhysicsModule {
                const SolidBoundary<D>& boundary, double density, double damping, double safety,
                std::unique_ptr<CriticalStretch<D>> breaking = nullptr);
 
-  std::span<const Port> ports() const override;
-  PortView port(PortId id) override;
+  std::span<const Port> ports() const override { return ports_.list(); }
+  PortView port(PortId id) override { return ports_.view(id); }
   void initialize(double t) override;
-  void connect(PortId in) override;
+  void connect(PortId in) override { ports_.connect(in); }
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
   bool may_end_windows() const override { return false; }
@@ -46,27 +45,12 @@ class DynamicSolid : public PhysicsModule {
   void on_restored(double t) override;
 
  protected:
-  enum Id : PortId {
-    pore_stress,
-    interface_impulse,
-    displacement,
-    velocity,
-    dilatation,
-    effective_stress,
-    elastic_energy,
-    kinetic_energy,
-    external_work,
-    damped_energy,
-    integrator_steps,
-    first_plate
-  };
-
-  virtual double scalar(PortId id);
-  PortId first_of_breaking() const;
-  PortView breaking_port(PortId id);
+  /// [J], per metre in 2D.
+  virtual double external_work() const { return system_->external_work(); }
+  virtual double damped_energy() const { return motion_.damped_energy; }
 
   std::shared_ptr<const Body<D>> body_;
-  std::vector<Port> ports_;
+  PortTable ports_;
   std::unique_ptr<CriticalStretch<D>> breaking_;
   std::unique_ptr<ElasticDynamics<D>> system_;
   std::unique_ptr<VelocityVerlet> verlet_;
@@ -77,11 +61,9 @@ class DynamicSolid : public PhysicsModule {
   std::vector<double> pore_stress_rate_;
   std::vector<double> pore_stress_slope_;
   InterfaceForce interface_;
-  std::vector<double> velocity_;          ///< of the points; empty until somebody asks
-  std::vector<double> effective_stress_;  ///< likewise
-  std::vector<double> damage_;            ///< likewise
-  double fracture_energy_ = 0.0;
-  std::array<double, first_plate - elastic_energy> scalars_{};
+
+ private:
+  void make_ports(const SolidBoundary<D>& boundary);
 };
 
 }  // namespace perifrac

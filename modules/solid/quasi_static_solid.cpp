@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "core/base/eigen_view.hpp"
 #include "core/profile/profile.hpp"
 #include "modules/solid/boundary/rigid_motion.hpp"
 
@@ -18,42 +19,20 @@ Index first_row(const Eigen::SparseMatrix<double>& free_unknowns, Index column) 
   return Eigen::SparseMatrix<double>::InnerIterator(free_unknowns, column).row();
 }
 
-Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
-  return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
-Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
-  return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
 }  // namespace
 
 template <int D>
 QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
                                       std::shared_ptr<ElasticOperator<D>> elastic,
                                       const SolidBoundary<D>& boundary)
-    : body_(std::move(body)),
-      elastic_(std::move(elastic)),
-      ports_{
-          {"pore_stress", "Pa", PortDirection::in},
-          InterfaceForce::port(D),
-          {"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, D},
-          {"dilatation", "1", PortDirection::out},
-          {"effective_stress", "Pa", PortDirection::out, PortKind::intensive, PortRole::field,
-           D * D},
-          {"elastic_energy", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
-           PortRole::energy_stored},
-          {"external_work", unit_of_total("J", D), PortDirection::out, PortKind::extensive,
-           PortRole::energy_gained},
-      } {
+    : body_(std::move(body)), elastic_(std::move(elastic)) {
   const ProfileScope profiled("assembly");
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
   stiffness_ = elastic_->assemble();
   dilatation_of_ = elastic_->dilatation_matrix();
   free_unknowns_ = boundary.free_unknowns(mirror);
   for (const auto& [face, column] : boundary.plates(mirror)) {
-    ports_.push_back({face + "_plate_displacement", "m", PortDirection::out});
-    plate_unknowns_.push_back(first_row(free_unknowns_, column));
+    plates_.emplace_back(face, first_row(free_unknowns_, column));
   }
   prescribed_ = boundary.prescribed(mirror);
   const Eigen::SparseMatrix<double> equations = free_unknowns_.transpose();
@@ -63,6 +42,7 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
   for (Index i = 0; i < body_->points().size(); ++i) {
     slope_.push_back(elastic_->pore_sign() / elastic_->drained_bulk_modulus(i));
   }
+  make_ports();
 }
 
 template <int D>
@@ -73,42 +53,49 @@ Eigen::SparseMatrix<double> QuasiStaticSolid<D>::free_stiffness() const {
 template <int D>
 std::string QuasiStaticSolid<D>::free_motion() const {
   return rigid_motion_without_energy<D>(body_->points(), free_stiffness(), free_unknowns_,
-                                        plate_unknowns_.size());
+                                        plates_.size());
 }
 
 template <int D>
-std::span<const Port> QuasiStaticSolid<D>::ports() const {
-  return ports_;
-}
-
-template <int D>
-PortView QuasiStaticSolid<D>::port(PortId id) {
+void QuasiStaticSolid<D>::make_ports() {
   const PointSet* const points = &body_->point_set();
-  switch (id) {
-    case pore_stress:
-      return {points, pore_stress_};
-    case interface_impulse:
-      return {points, interface_.impulse()};
-    case displacement:
-      return {points, std::span(unknowns_).first(D * body_->points().volume.size())};
-    case dilatation:
-      return {points, dilatation_, {}, slope_};
-    case effective_stress:
-      effective_stress_.resize(D * D * body_->points().volume.size());
-      elastic_->stress(unknowns_, effective_stress_);
-      for (std::size_t i = 0; i < pore_stress_at_rest_.size(); ++i) {
-        for (std::size_t a = 0; a < D; ++a) {
-          effective_stress_[(a * D + a) * pore_stress_at_rest_.size() + i] +=
-              pore_stress_at_rest_[i];
-        }
-      }
-      return {points, effective_stress_};
-    case elastic_energy:
-      return {&whole_body, {&elastic_energy_, 1}};
-    case external_work:
-      return {&whole_body, {&external_work_, 1}};
-    default:
-      return {&whole_body, {&unknowns_[plate_unknowns_[id - first_plate]], 1}};
+  const std::size_t count = body_->points().size();
+  ports_.in(
+      {"pore_stress", "Pa"}, [this, count] { pore_stress_.resize(count); },
+      [this, points] {
+        return PortView{points, pore_stress_};
+      });
+  ports_.in(
+      InterfaceForce::port(D), [this, count] { interface_.connect(D * count); },
+      [this, points] {
+        return PortView{points, interface_.impulse()};
+      });
+  ports_.out({.name = "displacement", .unit = "m", .components = D}, [this, points, count] {
+    return PortView{points, std::span(unknowns_).first(D * count)};
+  });
+  ports_.out({.name = "dilatation", .unit = "1", .negligible = negligible_strain}, [this, points] {
+    return PortView{points, dilatation_, {}, slope_};
+  });
+  ports_.found({.name = "effective_stress", .unit = "Pa", .components = D * D}, *points,
+               [this](std::vector<double>& stress) { find_effective_stress(stress); });
+  ports_.total(total_port("elastic_energy", "J", PortRole::energy_stored, D), whole_body,
+               [this] { return elastic_energy_; });
+  ports_.total(total_port("external_work", "J", PortRole::energy_gained, D), whole_body,
+               [this] { return external_work_; });
+  for (const auto& [face, unknown] : plates_) {
+    ports_.total({face + "_plate_displacement", "m"}, whole_body,
+                 [this, unknown] { return unknowns_[unknown]; });
+  }
+}
+
+template <int D>
+void QuasiStaticSolid<D>::find_effective_stress(std::vector<double>& stress) const {
+  stress.resize(D * D * body_->points().volume.size());
+  elastic_->stress(unknowns_, stress);
+  for (std::size_t i = 0; i < pore_stress_at_rest_.size(); ++i) {
+    for (std::size_t a = 0; a < D; ++a) {
+      stress[(a * D + a) * pore_stress_at_rest_.size() + i] += pore_stress_at_rest_[i];
+    }
   }
 }
 
@@ -119,13 +106,6 @@ void QuasiStaticSolid<D>::initialize(double) {
   force_.assign(stiffness_.rows(), 0.0);
   external_work_ = 0.0;
   derive_from_unknowns();
-}
-
-template <int D>
-void QuasiStaticSolid<D>::connect(PortId in) {
-  const std::size_t count = body_->points().size();
-  if (in == pore_stress) pore_stress_.resize(count);
-  if (in == interface_impulse) interface_.connect(D * count);
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,6 +10,7 @@
 
 #include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
+#include "core/module/port_table.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/boundary/interface_force.hpp"
 #include "modules/solid/boundary/solid_boundary.hpp"
@@ -37,8 +39,8 @@ class QuasiStaticSolid final : public PhysicsModule {
   /// body has no equilibrium: do not initialize it.
   std::string free_motion() const;
 
-  std::span<const Port> ports() const override;
-  PortView port(PortId id) override;
+  std::span<const Port> ports() const override { return ports_.list(); }
+  PortView port(PortId id) override { return ports_.view(id); }
   /// Of every point, what of the pore stress does not load the rock: that of a body at rest under a
   /// total stress (stress_at_rest.hpp). Empty: nothing.
   void set_pore_stress_at_rest(std::vector<double> stress) {
@@ -46,24 +48,16 @@ class QuasiStaticSolid final : public PhysicsModule {
   }
 
   void initialize(double t) override;
-  void connect(PortId in) override;
+  void connect(PortId in) override { ports_.connect(in); }
   double stable_time_step() const override;
   double advance(const TimeWindow& window) override;
+  bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor& visitor) override;
   void on_restored(double t) override;
 
  private:
-  enum Id : PortId {
-    pore_stress,
-    interface_impulse,
-    displacement,
-    dilatation,
-    effective_stress,
-    elastic_energy,
-    external_work,
-    first_plate
-  };
-
+  void make_ports();
+  void find_effective_stress(std::vector<double>& stress) const;
   Eigen::SparseMatrix<double> free_stiffness() const;
   Eigen::VectorXd pore_force() const;
   double work_at_rest() const;
@@ -72,12 +66,12 @@ class QuasiStaticSolid final : public PhysicsModule {
 
   std::shared_ptr<const Body<D>> body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
-  std::vector<Port> ports_;
-  std::vector<Index> plate_unknowns_;          ///< one that each plate moves
-  Eigen::SparseMatrix<double> stiffness_;      ///< of all unknowns, face values included
-  Eigen::SparseMatrix<double> dilatation_of_;  ///< takes all unknowns to point dilatations
-  Eigen::SparseMatrix<double> free_unknowns_;  ///< takes those solved for to all unknowns
-  SparseCholesky factor_;                      ///< of the stiffness of those solved for
+  PortTable ports_;
+  std::vector<std::pair<std::string, Index>> plates_;  ///< face, and an unknown that it moves
+  Eigen::SparseMatrix<double> stiffness_;              ///< of all unknowns, face values included
+  Eigen::SparseMatrix<double> dilatation_of_;          ///< takes all unknowns to point dilatations
+  Eigen::SparseMatrix<double> free_unknowns_;          ///< takes those solved for to all unknowns
+  SparseCholesky factor_;                              ///< of the stiffness of those solved for
   ScheduledVector prescribed_{0};  ///< displacements that are prescribed, 0 elsewhere [m]
   ScheduledVector load_{0};        ///< of those solved for, what the prescribed ones do added [N]
 
@@ -90,7 +84,6 @@ class QuasiStaticSolid final : public PhysicsModule {
   InterfaceForce interface_;
   std::vector<double> dilatation_;
   std::vector<double> slope_;
-  std::vector<double> effective_stress_;  ///< made when it is asked for
   double elastic_energy_ = 0.0;
 };
 

@@ -15,6 +15,7 @@ class RigidSolid final : public PhysicsModule {
   void initialize(double) override {}
   double stable_time_step() const override { return std::numeric_limits<double>::infinity(); }
   double advance(const TimeWindow& window) override { return window.end; }
+  bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor&) override {}
   void on_restored(double) override {}
 };

@@ -82,11 +82,10 @@ TEST(MovingPoints, AProbeOutsideTheBodyLeavesOutItsFields) {
                       {"output.probes=[{name: in, at: [3 m, 1 m]}, {name: out, at: [20 m, 1 m]}]"});
   const Line line(30, "fluid");
   Simulation rock = make_simulation(scene);
-  Socket solid({{"displacement", "m", PortDirection::out, PortKind::intensive, PortRole::field, 2}},
-               &rock.points());
+  const std::vector<Port> displacement{{.name = "displacement", .unit = "m", .components = 2}};
   std::vector<ModuleSlot> modules;
   modules.push_back({"fluid", pressure_on(line)});
-  modules.push_back({"solid", std::make_unique<Socket>(solid)});
+  modules.push_back({"solid", std::make_unique<Socket>(displacement, &rock.points())});
   Simulation simulation{
       .body = rock.body,
       .manager = std::make_unique<CouplingManager>(std::move(modules), fake::even_windows(0.1)),

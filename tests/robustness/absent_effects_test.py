@@ -24,8 +24,10 @@ UNKNOWNS = 2 * POINTS + 3  # and face values: two of the fixed face, one of the 
 COUPLING = {f"coupling/{name}": 1 for name in ("time", "step", "window_length", "window_share", "energy_at_start")}
 EQUILIBRIUM = {"solid/displacement": UNKNOWNS, "solid/external_force": UNKNOWNS, "solid/external_work": 1, **COUPLING}
 MOTION = {**EQUILIBRIUM, "solid/velocity": 2 * POINTS, "solid/damped_energy": 1}
+TIP = ("x", "y", "direction_x", "direction_y", "facet", "facet_before", "since", "grows", "intensity_ratio", "asked",
+       "asked_opening")
 CRACKS = {"solid/relief_work": 1, "solid/fracture_energy": 1, "solid/crack_facets": 4 * FACETS,
-          "solid/broken_bonds": 3 * 222, "solid/tips": 2 * 8, "solid/tip_facets": 2 * 3}
+          "solid/broken_bonds": 3 * 222, **{f"solid/tips/{name}": 2 for name in TIP}}
 CRACKS_IN_MOTION = {**CRACKS, "solid/contact_loss": 1, "solid/given_impulse": FACETS,
                     "solid/given_contact_impulse": FACETS}
 CRACKS_AT_REST = {**CRACKS, "solid/has_begun": 1, "solid/radiated_energy": 1, "solid/readiness": 1, "solid/last_growth": 1,

@@ -12,10 +12,11 @@ PressureSmoothing<D>::PressureSmoothing(std::shared_ptr<const Family<D>> family,
     : family_(std::move(family)),
       mirror_(std::move(mirror)),
       points_(std::move(points)),
-      pressure_(family_->node_count()) {}
+      pressure_(family_->node_count()),
+      smoothed_(points_.size()) {}
 
 template <int D>
-void PressureSmoothing<D>::apply(std::span<const double> p, std::span<double> smoothed) {
+std::span<const double> PressureSmoothing<D>::apply(std::span<const double> p) {
   const Index count = family_->point_count;
   std::copy_n(p.begin(), count, pressure_.begin());
   mirror_.fill(pressure_, p.data() + count);
@@ -27,8 +28,9 @@ void PressureSmoothing<D>::apply(std::span<const double> p, std::span<double> sm
           return std::array{w, w * pressure[j]};
         });
     const double own = family_->volume[i];
-    smoothed[k] = (own * pressure[i] + sum) / (own + weights);
+    smoothed_[k] = (own * pressure[i] + sum) / (own + weights);
   });
+  return smoothed_;
 }
 
 template <int D>

@@ -30,14 +30,16 @@ class PressureSmoothing {
     mirror_.use(*family_);
   }
 
-  /// smoothed[k] = the new pressure of points()[k]; p holds point values, then face values.
-  void apply(std::span<const double> p, std::span<double> smoothed);
+  /// The new pressures of points(); p holds point values, then face values. Valid until the next
+  /// call.
+  std::span<const double> apply(std::span<const double> p);
 
  private:
   std::shared_ptr<const Family<D>> family_;
   MirrorCondition<D, 1> mirror_;
   std::vector<Index> points_;
   std::vector<double> pressure_;  ///< workspace: on points and ghosts
+  std::vector<double> smoothed_;  ///< by points_
 };
 
 /// The points within a horizon of a face, layers included.

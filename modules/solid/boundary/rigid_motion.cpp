@@ -3,6 +3,7 @@
 #include <array>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 namespace perifrac {
 
@@ -57,13 +58,13 @@ std::string rigid_motion_without_energy(const Points<D>& points,
   };
   for (int a = 0; a < D; ++a) {
     add(translation(points, all, a), true);
-    names.push_back(std::string("it can slide along ") + axis_names[a]);
+    names.push_back(fmt::format("it can slide along {}", axis_names[a]));
   }
   for (int a = 0; a < D; ++a) {
     for (int b = a + 1; b < D; ++b) {
       add(rotation(points, all, a, b), false);
-      names.push_back(std::string("it can turn in the plane of ") + axis_names[a] + " and " +
-                      axis_names[b]);
+      names.push_back(
+          fmt::format("it can turn in the plane of {} and {}", axis_names[a], axis_names[b]));
     }
   }
   const Eigen::MatrixXd energy = motions.transpose() * (stiffness * motions);

@@ -8,6 +8,7 @@
 #include "core/base/require.hpp"
 #include "core/bonds/crack_cut.hpp"
 #include "core/solvers/complementarity.hpp"
+#include "core/state/visit_each.hpp"
 #include "modules/solid/material/stiffness_bound.hpp"
 
 namespace perifrac {
@@ -82,9 +83,9 @@ void CrackDynamics::find_answers() {
   }
   answers_.clear();
   for (const auto& row : answers) answers_.emplace_back(row.begin(), row.end());
-  forecast_.assign(terms_.size(), 0.0);
-  slope_.assign(terms_.size() * terms_.size(), 0.0);
-  slope_step_ = -1.0;
+  forecast_.opening.assign(terms_.size(), 0.0);
+  forecast_.slope.assign(terms_.size() * terms_.size(), 0.0);
+  forecast_.step = -1.0;
 }
 
 void CrackDynamics::read_jump(Index f, std::span<const double> u) {
@@ -134,7 +135,7 @@ void CrackDynamics::add_faces(std::span<const double> u, std::span<double> inner
 void CrackDynamics::foretell(double step, double decay, std::span<const double> velocity,
                              std::span<const double> acceleration) {
   const std::size_t count = terms_.size();
-  forecast_.assign(opening_.begin(), opening_.end());
+  forecast_.opening.assign(opening_.begin(), opening_.end());
   for (std::size_t f = 0; f < count && step > 0.0; ++f) {
     double change = 0.0;
     for (const Term& term : terms_[f]) {
@@ -143,13 +144,14 @@ void CrackDynamics::foretell(double step, double decay, std::span<const double> 
           term.normal * (decay * velocity[term.moved] + 0.5 * step * acceleration[term.moved]);
     }
     for (const auto& [g, answer] : answers_[f]) change -= answer * given_[g];
-    forecast_[f] += step * change;
+    forecast_.opening[f] += step * change;
   }
-  if (slope_step_ == step) return;
-  slope_step_ = step;
-  slope_.assign(count * count, 0.0);
+  if (forecast_.step == step) return;
+  forecast_.step = step;
+  forecast_.slope.assign(count * count, 0.0);
   for (std::size_t f = 0; f < count; ++f) {
-    for (const auto& [g, answer] : answers_[f]) slope_[f * count + g] = step * step * answer;
+    for (const auto& [g, answer] : answers_[f])
+      forecast_.slope[f * count + g] = step * step * answer;
   }
 }
 
@@ -163,15 +165,15 @@ double CrackDynamics::opening_rate(std::size_t f, std::span<const double> veloci
 
 void CrackDynamics::press(std::span<const double> pressure) {
   const auto count = static_cast<Eigen::Index>(terms_.size());
-  require(pressure.size() == terms_.size() && forecast_.size() == terms_.size() &&
-              slope_.size() == terms_.size() * terms_.size(),
+  require(pressure.size() == terms_.size() && forecast_.opening.size() == terms_.size() &&
+              forecast_.slope.size() == terms_.size() * terms_.size(),
           "pressure of other facets than the body has");
-  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(slope_.data(), count,
-                                                                               count);
+  const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> slope(
+      forecast_.slope.data(), count, count);
   pressure_ = Eigen::Map<const Eigen::VectorXd>(pressure.data(), count);
   contact_.setZero(count);
   const Eigen::VectorXd free =
-      Eigen::Map<const Eigen::VectorXd>(forecast_.data(), count) + slope * pressure_;
+      Eigen::Map<const Eigen::VectorXd>(forecast_.opening.data(), count) + slope * pressure_;
   if (free.minCoeff() < 0.0 && slope(0, 0) > 0.0) {
     contact_ = solve_complementarity(slope, free, 1e-14 * spacing_).x;
     pressure_ += contact_;
@@ -250,9 +252,10 @@ bool CrackDynamics::cut(const CrackFacet<2>& facet) {
   const std::vector<double>& u = system_->unknowns();
   std::vector<double> before(u.size()), after(u.size());
   system_->find_bond_force(before);
-  for (const Index i : points) spent_energy_ += elastic_->point_energy(i, u);
+  const DeformedMaterial<2> deformed = elastic_->deform(u);
+  for (const Index i : points) spent_energy_ += deformed.energy(i);
   break_bonds(bonds);
-  for (const Index i : points) spent_energy_ -= elastic_->point_energy(i, u);
+  for (const Index i : points) spent_energy_ -= deformed.energy(i);
   for (const Index i : points) note_stiffness(i);
   bonds_.add_facet(facet, bonds);
   followed_ = bonds_.version();
@@ -289,44 +292,18 @@ void CrackDynamics::visit_state(StateVisitor& visitor) {
   visitor.visit("relief_work", relief_work_);
   visitor.visit("fracture_energy", spent_energy_);
   visitor.visit("contact_loss", contact_loss_);
-  const auto visit = [&](const char* name, Eigen::VectorXd& field) {
-    std::vector<double> values(field.begin(), field.end());
-    visitor.visit(name, values);
-    field = Eigen::Map<Eigen::VectorXd>(values.data(), std::ssize(values));
-  };
-  visit("given_impulse", given_);
-  visit("given_contact_impulse", given_by_contact_);
-  std::vector<std::int64_t> unknowns;
-  std::vector<double> numbers;
-  for (const Held& held : held_) {
-    unknowns.insert(unknowns.end(), {held.facet, std::ssize(held.unknowns)});
-    unknowns.insert(unknowns.end(), held.unknowns.begin(), held.unknowns.end());
-    numbers.insert(numbers.end(), {held.since, held.share});
-    numbers.insert(numbers.end(), held.force.begin(), held.force.end());
-    numbers.insert(numbers.end(), held.last.begin(), held.last.end());
-  }
-  visitor.visit("held_unknowns", unknowns);
-  visitor.visit("held_forces", numbers);
-  held_.clear();
-  auto unknown = unknowns.begin();
-  auto number = numbers.begin();
-  while (unknown != unknowns.end()) {
-    Held held{.facet = static_cast<Index>(*unknown),
-              .since = *number,
-              .share = *(number + 1),
-              .unknowns = {},
-              .force = {},
-              .last = {}};
-    const std::int64_t count = *(unknown + 1);
-    unknown += 2;
-    number += 2;
-    held.unknowns.assign(unknown, unknown + count);
-    held.force.assign(number, number + count);
-    held.last.assign(number + count, number + 2 * count);
-    unknown += count;
-    number += 2 * count;
-    held_.push_back(std::move(held));
-  }
+  visitor.visit("given_impulse", given_);
+  visitor.visit("given_contact_impulse", given_by_contact_);
+  visit_each(visitor, "held", held_,  //
+             FieldOfEach("facet", [](Held& held) -> Index& { return held.facet; }),
+             FieldOfEach("since", [](Held& held) -> double& { return held.since; }),
+             FieldOfEach("share", [](Held& held) -> double& { return held.share; }),
+             FieldOfEach(
+                 "unknowns", [](Held & held) -> auto& { return held.unknowns; }),
+             FieldOfEach(
+                 "force", [](Held & held) -> auto& { return held.force; }),
+             FieldOfEach(
+                 "displacement", [](Held & held) -> auto& { return held.last; }));
   bonds_.visit_state(visitor);
 }
 

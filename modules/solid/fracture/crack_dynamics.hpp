@@ -52,8 +52,8 @@ class CrackDynamics final : public CutBody<2>, public BodyFracture {
   void begin_step(double step, std::span<double> velocity) override;
   void end_step(double step, std::span<double> velocity) override;
 
-  std::span<double> forecast() { return forecast_; }             ///< without contact [m]
-  std::span<double> slope() { return slope_; }                   ///< [m/Pa]
+  std::span<double> forecast() { return forecast_.opening; }     ///< without contact [m]
+  std::span<double> slope() { return forecast_.slope; }          ///< [m/Pa]
   Eigen::VectorXd& opening() { return opening_; }                ///< [m]
   const Eigen::VectorXd& pressure() const { return pressure_; }  ///< with contact [Pa]
   std::vector<Vector<2>> jumps_at(std::span<const double> unknowns) const;
@@ -79,12 +79,12 @@ class CrackDynamics final : public CutBody<2>, public BodyFracture {
   };
   /// The force that bonds had when a facet cut them, initial stress included.
   struct Held {
-    Index facet;
-    double since;                 ///< [s]
-    double share = 1.0;           ///< that acts on
-    std::vector<Index> unknowns;  ///< that it moves
-    std::vector<double> force;    ///< on them [N]
-    std::vector<double> last;     ///< their displacements [m]
+    Index facet = 0;
+    double since = 0.0;             ///< [s]
+    double share = 1.0;             ///< that acts on
+    std::vector<Index> unknowns{};  ///< that it moves
+    std::vector<double> force{};    ///< on them [N]
+    std::vector<double> last{};     ///< their displacements [m]
   };
 
   void add_facet(const CrackFacet<2>& facet);
@@ -111,8 +111,12 @@ class CrackDynamics final : public CutBody<2>, public BodyFracture {
   /// Impulse of the next step that was given before, and that of contact in it [Pa s].
   Eigen::VectorXd given_, given_by_contact_;
   std::vector<double> face_force_;
-  std::vector<double> forecast_, slope_;
-  double slope_step_ = -1.0;  ///< that slope_ is of [s]
+  struct Forecast {
+    std::vector<double> opening;  ///< without contact [m]
+    std::vector<double> slope;    ///< against pressure, a matrix [m/Pa]
+    double step = -1.0;           ///< that the slope is of [s]
+  };
+  Forecast forecast_;
   std::vector<Held> held_;
   double relief_work_ = 0.0, spent_energy_ = 0.0, contact_loss_ = 0.0;
 };

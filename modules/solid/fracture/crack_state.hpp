@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/base/points.hpp"
+#include "modules/solid/fracture/fluid_in_cracks.hpp"
 
 namespace perifrac {
 
@@ -39,6 +41,28 @@ struct CrackState {
 
   bool has_fluid() const { return !viscosity.empty(); }
 };
+
+/// The same of a body whose fluid in cracks is `fluid`; nothing has a default, so that no solid
+/// forgets what another tells.
+template <int D>
+CrackState<D> crack_state(
+    double t, const FluidInCracks& fluid, const Eigen::VectorXd& opening,
+    const Eigen::VectorXd& pressure, std::span<const double> shear,
+    std::span<const double> pore_stress,
+    std::function<std::span<const double>(const UnknownNames& named)> unknowns,
+    std::function<std::vector<Vector<D>>()> jumps, PointInertia<D> inertia, double pause) {
+  return {t,
+          opening,
+          pressure,
+          fluid.viscosity(),
+          fluid.leak_off(),
+          pore_stress,
+          std::move(unknowns),
+          std::move(jumps),
+          std::move(inertia),
+          shear,
+          pause};
+}
 
 /// A tip is ready from here on: it goes on within this of its criterion.
 inline constexpr double ready = 0.995;

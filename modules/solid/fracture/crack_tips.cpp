@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/require.hpp"
+#include "core/state/visit_each.hpp"
 
 namespace perifrac {
 
@@ -264,32 +264,25 @@ bool CrackTips::joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>
 }
 
 void CrackTips::visit_state(StateVisitor& visitor) {
-  std::vector<double> numbers;
-  std::vector<std::int64_t> indices;
-  for (const Tip& tip : tips_) {
-    numbers.insert(numbers.end(),
-                   {tip.at.place[0], tip.at.place[1], tip.at.direction[0], tip.at.direction[1],
-                    tip.since, tip.intensity_ratio, tip.asked, tip.asked_opening});
-    indices.insert(indices.end(), {tip.at.facet, tip.at.before, tip.grows});
-  }
-  visitor.visit("tips", numbers);
-  visitor.visit("tip_facets", indices);
-  require(indices.size() % 3 == 0 && numbers.size() == indices.size() / 3 * 8,
-          "a state of tips in parts that do not fit");
-  tips_.resize(indices.size() / 3);
+  const std::vector<Tip> before = tips_;
+  visit_each(
+      visitor, "tips", tips_,  //
+      FieldOfEach("x", [](Tip& tip) -> double& { return tip.at.place[0]; }),
+      FieldOfEach("y", [](Tip& tip) -> double& { return tip.at.place[1]; }),
+      FieldOfEach("direction_x", [](Tip& tip) -> double& { return tip.at.direction[0]; }),
+      FieldOfEach("direction_y", [](Tip& tip) -> double& { return tip.at.direction[1]; }),
+      FieldOfEach("facet", [](Tip& tip) -> Index& { return tip.at.facet; }),
+      FieldOfEach("facet_before", [](Tip& tip) -> Index& { return tip.at.before; }),
+      FieldOfEach("since", [](Tip& tip) -> double& { return tip.since; }),
+      FieldOfEach("grows", [](Tip& tip) -> bool& { return tip.grows; }),
+      FieldOfEach("intensity_ratio", [](Tip& tip) -> double& { return tip.intensity_ratio; }),
+      FieldOfEach("asked", [](Tip& tip) -> double& { return tip.asked; }),
+      FieldOfEach("asked_opening", [](Tip& tip) -> double& { return tip.asked_opening; }));
   for (std::size_t k = 0; k < tips_.size(); ++k) {
-    const double* const n = &numbers[8 * k];
-    const std::int64_t* const i = &indices[3 * k];
-    const Vector<2> place = {n[0], n[1]};
-    const bool is_known = tips_[k].nearest >= 0 && tips_[k].at.place == place;
-    const Index nearest = is_known ? tips_[k].nearest : body_.nearest_point(place);
-    tips_[k] = {{place, {n[2], n[3]}, static_cast<Index>(i[0]), static_cast<Index>(i[1])},
-                n[4],
-                i[2] != 0,
-                nearest,
-                n[5],
-                n[6],
-                n[7]};
+    Tip& tip = tips_[k];
+    const bool is_known = k < before.size() && before[k].at.place == tip.at.place;
+    tip.nearest = is_known ? before[k].nearest : body_.nearest_point(tip.at.place);
+    tip.readiness = tip.spent = tip.released = 0.0;
   }
 }
 

@@ -40,9 +40,9 @@ class CrackTips {
 
  private:
   struct Tip {
-    CrackTip at;
-    double since;        ///< when it came there [s]
-    bool grows;          ///< some bond lies ahead
+    CrackTip at{};
+    double since = 0.0;  ///< when it came there [s]
+    bool grows = false;  ///< some bond lies ahead
     Index nearest = -1;  ///< point, whose rock it is in
     /// K_I under fluid of fixed volume, over that before the last step: falls as the crack grows.
     double intensity_ratio = 1.0;

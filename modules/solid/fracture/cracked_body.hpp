@@ -86,6 +86,8 @@ class CrackedBody final : public CutBody<D> {
   Eigen::VectorXd face_force(const Eigen::VectorXd& pressure, bool relief = true,
                              std::span<const double> shear = {}) const;
 
+  /// Takes what is solved for to all unknowns.
+  const Eigen::SparseMatrix<double>& free_unknowns() const { return free_unknowns_; }
   /// Of what is solved for, with all bonds that are broken now; kept for start().
   const Eigen::SparseMatrix<double>& free_stiffness();
 

@@ -69,9 +69,10 @@ bool CriticalStretch<D>::breaks(std::span<const double> u) {
   const Bonds bonds = stretched_bonds(u);
   if (bonds.empty()) return false;
   const std::vector<Index> points = ends_of(bonds);
-  for (const Index i : points) released_energy_ += elastic_->point_energy(i, u);
+  const DeformedMaterial<D> deformed = elastic_->deform(u);
+  for (const Index i : points) released_energy_ += deformed.energy(i);
   break_in_family(bonds, points);
-  for (const Index i : points) released_energy_ -= elastic_->point_energy(i, u);
+  for (const Index i : points) released_energy_ -= deformed.energy(i);
   bonds_.break_bonds(bonds);
   followed_ = bonds_.version();
   find_growth(points);

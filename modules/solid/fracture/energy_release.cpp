@@ -176,13 +176,12 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
                                       std::span<const double> shear) const {
   const Family<2>& family = body_.family();
   const Cutoff cutoff{tip.place, spacing_, radius(tip)};
-  BreakableElasticity<2>& elastic = body_.elastic();
-  elastic.look_at(unknowns);
+  const DeformedMaterial<2> deformed = body_.elastic().deform(unknowns);
   double sum = 0.0;
   for (const Index i : points_around(cutoff.centre, cutoff.outer)) {
     const Vector<2> x = {family.position[0][i], family.position[1][i]};
     const double q = cutoff.at(x);
-    const Tensor<2, 2> g = elastic.gradient_at(i);
+    const Tensor<2, 2> g = deformed.gradient(i);
     const Vector<2> slope = cutoff.gradient(x);
     if (inertia) {
       const Vector<2> force = inertia(i);
@@ -190,7 +189,7 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
         sum += q * force[a] * (g[a * 2] * tip.direction[0] + g[a * 2 + 1] * tip.direction[1]);
       }
     }
-    Tensor<2, 2> stress = elastic.stress_at(i, g);
+    Tensor<2, 2> stress = deformed.stress(i, g);
     if (!pore_stress.empty()) {
       const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
       for (const int k : {0, 3}) stress[k] -= pore_stress[i];
@@ -207,7 +206,7 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
       }
     }
     const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
-    sum += family.volume[i] * work - elastic.point_energy(i, unknowns) * along;
+    sum += family.volume[i] * work - deformed.energy(i) * along;
   }
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {

@@ -41,7 +41,7 @@ class CorotationalElasticity final : public LinearExactElasticity<D, Law> {
   }
 
   double energy(std::span<const double> u, std::span<const double>) override {
-    this->look_at(u);
+    this->take(u);
     return block_sum(operator_.family().point_count, block_sums_,
                      [&](Index i) { return point_energy(i, u); });
   }

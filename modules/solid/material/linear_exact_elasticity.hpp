@@ -86,9 +86,6 @@ class LinearExactElasticity : public BreakableElasticity<D> {
 
   const IsotropicElasticity<D>& law(Index i) const override { return law_at(operator_.law(), i); }
 
-  void look_at(std::span<const double> u) override { operator_.look_at(u); }
-  Tensor<D, D> gradient_at(Index i) const override { return operator_.gradient_at(i); }
-
   void append_unknowns(Index i, std::vector<Index>& unknowns) const override {
     operator_.append_unknowns(i, unknowns);
   }
@@ -96,15 +93,6 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   PointStiffness point_stiffness(Index i) const override {
     const auto thin = find_thin(i);
     return is_at(thin, i) ? thin->stiffness : operator_.point_stiffness(i);
-  }
-
-  double point_energy(Index i, std::span<const double> u) const override {
-    const auto thin = find_thin(i);
-    if (!is_at(thin, i)) return operator_.energy(i);
-    const std::vector<Index>& unknowns = thin->stiffness.unknowns;
-    Eigen::VectorXd own(static_cast<Eigen::Index>(unknowns.size()));
-    for (std::size_t k = 0; k < unknowns.size(); ++k) own[k] = u[unknowns[k]];
-    return 0.5 * own.dot(thin->stiffness.matrix * own);
   }
 
   void update(std::span<const Index> points) override {
@@ -119,6 +107,18 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   }
 
  protected:
+  void take(std::span<const double> u) override { operator_.look_at(u); }
+  Tensor<D, D> gradient_at(Index i) const override { return operator_.gradient_at(i); }
+
+  double point_energy(Index i, std::span<const double> u) const override {
+    const auto thin = find_thin(i);
+    if (!is_at(thin, i)) return operator_.energy(i);
+    const std::vector<Index>& unknowns = thin->stiffness.unknowns;
+    Eigen::VectorXd own(static_cast<Eigen::Index>(unknowns.size()));
+    for (std::size_t k = 0; k < unknowns.size(); ++k) own[k] = u[unknowns[k]];
+    return 0.5 * own.dot(thin->stiffness.matrix * own);
+  }
+
   LinearExactOperator<D, Law> operator_;
 
  private:

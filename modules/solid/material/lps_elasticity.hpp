@@ -38,16 +38,16 @@ class LpsElasticity final : public BreakableElasticity<D> {
   double drained_bulk_modulus(Index i) const override { return law_.at(i).drained_bulk_modulus(); }
   double pore_sign() const override { return pore_sign_; }
 
-  void look_at(std::span<const double> u) override { mirror_.spread(u, field_); }
-  Tensor<D, D> gradient_at(Index i) const override;
-  Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const override;
   void append_unknowns(Index i, std::vector<Index>& unknowns) const override;
   PointStiffness point_stiffness(Index i) const override;
-  double point_energy(Index i, std::span<const double> u) const override;
   void update(std::span<const Index> points) override;
   const IsotropicElasticity<D>& law(Index i) const override { return law_.at(i); }
 
  private:
+  void take(std::span<const double> u) override { mirror_.spread(u, field_); }
+  Tensor<D, D> gradient_at(Index i) const override;
+  Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const override;
+  double point_energy(Index i, std::span<const double> u) const override;
   void take_moments(Index i);
   /// lambda - mu: the stiffness against dilatation that the bonds do not have.
   double dilatation_stiffness(Index i) const {

@@ -17,8 +17,7 @@ class BodyFracture {
                           [[maybe_unused]] std::span<double> velocity) {}
   virtual void end_step([[maybe_unused]] double step, [[maybe_unused]] std::span<double> velocity) {
   }
-  /// At the end of a step: breaks what is to break at u, the vector that the material's apply() was
-  /// last given; whether it did.
+  /// At the end of a step: breaks what is to break at u; whether it did.
   virtual bool breaks([[maybe_unused]] std::span<const double> u) { return false; }
   /// A bound, at least 1, of how much stiffer than it was at first the body is.
   virtual double stiffness_growth() const = 0;

@@ -13,17 +13,12 @@
 #include "modules/solid/boundary/solid_boundary.hpp"
 #include "modules/solid/material/elastic_operator.hpp"
 #include "modules/solid/motion/body_fracture.hpp"
+#include "modules/solid/motion/external_work.hpp"
+#include "modules/solid/motion/lumped_mass.hpp"
+#include "modules/solid/motion/massless_plates.hpp"
+#include "modules/solid/motion/moving_pore_stress.hpp"
 
 namespace perifrac {
-
-/// The pore stress that a solid is told for a window: at time t and dilatation theta it is
-/// value + rate (t - end) + slope theta [Pa]. Empty spans: no pore stress at all.
-struct PoreStressInput {
-  std::span<const double> value{};
-  std::span<const double> rate{};
-  std::span<const double> slope{};
-  double end = 0.0;
-};
 
 /// Newton's law for an elastic body: m u'' = load - dE/du, for all that is free to move and has a
 /// mass. What is prescribed moves as prescribed. A rigid plate on a mirrored face has no mass: its
@@ -38,12 +33,12 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   std::string_view name() const override { return "displacement"; }
   std::string place(std::size_t unknown) const override;
-  std::span<const double> mass() const override { return mass_; }
+  std::span<const double> mass() const override { return moved_.mass(); }
   void force(double t, std::span<const double> y, std::span<double> force) override;
   void stiffness_times(std::span<const double> v, std::span<double> product) override;
   std::uint64_t stiffness_version() const override { return version_; }
   double stiffness_growth() const override {
-    return growth_ * (fracture_ != nullptr ? fracture_->stiffness_growth() : 1.0);
+    return pore_stress_.growth() * (fracture_ != nullptr ? fracture_->stiffness_growth() : 1.0);
   }
   void begin_step(double step, std::span<double> velocity) override {
     if (fracture_ != nullptr) fracture_->begin_step(step, velocity);
@@ -57,13 +52,11 @@ class ElasticDynamics final : public SecondOrderSystem {
   void set_fracture(BodyFracture& fracture) { fracture_ = &fracture; }
   bool may_break() const { return fracture_ != nullptr; }
   /// Bonds were broken between steps.
-  void note_broken_bonds() { plate_rows_known_ = false; }
+  void note_broken_bonds() { plates_.forget(); }
   /// What moves an unknown, by its place in mass(); negative: nothing that has a mass.
-  Index moved_by(Index unknown) const { return owner_[unknown]; }
+  Index moved_by(Index unknown) const { return moved_.owner(unknown); }
   /// Force of the bonds at the present displacements and pore stress, on every unknown [N].
-  void find_bond_force(std::span<double> force) {
-    apply(unknowns_, {pore_stress_, pore_slope_}, force, {});
-  }
+  void find_bond_force(std::span<double> force) { apply(unknowns_, pore_stress_.now(), force, {}); }
 
   /// Takes the input of the next window; spans must stay valid while it is integrated. The slope
   /// is part of the stiffness.
@@ -71,7 +64,7 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   /// That which acts on every point now, with what the rock's dilatation answers [Pa]; empty: none.
   /// Valid until the next call.
-  std::span<const double> acting_pore_stress();
+  std::span<const double> acting_pore_stress() { return pore_stress_.acting(dilatation_); }
 
   /// Takes a steady force on the points, D blocks [N]; it must stay valid until the next. Empty:
   /// none.
@@ -87,13 +80,13 @@ class ElasticDynamics final : public SecondOrderSystem {
   void derive();
 
   /// Displacements of what has a mass, gathered from the state.
-  std::vector<double> position() const;
+  std::vector<double> position() const { return moved_.positions(unknowns_); }
   /// All displacements: D blocks of points, then face values [m].
   std::vector<double>& unknowns() { return unknowns_; }
   std::span<double> dilatation();  ///< of the points
   void effective_stress(std::span<double> stress) { elastic_->stress(unknowns_, stress); }
-  double elastic_energy();                                 ///< without pore stress [J]
-  double external_work() const { return external_work_; }  ///< [J]
+  double elastic_energy();                              ///< without pore stress [J]
+  double external_work() const { return work_.sum(); }  ///< [J]
   /// An unknown that each rigid plate moves, in the boundary's order.
   const std::vector<Index>& plate_unknowns() const { return plate_unknowns_; }
   /// Velocity of the points, D blocks [m/s], from that of what has a mass. What is prescribed is
@@ -108,22 +101,8 @@ class ElasticDynamics final : public SecondOrderSystem {
                    std::span<double> dilatation);
   void take_initial_force(std::span<double> force) const;
 
-  /// A rigid plate on a mirrored face.
-  struct Plate {
-    Index unknown;
-    std::vector<std::pair<Index, double>> stiffness;  ///< its row, other plates apart [N/m]
-    std::vector<std::pair<Index, double>>
-        dilatation;  ///< what its force has of pore stress, by points
-  };
-
-  void expand(std::span<const double> y, std::span<const double> prescribed,
-              std::vector<double>& unknowns) const;
-  void place_plates(std::span<const double> load, std::span<const double> pore,
+  void place_plates(std::span<const double> load, std::span<const double> pore_stress,
                     std::vector<double>& unknowns);
-  void find_plate_rows();
-  template <class ForceOn>
-  void gather(ForceOn&& force_on, std::span<double> y) const;
-  void find_pore_stress(double t);
   void find_loads(double t);
   void find_acted_on();
 
@@ -134,37 +113,19 @@ class ElasticDynamics final : public SecondOrderSystem {
   ScheduledVector prescribed_;
   bool prescribes_ = false;  ///< something other than 0
   ScheduledVector loads_;
-  std::vector<double> mass_;
-  std::vector<Index> owner_;        ///< what moves each unknown; none: prescribed, or a plate
-  std::vector<Index> first_moved_;  ///< by what has a mass
-  /// What a plate on a layer moves beyond the first: what has the mass, unknown.
-  std::vector<std::pair<Index, Index>> also_moved_;
-  std::vector<Plate> plates_;
+  LumpedMass moved_;
+  MasslessPlates plates_;
   std::vector<Index> plate_unknowns_;
-  Eigen::MatrixXd plate_compliance_;  ///< inverse of the plates' own stiffness [m/N]
-  bool plate_rows_known_ = false;
   std::uint64_t version_ = 0;
 
-  std::vector<double> unknowns_;        ///< [m]
-  std::vector<double> external_force_;  ///< on every unknown, reactions included [N]
-  std::vector<Index> acted_on_;         ///< the unknowns where it may be other than 0
-  double external_work_ = 0.0;
+  std::vector<double> unknowns_;  ///< [m]
+  ExternalWork work_;
   std::vector<double> dilatation_;
-
   std::span<const double> interface_force_;
-  PoreStressInput pore_;
-  std::vector<double> pore_stress_;  ///< at the time of the last force, slope apart
-  std::vector<double> pore_slope_;   ///< of the present window; empty until one is told
-  /// The first that was told, part of the stiffness of reference: a fluid whose storage follows its
-  /// pressure changes the slope in every window, and the stable step is not to be sought each time.
-  std::vector<double> reference_slope_;
-  std::vector<double> noted_slope_;  ///< the one that version_ belongs to
-  double growth_ = 1.0;
-  std::vector<double> no_pore_stress_;
-  std::vector<double> acting_pore_stress_;
+  MovingPoreStress pore_stress_;
 
-  Eigen::VectorXd prescribed_now_, load_now_;                          // workspace
-  std::vector<double> before_, trial_, inner_, scratch_, block_sums_;  // workspace
+  Eigen::VectorXd prescribed_now_, load_now_;             // workspace
+  std::vector<double> before_, trial_, inner_, scratch_;  // workspace
 };
 
 }  // namespace perifrac
