@@ -18,8 +18,9 @@ using Values = std::vector<double>;
 /// ports 1 out.
 struct Pair {
   explicit Pair(bool lagged = true)
-      : source({{"p", "Pa", PortDirection::in}, {"theta", "1", PortDirection::out}}, points.set(),
-               true),
+      : source({{"p", "Pa", PortDirection::in},
+                {.name = "theta", .unit = "1", .negligible = negligible_strain}},
+               points.set(), true),
         target({{"theta", "1", PortDirection::in}, {"p", "Pa", PortDirection::out}}, points.set(),
                true),
         link({"solid", &source, 1}, {"pore_flow", &target, 0}, lagged) {}
