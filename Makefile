@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style docs paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style tidy docs paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -28,6 +28,7 @@ help:
 	@echo 'make attack     ATTACK_COUNT made-up scenes, run at two spacings and windows: docs/reliability.md'
 	@echo 'make fuzz       scenes and checkpoints made up by a fuzzer, FUZZ_SECONDS each (clang 16)'
 	@echo 'make fuzz-many  FUZZ_INPUTS checkpoints, without the address sanitizer, which is faster (clang 16)'
+	@echo 'make tidy       length and complexity of our functions (clang-tidy 16)'
 	@echo 'make mutants    physics changed by the patches of tests/mutants: the tests named there must fail'
 	@echo 'make sanitize   unit and contract tests under the address, undefined and thread sanitizers, and cracks that cut rock free (clang 16)'
 
@@ -54,6 +55,10 @@ test-slow: build
 
 check-style:
 	@tools/check_style
+
+tidy:
+	@tools/install clang
+	@tools/check_tidy
 
 bench: build
 	$(BUILD)/bin/perifrac_bench

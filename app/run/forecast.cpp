@@ -148,70 +148,109 @@ void for_each_window_to_come(const CouplingManager& manager, std::span<const dou
   }
 }
 
+/// The first windows of a run, and what they took.
+class TrialRun {
+ public:
+  TrialRun(Simulation& simulation, double seconds, std::optional<double> facets_at_end)
+      : simulation_(simulation),
+        manager_(*simulation.manager),
+        seconds_(seconds),
+        facets_to_come_(facets_at_end.value_or(0.0) - facet_count(simulation)),
+        facets_at_start_(facet_count(simulation)),
+        at_start_(spent(manager_, begin_)) {}
+
+  /// Until enough is known, up to the last of the outputs at most. Throws NumericalError.
+  void run(std::span<const double> outputs) {
+    Reach reach(manager_);
+    manager_.settle();
+    while (reached_ < outputs.size() && goes_on(outputs.back())) {
+      const double output = outputs[reached_], t = manager_.time(), used = used_processor_time();
+      const Index facets = facet_count(simulation_);
+      const std::vector<double> before = spent(manager_, begin_);
+      manager_.advance(std::min(output, reach.next(seconds_ - used)));
+      reach.took(used_processor_time() - used, manager_.time() - t);
+      windows_.push_back({manager_.time() - t, spent_since(before, spent(manager_, begin_)),
+                          facet_count(simulation_) - facets});
+      if (manager_.time() != output) continue;
+      manager_.restart_point();  // as a run does
+      ++reached_;
+    }
+  }
+
+  /// Outputs that were reached.
+  std::size_t reached() const { return reached_; }
+  std::span<const Trial> windows() const { return windows_; }
+  double wall_time() const { return since(begin_); }  ///< [s]
+  double used_processor_time() const { return processor_time() - processors_before_; }
+  /// Every part, and what couples them [s].
+  std::vector<double> seconds_by_part() const {
+    return spent_since(at_start_, spent(manager_, begin_));
+  }
+
+ private:
+  bool goes_on(double end) const {
+    if (windows_.empty()) return true;  // nothing can be foretold from no window
+    const Index gained = facet_count(simulation_) - facets_at_start_;
+    const bool waits =
+        gained < std::min<double>(telling_facets, facets_to_come_) || manager_.time() > far * end;
+    return used_processor_time() < (waits ? longest_wait : 1.0) * seconds_;
+  }
+
+  Simulation& simulation_;
+  CouplingManager& manager_;
+  double seconds_;
+  double facets_to_come_;
+  Index facets_at_start_;
+  Clock::time_point begin_ = Clock::now();
+  double processors_before_ = processor_time();
+  std::vector<double> at_start_;
+  std::vector<Trial> windows_;
+  std::size_t reached_ = 0;
+};
+
+/// Adds to the parts of a trial what the rest of the run will take; returns its windows.
+std::int64_t add_the_rest(const CouplingManager& manager, std::span<const Trial> trial,
+                          std::span<const double> outputs, double facets,
+                          std::vector<double>& parts) {
+  std::int64_t windows = 0;
+  // What the first windows take is of their own: caches fill, iterations find their pace.
+  const Cost cost = cost_of(manager, trial.subspan(trial.size() / 2));
+  for_each_window_to_come(manager, outputs, [&](double length) {
+    const std::vector<double> steps = steps_in(manager, length);
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * steps[k];
+    ++windows;
+  });
+  // A facet costs half a window of its own, too: growth ends the one that it comes in, anywhere.
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    parts[k] += (0.5 * cost.step[k] + cost.facet[k]) * facets;
+  }
+  return windows + std::llround(0.5 * facets);
+}
+
 }  // namespace
 
 Forecast forecast(Simulation& simulation, std::span<const double> outputs, double trial_seconds,
                   double building_seconds, std::optional<double> facets_at_end) {
   CouplingManager& manager = *simulation.manager;
-  const Clock::time_point begin = Clock::now();
-  const double processors_before = processor_time();
-  const std::vector<double> at_start = spent(manager, begin);
-  std::vector<Trial> trial;
   Forecast result{};
-  const Index facets_at_start = facet_count(simulation);
-  const auto goes_on = [&] {
-    if (trial.empty()) return true;  // nothing can be foretold from no window
-    const Index gained = facet_count(simulation) - facets_at_start;
-    const double to_come = facets_at_end.value_or(0.0) - facets_at_start;
-    const bool waits =
-        gained < std::min<double>(telling_facets, to_come) || manager.time() > far * outputs.back();
-    return processor_time() - processors_before < (waits ? longest_wait : 1.0) * trial_seconds;
-  };
-  auto output = outputs.begin();
-  Reach reach(manager);
+  TrialRun trial(simulation, trial_seconds, facets_at_end);
   try {
-    manager.settle();
-    while (output != outputs.end() && goes_on()) {
-      const double t = manager.time();
-      const Index facets = facet_count(simulation);
-      const std::vector<double> before = spent(manager, begin);
-      const double used = processor_time();
-      manager.advance(std::min(*output, reach.next(trial_seconds - (used - processors_before))));
-      reach.took(processor_time() - used, manager.time() - t);
-      trial.push_back({manager.time() - t, spent_since(before, spent(manager, begin)),
-                       facet_count(simulation) - facets});
-      if (manager.time() != *output) continue;
-      manager.restart_point();  // as a run does
-      ++output;
-    }
+    trial.run(outputs);
   } catch (const NumericalError& error) {
     result.failure = error.what();
   }
   result.trial_time = manager.time();
-  result.trial_seconds = since(begin);
-  result.is_whole = output == outputs.end();
+  result.trial_seconds = trial.wall_time();
+  result.is_whole = trial.reached() == outputs.size();
   result.windows = manager.step();
 
-  std::vector<double> parts = spent_since(at_start, spent(manager, begin));
+  std::vector<double> parts = trial.seconds_by_part();
   if (!result.is_whole && !result.failure) {
-    // What the first windows take is of their own: caches fill, iterations find their pace.
-    const std::span all(trial);
-    const Cost cost = cost_of(manager, all.subspan(all.size() / 2));
-    for_each_window_to_come(manager, outputs, [&](double length) {
-      const std::vector<double> steps = steps_in(manager, length);
-      for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * steps[k];
-      ++result.windows;
-    });
     const double facets = std::max(0.0, facets_at_end.value_or(0.0) - facet_count(simulation));
-    // A facet costs half a window of its own, too: growth ends the one that it comes in, anywhere.
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      parts[k] += (0.5 * cost.step[k] + cost.facet[k]) * facets;
-    }
-    result.windows += std::llround(0.5 * facets);
+    result.windows += add_the_rest(manager, trial.windows(), outputs, facets, parts);
   }
   // As if nothing else ran: one thread is then never kept waiting.
-  const double used = processor_time() - processors_before;
-  const double quiet = std::min(1.0, used / result.trial_seconds);
+  const double quiet = std::min(1.0, trial.used_processor_time() / result.trial_seconds);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const bool is_module = k < manager.modules().size();
     result.seconds_by_part.emplace_back(is_module ? manager.modules()[k].name : "coupling",

@@ -102,6 +102,24 @@ class Surroundings {
   std::vector<Index> near_;  ///< the nearest first
 };
 
+/// They have a side in common.
+template <int D>
+bool meet(const CrackFacet<D>& one, const CrackFacet<D>& other) {
+  const double rounding = 1e-6 * std::pow(area<D>(one), 1.0 / (D - 1));
+  const auto same = [&](const FacetSide<D>& a, const FacetSide<D>& b) {
+    double off = 0.0;
+    for (int k = 0; k < D - 1; ++k) {
+      for (int axis = 0; axis < D; ++axis) off = std::max(off, std::abs(a[k][axis] - b[k][axis]));
+    }
+    return off < rounding;
+  };
+  const auto of_other = sides<D>(other);
+  return std::ranges::any_of(sides<D>(one), [&](const FacetSide<D>& side) {
+    return std::ranges::any_of(of_other,
+                               [&](const FacetSide<D>& another) { return same(side, another); });
+  });
+}
+
 /// Facets within reach that hang together with the nearest through facets within reach.
 template <int D>
 std::vector<Index> connected_facets(std::span<const CrackFacet<D>> facets, const PointSet& points,
@@ -111,26 +129,11 @@ std::vector<Index> connected_facets(std::span<const CrackFacet<D>> facets, const
     if (square_distance(points, f, place) < reach * reach) near.push_back(static_cast<Index>(f));
   }
   std::ranges::stable_sort(near, {}, [&](Index f) { return square_distance(points, f, place); });
-  const auto meet = [&](Index f, Index g) {
-    const double rounding = 1e-6 * std::pow(area<D>(facets[f]), 1.0 / (D - 1));
-    const auto same = [&](const FacetSide<D>& one, const FacetSide<D>& other) {
-      double off = 0.0;
-      for (int k = 0; k < D - 1; ++k) {
-        for (int a = 0; a < D; ++a) off = std::max(off, std::abs(one[k][a] - other[k][a]));
-      }
-      return off < rounding;
-    };
-    for (const auto& one : sides<D>(facets[f])) {
-      for (const auto& other : sides<D>(facets[g])) {
-        if (same(one, other)) return true;
-      }
-    }
-    return false;
-  };
   std::vector<Index> connected(near.begin(), near.begin() + (near.empty() ? 0 : 1));
   for (std::size_t n = 0; n < connected.size(); ++n) {
     for (const Index g : near) {
-      if (std::ranges::count(connected, g) == 0 && meet(connected[n], g)) connected.push_back(g);
+      if (std::ranges::count(connected, g) > 0) continue;
+      if (meet<D>(facets[connected[n]], facets[g])) connected.push_back(g);
     }
   }
   return connected;

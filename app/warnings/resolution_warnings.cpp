@@ -70,9 +70,13 @@ std::string where_fluid_seeps(const Section& scene) {
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("crack_fluid")) return {};
   const double spacing = scene.number("body.spacing");
-  const double filled = value_of(simulation, "wetted_length");
-  const bool is_on_its_way = value_of(simulation, "fluid_lag") > spacing;
-  if (!(filled > 0.0) || filled >= least_filled * spacing || !is_on_its_way) return {};
+  const bool is_flat = scene.integer("dimension") == 2;
+  // In 3D the radius of a disc as large as what is wet, and the side of a square as what is not.
+  const double filled = is_flat ? value_of(simulation, "wetted_length")
+                                : std::sqrt(value_of(simulation, "wetted_area") / M_PI);
+  const double dry =
+      is_flat ? value_of(simulation, "fluid_lag") : std::sqrt(value_of(simulation, "dry_area"));
+  if (!(filled > 0.0) || filled >= least_filled * spacing || !(dry > spacing)) return {};
   return fmt::format(
       "fluid fills {:.2g} m of the cracks in the end, {:.1f} spacings: its pressure and what it "
       "opens are those of facets as long as body.spacing, not of a crack; a later time.end or a "

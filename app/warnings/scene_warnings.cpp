@@ -1,5 +1,10 @@
 #include "app/warnings/scene_warnings.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
@@ -47,6 +52,66 @@ std::vector<std::string> grain_warnings(const Section& scene) {
   return {};
 }
 
+/// lambda + 2 mu and mu, of a material that is there [Pa].
+std::array<double, 2> stiffness(const Section& scene, const std::string& path) {
+  const auto rock = read_isotropic_elasticity<3>(scene, path);
+  return {rock.lame_lambda + 2.0 * rock.shear_modulus, rock.shear_modulus};
+}
+
+/// How far a place is from the nearest side of a box that the scene gives [m]; infinite where none
+/// lies beside it.
+double distance_to_sides(const Section& scene, const std::string& box,
+                         const std::vector<double>& place, double reach) {
+  const auto corner = [&](const char* name, double none) {
+    const std::string path = box + "." + name;
+    if (!writes(scene, path)) return std::vector<double>(place.size(), none);
+    return scene.numbers(path);
+  };
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const std::vector<double> from = corner("from", -far), to = corner("to", far);
+  double least = far;
+  for (std::size_t a = 0; a < place.size(); ++a) {
+    bool is_beside = true;
+    for (std::size_t b = 0; b < place.size(); ++b) {
+      is_beside = is_beside && (b == a || (place[b] > from[b] - reach && place[b] < to[b] + reach));
+    }
+    if (!is_beside) continue;
+    least = std::min({least, std::abs(place[a] - from[a]), std::abs(place[a] - to[a])});
+  }
+  return least;
+}
+
+/// At the border of rocks that differ so much stresses are of first order in the spacing.
+constexpr double telling_contrast = 4.0;
+
+/// A probe beside such a border.
+std::optional<std::string> border_warning(const Section& scene) {
+  if (!writes(scene, "solid.regions") || !writes(scene, "body.spacing")) return {};
+  const double horizon = scene.number("body.horizon_ratio") * scene.number("body.spacing");
+  for (const std::string& region : scene.names("solid.regions")) {
+    const std::string material = fmt::format("solid.regions.{}.material", region);
+    if (!writes(scene, material)) continue;
+    const auto here = stiffness(scene, material), elsewhere = stiffness(scene, "solid.material");
+    double contrast = 1.0;
+    for (const int k : {0, 1}) {
+      contrast = std::max({contrast, here[k] / elsewhere[k], elsewhere[k] / here[k]});
+    }
+    if (contrast < telling_contrast) continue;
+    for (std::size_t n = 0; n < scene.count("output.probes"); ++n) {
+      const std::string probe = fmt::format("output.probes[{}]", n);
+      const double distance =
+          distance_to_sides(scene, "body.regions." + region, scene.numbers(probe + ".at"), horizon);
+      if (!(distance < horizon)) continue;
+      return fmt::format(
+          "probe '{}' lies {:.3g} m from the border of region '{}', across which the stiffness "
+          "changes {:.2g} times: within a horizon of it, {:.3g} m, stresses are of first order in "
+          "body.spacing; probe farther away, or bring points closer together",
+          scene.text(probe + ".name"), distance, region, contrast, horizon);
+    }
+  }
+  return {};
+}
+
 /// Points at one wall of so narrow a place see those at the other, and what is left free between
 /// points and walls is as much as what they fill.
 std::optional<std::string> narrow_fluid_warning(const Section& scene) {
@@ -78,6 +143,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (regime) warnings.insert(warnings.end(), regime->warnings.begin(), regime->warnings.end());
   if (const auto warning = nucleus_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = border_warning(scene)) warnings.push_back(*warning);
   for (const std::string& warning : table_warnings(scene)) warnings.push_back(warning);
   return warnings;
 }

@@ -165,6 +165,7 @@ std::shared_ptr<const Body<D>> make_shape(const Section& section) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a table
 KeyTable body_keys() {
   KeyTable keys = {
       {.path = "shape",

@@ -47,6 +47,28 @@ std::optional<Grid<D>> find_grid(const Family<D>& family, double spacing) {
   return grid;
 }
 
+/// Of a bond of point i, in spacings.
+template <int D>
+std::array<Index, D> step_of(const Family<D>& family, const Grid<D>& grid, Index i, Index bond) {
+  std::array<Index, D> step;
+  for (int a = 0; a < D; ++a) step[a] = grid.place[family.other[bond]][a] - grid.place[i][a];
+  return step;
+}
+
+/// Along any axis.
+template <int D>
+Index farthest_step(const Family<D>& family, const Grid<D>& grid) {
+  Index reach = 0;
+  for (Index i = 0; i < family.point_count; ++i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      for (const Index step : step_of(family, grid, i, bond)) {
+        reach = std::max(reach, std::abs(step));
+      }
+    }
+  }
+  return reach;
+}
+
 }  // namespace
 
 template <int D>
@@ -58,65 +80,71 @@ std::optional<LatticeBonds<D>> LatticeBonds<D>::find(const Family<D>& family) {
 
   // Rows are as far apart as bonds reach, so that a neighbour that is not there lies in no point's
   // cell; the cells before the first and after the last are there to be read.
-  Index reach = 0;
-  const auto steps = [&](Index i, Index bond) {
-    std::array<Index, D> step;
-    for (int a = 0; a < D; ++a) {
-      step[a] = grid->place[family.other[bond]][a] - grid->place[i][a];
-      reach = std::max(reach, std::abs(step[a]));
-    }
-    return step;
-  };
-  for (Index i = 0; i < family.point_count; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) steps(i, bond);
-  }
+  const Index reach = farthest_step(family, *grid);
   grid->counts[0] += reach;
-  std::int64_t row = 1, before = 0, cells = 1;
+  std::int64_t row = 1, before = packet_size, cells = 1;
   for (int a = 0; a < D; ++a) {
     before += reach * row;
     row *= grid->counts[a];
     cells *= grid->counts[a];
   }
-  before += packet_size;
   // A body that fills its box badly is better off without.
   if (cells > 2 * static_cast<std::int64_t>(family.node_count()) + 1000) return {};
 
   LatticeBonds result;
-  result.cell_count_ = static_cast<Index>(cells + 2 * before);
-  result.present_.assign(result.cell_count_, 0);
-  result.point_.assign(result.cell_count_, -1);
-  std::vector<bool> taken(result.cell_count_, false);
-  for (Index i = 0; i < family.node_count(); ++i) {
-    const Index cell = static_cast<Index>(before) + grid->cell(grid->place[i]);
-    if (taken[cell]) return {};
-    taken[cell] = true;
-    result.cell_of_.push_back(cell);
-    if (i < family.point_count) result.point_[cell] = i;
-  }
-  const auto ends = std::span(result.cell_of_).first(family.point_count);
-  const auto [first, last] = std::ranges::minmax(ends);
-  result.first_ = first;
-  result.last_ = last;
+  if (!result.take_cells(family, *grid, cells, before)) return {};
   for (Index i = 0; i < family.point_count; ++i) {
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       if (family.weight[bond] == 0.0) continue;
-      const Index offset = result.cell_of_[family.other[bond]] - result.cell_of_[i];
-      auto found = std::ranges::find(result.neighbours_, offset, &Neighbour::offset);
-      if (found == result.neighbours_.end()) {
-        const auto step = steps(i, bond);
-        const double weight = family.weight[bond];
-        Vector<D> weighted;
-        for (int a = 0; a < D; ++a) weighted[a] = weight * static_cast<double>(step[a]) * spacing;
-        result.neighbours_.push_back({offset, weight, weighted});
-        found = std::prev(result.neighbours_.end());
-        if (result.neighbours_.size() > most_bits) return {};
-      }
-      if (std::abs(family.weight[bond] - found->weight) > rounding * found->weight) return {};
-      result.present_[result.cell_of_[i]] |= std::int64_t{1}
-                                             << (found - result.neighbours_.begin());
+      const auto step = step_of(family, *grid, i, bond);
+      Vector<D> xi;
+      for (int a = 0; a < D; ++a) xi[a] = static_cast<double>(step[a]);
+      if (!result.take_bond(family, i, bond, xi, spacing)) return {};
     }
   }
   return result;
+}
+
+/// A cell for every node, `before` cells before the first; false where two share one.
+template <int D>
+template <class Grid>
+bool LatticeBonds<D>::take_cells(const Family<D>& family, const Grid& grid, std::int64_t cells,
+                                 std::int64_t before) {
+  cell_count_ = static_cast<Index>(cells + 2 * before);
+  present_.assign(cell_count_, 0);
+  point_.assign(cell_count_, -1);
+  std::vector<bool> taken(cell_count_, false);
+  for (Index i = 0; i < family.node_count(); ++i) {
+    const Index cell = static_cast<Index>(before) + grid.cell(grid.place[i]);
+    if (taken[cell]) return false;
+    taken[cell] = true;
+    cell_of_.push_back(cell);
+    if (i < family.point_count) point_[cell] = i;
+  }
+  const auto [first, last] = std::ranges::minmax(std::span(cell_of_).first(family.point_count));
+  first_ = first;
+  last_ = last;
+  return true;
+}
+
+/// Notes that the bond is there; false where it is not as all others of its direction are, or there
+/// are too many directions. `xi` is in spacings.
+template <int D>
+bool LatticeBonds<D>::take_bond(const Family<D>& family, Index i, Index bond, const Vector<D>& xi,
+                                double spacing) {
+  const double weight = family.weight[bond];
+  const Index offset = cell_of_[family.other[bond]] - cell_of_[i];
+  auto found = std::ranges::find(neighbours_, offset, &Neighbour::offset);
+  if (found == neighbours_.end()) {
+    Vector<D> weighted;
+    for (int a = 0; a < D; ++a) weighted[a] = weight * xi[a] * spacing;
+    neighbours_.push_back({offset, weight, weighted});
+    found = std::prev(neighbours_.end());
+    if (neighbours_.size() > most_bits) return false;
+  }
+  if (std::abs(weight - found->weight) > rounding * found->weight) return false;
+  present_[cell_of_[i]] |= std::int64_t{1} << (found - neighbours_.begin());
+  return true;
 }
 
 template <int D>

@@ -77,6 +77,11 @@ class LatticeBonds {
     for (std::size_t i = 0; i < K; ++i) sum[i] += term[i];
   }
 
+  template <class Grid>
+  bool take_cells(const Family<D>& family, const Grid& grid, std::int64_t cells,
+                  std::int64_t before);
+  bool take_bond(const Family<D>& family, Index i, Index bond, const Vector<D>& xi, double spacing);
+
   std::vector<Neighbour> neighbours_;  ///< at most 63
   std::vector<std::int64_t> present_;  ///< by cell: bit k, there is a bond to neighbour k
   std::vector<Index> point_;           ///< by cell

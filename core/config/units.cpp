@@ -137,28 +137,23 @@ std::string describe_found(const RootedUnit& found) {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || (c & 0x80) != 0; }
 
-/// What udunits would silently misread in a unit; empty if nothing.
-std::string misreading(std::string_view unit) {
-  if (unit.find("**") != unit.npos) return "has '**' in its unit; expected powers as in 'm^2'";
-  const bool inverse = unit.starts_with("1/") || unit.starts_with("1 /");
-  for (std::size_t i = inverse ? 1 : 0; i < unit.size(); ++i) {
-    const char c = unit[i];
-    if (!is_letter(c) && !is_digit(c) && std::string_view("^*/.-+() %").find(c) == unit.npos) {
-      return fmt::format("has {} in its unit; expected a unit such as 'kg/m^3'",
-                         in_quotes(unit.substr(i, 1)));
-    }
-    if (!is_digit(c) || (i > 0 && is_digit(unit[i - 1]))) continue;
-    std::size_t before = i;
-    if (before > 1 && (unit[before - 1] == '-' || unit[before - 1] == '+')) --before;
-    if (before > 1 && unit[before - 1] == '.' &&
-        (is_digit(unit[before - 2]) || unit[before - 2] == '^')) {
-      return "has a decimal exponent in its unit; expected whole exponents, or 'MPa*sqrt(m)'";
-    }
-    if (before == 0 || (!is_letter(unit[before - 1]) && unit[before - 1] != '^')) {
-      return "has a second number in its unit; expected one number and one unit, as in '5 kg/m^3'";
-    }
+/// Of the number that begins at `i` of a unit; empty where it may stand there.
+std::string misread_number(std::string_view unit, std::size_t i) {
+  std::size_t before = i;
+  if (before > 1 && (unit[before - 1] == '-' || unit[before - 1] == '+')) --before;
+  const bool is_decimal = before > 1 && unit[before - 1] == '.' &&
+                          (is_digit(unit[before - 2]) || unit[before - 2] == '^');
+  if (is_decimal) {
+    return "has a decimal exponent in its unit; expected whole exponents, or 'MPa*sqrt(m)'";
   }
-  // Prefixed, 'Ma' and its like mean years in geology and ares in udunits.
+  if (before == 0 || (!is_letter(unit[before - 1]) && unit[before - 1] != '^')) {
+    return "has a second number in its unit; expected one number and one unit, as in '5 kg/m^3'";
+  }
+  return {};
+}
+
+/// Prefixed, 'Ma' and its like mean years in geology and ares in udunits.
+std::string misread_year(std::string_view unit) {
   for (std::size_t i = 0; i < unit.size();) {
     std::size_t end = i;
     while (end < unit.size() && is_letter(unit[end])) ++end;
@@ -172,6 +167,22 @@ std::string misreading(std::string_view unit) {
     i = std::max(end, i + 1);
   }
   return {};
+}
+
+/// What udunits would silently misread in a unit; empty if nothing.
+std::string misreading(std::string_view unit) {
+  if (unit.find("**") != unit.npos) return "has '**' in its unit; expected powers as in 'm^2'";
+  const bool inverse = unit.starts_with("1/") || unit.starts_with("1 /");
+  for (std::size_t i = inverse ? 1 : 0; i < unit.size(); ++i) {
+    const char c = unit[i];
+    if (!is_letter(c) && !is_digit(c) && std::string_view("^*/.-+() %").find(c) == unit.npos) {
+      return fmt::format("has {} in its unit; expected a unit such as 'kg/m^3'",
+                         in_quotes(unit.substr(i, 1)));
+    }
+    if (!is_digit(c) || (i > 0 && is_digit(unit[i - 1]))) continue;
+    if (std::string wrong = misread_number(unit, i); !wrong.empty()) return wrong;
+  }
+  return misread_year(unit);
 }
 
 std::string_view trimmed(std::string_view text) {

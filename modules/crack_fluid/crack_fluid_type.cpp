@@ -97,6 +97,7 @@ std::unique_ptr<PhysicsModule> make_network(const Section& section,
       std::move(leak_off), std::move(outlets));
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 KeyTable network_keys() {
   KeyTable keys = {
       {.path = "density",

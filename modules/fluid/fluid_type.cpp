@@ -122,6 +122,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   return std::make_unique<SemiLagrangianFluid<D>>(std::move(body), exchanges, std::move(dynamics));
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 KeyTable fluid_keys() {
   KeyTable keys = {
       {.path = "spacing",

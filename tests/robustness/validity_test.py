@@ -32,7 +32,10 @@ class Validity(RunTest):
     def without_reference(self, name):
         lines = (CONFIGS / name).read_text().splitlines(keepends=True)
         scene = self.folder / name
-        scene.write_text("".join(line for line in lines if not line.startswith("reference:")))
+        inside = [line.startswith("reference:") for line in lines]
+        for n in range(1, len(lines)):
+            inside[n] = inside[n] or (inside[n - 1] and lines[n].startswith(" "))
+        scene.write_text("".join(line for line, without in zip(lines, inside) if not without))
         return scene
 
     def test_a_run_says_what_check_knows(self):
@@ -130,6 +133,22 @@ class Validity(RunTest):
         del soon["cracks[1]"]
         self.assert_warns(FLUID, soon, "fluid fills")
         self.assert_warns(FLUID, soon | {"time.end": "1 ms"})
+
+    def test_a_round_crack_that_fluid_has_hardly_entered(self):
+        soon = {"body.size": "[12 mm, 12 mm, 16 mm]", "cracks[0].centre": "[0 mm, 0 mm, 8 mm]",
+                "crack_fluid.inlets[0].at": "[0 mm, 0 mm, 8 mm]", "crack_fluid.residual_aperture": "0.3 um",
+                "time.end": "0.03 ms", "output.interval": "0.03 ms"}
+        self.assert_warns(self.without_reference("radial.yaml"), soon, "fluid fills")
+
+    def test_a_probe_beside_a_border_of_rocks(self):
+        cap = "{cap: {material: {bulk_modulus: 2.5 GPa, shear_modulus: %s}}}"
+        probe = {"time.end": "0.1 s", "output.times": "[]"}
+        column = self.without_reference("layered_column.yaml")
+        for modulus, at, warns in (("24 GPa", 29, True), ("24 GPa", 15, False), ("3 GPa", 29, False)):
+            with self.subTest(modulus=modulus, at=at):
+                keys = probe | {"solid.regions": cap % modulus, "output.probes": f"[{{name: p, at: [2 m, {at} m]}}]"}
+                warned = self.warnings(column, keys)
+                self.assertEqual(any("the border of region 'cap'" in warning for warning in warned), warns, warned)
 
     def test_density(self):
         pressed = {"pore_flow.fluid.bulk_modulus": "100 kPa", "pore_flow.initial_pressure": "50 kPa"}

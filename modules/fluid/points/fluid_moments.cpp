@@ -72,6 +72,30 @@ double lattice_sum(double spacing, double horizon, Term&& term) {
   return sum * std::pow(spacing, D);
 }
 
+/// What a bond y of this weight adds to the sums over fluid and walls alike.
+template <int D>
+void add_moments(const PacketVector<D>& y, const PacketVector<D>& relative, const Packet& weight,
+                 auto& sum) {
+  for (int a = 0; a < D; ++a) {
+    const Packet bond = weight * y[a];
+    for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = bond * y[b];
+    for (int b = 0; b < D; ++b) sum[Sums<D>::velocity + a * D + b] = bond * relative[b];
+    sum[Sums<D>::bonds + a] = bond;
+  }
+}
+
+template <int D>
+double divergence(const auto& sum, const SymmetricTensor<D>& inverse_shape) {
+  double result = 0.0;
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b < D; ++b) {
+      result += sum[Sums<D>::velocity + a * D + b] *
+                inverse_shape[symmetric_index<D>(std::min(a, b), std::max(a, b))];
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 template <int D>
@@ -89,22 +113,7 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
                   const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
                   FluidMoments<D>& moments) {
   const double bulk = moments.bulk_trace / D;
-  for (auto& values : moments.inverse_shape) values.resize(points.count);
-  moments.trace.resize(points.count);
-  moments.divergence.resize(points.count);
-  for (auto& values : moments.crowding) values.resize(points.count);
-  moments.diffusion.resize(points.count);
-
-  const auto add_moments = [](const PacketVector<D>& y, const PacketVector<D>& relative,
-                              const Packet& weight, auto& sum) {
-    for (int a = 0; a < D; ++a) {
-      const Packet bond = weight * y[a];
-      for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = bond * y[b];
-      for (int b = 0; b < D; ++b) sum[Sums<D>::velocity + a * D + b] = bond * relative[b];
-      sum[Sums<D>::bonds + a] = bond;
-    }
-  };
-
+  moments.resize(points.count);
   for_each_point(points.count, [&](Index i) {
     const Vector<D> x = points.at(i);
     Vector<D> v;
@@ -117,7 +126,7 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
           PacketVector<D> relative;
           for (int a = 0; a < D; ++a) relative[a] = gather(points.velocity[a], j) - v[a];
           std::array<Packet, Sums<D>::size> term;
-          add_moments(y, relative, weight, term);
+          add_moments<D>(y, relative, weight, term);
           const Packet difference = weight * (gather(points.density, j) - density);
           term[Sums<D>::difference] = difference;
           for (int a = 0; a < D; ++a) term[Sums<D>::slope + a] = difference * y[a];
@@ -134,22 +143,15 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
             PacketVector<D> relative;
             for (int a = 0; a < D; ++a) relative[a] = gather(walls.velocity[a], w) - v[a];
             std::array<Packet, Sums<D>::of_walls> term;
-            add_moments(y, relative, omega * gather(walls.volume, w), term);
+            add_moments<D>(y, relative, omega * gather(walls.volume, w), term);
             return term;
           });
       for (int k = 0; k < Sums<D>::of_walls; ++k) sum[k] += wall[k];
       inverted = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
     }
     moments.trace[i] = std::max(trace<D>(Sums<D>::shape(sum)), least_shape * moments.bulk_trace);
-    double divergence = 0.0;
-    for (int a = 0; a < D; ++a) {
-      for (int b = 0; b < D; ++b) {
-        divergence += sum[Sums<D>::velocity + a * D + b] *
-                      inverted[symmetric_index<D>(std::min(a, b), std::max(a, b))];
-      }
-    }
+    moments.divergence[i] = divergence<D>(sum, inverted);
     for (int k = 0; k < symmetric_size<D>; ++k) moments.inverse_shape[k][i] = inverted[k];
-    moments.divergence[i] = divergence;
     for (int a = 0; a < D; ++a) moments.crowding[a][i] = sum[Sums<D>::bonds + a] / bulk;
   });
 }

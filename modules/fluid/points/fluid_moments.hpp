@@ -20,6 +20,14 @@ struct FluidMoments {
   /// Which way neighbours are denser: their mean bond over the shape of a lattice [1/m].
   std::array<std::vector<double>, D> crowding;
 
+  void resize(Index count) {
+    for (auto& values : inverse_shape) values.resize(count);
+    trace.resize(count);
+    divergence.resize(count);
+    diffusion.resize(count);
+    for (auto& values : crowding) values.resize(count);
+  }
+
   /// tr M of an endless lattice: what a point inside the fluid has, and every wall point is given.
   double bulk_trace = 0.0;
 };

@@ -47,23 +47,28 @@ struct PeriodicImages {
     for (auto& s : shift) s.clear();
     for (int a = 0; a < D; ++a) {
       if (!period.ends[a]) continue;
-      const double low = period.ends[a]->first;
-      const double high = period.ends[a]->second;
-      const Index before = static_cast<Index>(source.size());
       const auto add = [&](Index point, const Vector<D>& moved) {
-        const double x = position[a][point] + moved[a];
-        for (const double by : {high - low, low - high}) {
-          if (by > 0.0 ? x >= low + reach : x <= high - reach) continue;
-          source.push_back(point);
-          for (int b = 0; b < D; ++b) shift[b].push_back(moved[b] + (b == a ? by : 0.0));
-        }
+        add_across(a, *period.ends[a], reach, position[a][point], point, moved);
       };
+      const Index before = size();
       for (Index i = 0; i < count; ++i) add(i, {});
       for (Index k = 0; k < before; ++k) {
         Vector<D> moved;
         for (int b = 0; b < D; ++b) moved[b] = shift[b][k];
         add(source[k], moved);
       }
+    }
+  }
+
+  /// Images behind either end of one axis of a point at x there, which has been moved already.
+  void add_across(int axis, const std::pair<double, double>& ends, double reach, double x,
+                  Index point, const Vector<D>& moved) {
+    const auto [low, high] = ends;
+    const double there = x + moved[axis];
+    for (const double by : {high - low, low - high}) {
+      if (by > 0.0 ? there >= low + reach : there <= high - reach) continue;
+      source.push_back(point);
+      for (int b = 0; b < D; ++b) shift[b].push_back(moved[b] + (b == axis ? by : 0.0));
     }
   }
 

@@ -22,15 +22,9 @@ Vector<D> vector_at(const Section& section, const std::string& path) {
   return result;
 }
 
-/// The rigid walls outside the closed faces of a box. Walls go on past open faces and corners.
+/// What every face of the container is, by a word.
 template <int D>
-void read_container(const Section& section, double spacing, double horizon, FluidWalls<D>& walls) {
-  for (const char* corner : {"container.from", "container.to"}) {
-    if (!section.has(corner)) section.fail(corner, "missing", "a corner of the box");
-  }
-  const std::array<int, D> cells = cells_of_box<D>(section, "container", spacing);
-  const Vector<D> from = vector_at<D>(section, "container.from");
-  const Vector<D> to = vector_at<D>(section, "container.to");
+std::vector<std::string> read_container_faces(const Section& section) {
   const auto names = face_names<D>();
   std::vector<std::string> words(2 * D, "wall");
   if (section.has("container.faces")) {
@@ -42,31 +36,46 @@ void read_container(const Section& section, double spacing, double horizon, Flui
   }
   for (int a = 0; a < D; ++a) {
     const bool low = words[2 * a] == "periodic", high = words[2 * a + 1] == "periodic";
-    if (low != high) {
-      section.fail("container.faces." + names[2 * a + (low ? 0 : 1)], "periodic alone",
-                   "the face across to be periodic too");
-    }
-    if (low) walls.period.ends[a] = {from[a], to[a]};
+    if (low == high) continue;
+    section.fail("container.faces." + names[2 * a + (low ? 0 : 1)], "periodic alone",
+                 "the face across to be periodic too");
   }
+  return words;
+}
+
+/// The rigid walls outside the closed faces of a box. Walls go on past open faces and corners.
+template <int D>
+void read_container(const Section& section, double spacing, double horizon, FluidWalls<D>& walls) {
+  for (const char* corner : {"container.from", "container.to"}) {
+    if (!section.has(corner)) section.fail(corner, "missing", "a corner of the box");
+  }
+  const std::array<int, D> cells = cells_of_box<D>(section, "container", spacing);
+  const Vector<D> from = vector_at<D>(section, "container.from");
+  const Vector<D> to = vector_at<D>(section, "container.to");
+  const std::vector<std::string> words = read_container_faces<D>(section);
   const int rows = static_cast<int>(std::ceil(horizon / spacing - 1e-9));
   std::array<int, D> first, counts;
   for (int a = 0; a < D; ++a) {
+    if (words[2 * a] == "periodic") walls.period.ends[a] = {from[a], to[a]};
     const int beyond = walls.period.ends[a] ? 0 : rows;
     first[a] = -beyond;
     counts[a] = cells[a] + 2 * beyond;
   }
+  const auto find_surface = [&](const Vector<D>& x, DeepestSurface<D>& deepest) {
+    for (int a = 0; a < D; ++a) {
+      const double below = from[a] - x[a], above = x[a] - to[a];
+      if (words[2 * a] == "wall" && below > 0.0) deepest.offer({unit_vector<D>(a, +1), below});
+      if (words[2 * a + 1] == "wall" && above > 0.0) deepest.offer({unit_vector<D>(a, -1), above});
+    }
+  };
   const Points<D> lattice = box_lattice<D>(counts, spacing, first);
   const Index owner = static_cast<Index>(walls.rigid.size());
   const bool slips = section.word("container.slip") == "free";
   for (Index i = 0; i < lattice.size(); ++i) {
     Vector<D> x = lattice.at(i);
+    for (int a = 0; a < D; ++a) x[a] += from[a];
     DeepestSurface<D> deepest(depth_rounding * spacing);
-    for (int a = 0; a < D; ++a) {
-      x[a] += from[a];
-      const double below = from[a] - x[a], above = x[a] - to[a];
-      if (words[2 * a] == "wall" && below > 0.0) deepest.offer({unit_vector<D>(a, +1), below});
-      if (words[2 * a + 1] == "wall" && above > 0.0) deepest.offer({unit_vector<D>(a, -1), above});
-    }
+    find_surface(x, deepest);
     if (!deepest.found()) continue;
     const auto [normal, depth] = deepest.surface();
     walls.cloud.add(x, normal, depth, lattice.volume[i], slips, owner);
@@ -143,6 +152,7 @@ void remove_doubles(const Section& section, double spacing, FluidWalls<D>& walls
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a table
 KeyTable fluid_wall_keys() {
   KeyTable keys = {
       {.path = "container.from",

@@ -100,17 +100,19 @@ template <int D>
 std::vector<int> SolidBoundary<D>::layer_holders() const {
   const Index points = body_->points().size();
   std::vector<int> holders(D * points, -1);
+  const auto hold = [&](std::size_t f, int a) {
+    const auto& region = faces_[f].region;
+    for (const Index i : body_->layer(f)) {
+      if (region && !region->contains(body_->points().at(i))) continue;
+      int& holder = holders[a * points + i];
+      if (holder < 0) holder = f;
+    }
+  };
   for (const bool plates : {false, true}) {
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       if (plates != (faces_[f].kind == Kind::rigid_plate)) continue;
       for (int a = 0; a < D; ++a) {
-        if (!holds(f, a)) continue;
-        for (const Index i : body_->layer(f)) {
-          const auto& region = faces_[f].region;
-          if (region && !region->contains(body_->points().at(i))) continue;
-          int& holder = holders[a * points + i];
-          if (holder < 0) holder = f;
-        }
+        if (holds(f, a)) hold(f, a);
       }
     }
   }

@@ -12,6 +12,7 @@
 
 namespace perifrac {
 
+// NOLINTNEXTLINE(readability-function-size): a table
 KeyTable solid_boundary_keys() {
   KeyTable keys = {
       {.path = "boundary.*.type",
