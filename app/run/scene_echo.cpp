@@ -8,6 +8,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/run/scene_keys.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/body/crack_list.hpp"
 #include "core/config/key_tree.hpp"
 #include "modules/solid/fracture/damage_keys.hpp"
@@ -96,8 +97,7 @@ void append_closure(const Section& scene, const Body<D>& body, const StatedStres
     double least = INFINITY, most = -INFINITY;
     for (const CrackFacet<D>& facet : cracks[k]) {
       const Vector<D> normal = frame<D>(facet)[0], there = stress->at(middle<D>(facet));
-      double across = of_water;
-      for (int a = 0; a < D; ++a) across -= normal[a] * normal[a] * there[a];
+      const double across = of_water - dot(normal, componentwise(there, normal));
       least = std::min(least, across);
       most = std::max(most, across);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/small_vector.hpp"
 #include "core/body/cutouts.hpp"
 #include "core/bonds/crack_cut.hpp"
 
@@ -54,11 +55,7 @@ class Surroundings {
 
  private:
   Vector<D> position(Index i) const { return body_->points().at(i); }
-  double distance(Index i) const {
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) square += std::pow(position(i)[a] - place_[a], 2);
-    return std::sqrt(square);
-  }
+  double distance(Index i) const { return norm(position(i) - place_); }
   bool is_open(Index i) const {
     return std::ranges::none_of(body_->cutouts(), [&](const Region<D>& box) {
       return passes_through<D>(box, place_, position(i));

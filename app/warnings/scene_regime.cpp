@@ -7,6 +7,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/rock.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/body/crack_seeds.hpp"
 #include "core/time/schedule.hpp"
 #include "modules/pore_flow/material/mobility.hpp"
@@ -52,15 +53,13 @@ Mouth find_mouth(const Section& scene, const Place& inlet) {
   for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
     const std::vector<Place> corners = read_crack_corners(scene, k);
     for (std::size_t n = 0; n + 1 < corners.size(); ++n) {
-      const Place along = {corners[n + 1][0] - corners[n][0], corners[n + 1][1] - corners[n][1]};
-      const Place off = {inlet[0] - corners[n][0], inlet[1] - corners[n][1]};
-      const double length = std::hypot(along[0], along[1]);
-      const double share =
-          std::clamp((off[0] * along[0] + off[1] * along[1]) / (length * length), 0.0, 1.0);
-      const double distance = std::hypot(off[0] - share * along[0], off[1] - share * along[1]);
+      const Place along = corners[n + 1] - corners[n], off = inlet - corners[n];
+      const double length = norm(along);
+      const double share = std::clamp(dot(off, along) / squared_norm(along), 0.0, 1.0);
+      const double distance = norm(off - share * along);
       if (distance >= nearest) continue;
       nearest = distance;
-      mouth = {.normal = {-along[1] / length, along[0] / length},
+      mouth = {.normal = perpendicular(along) / length,
                .at_end = (n == 0 && share == 0.0) || (n + 2 == corners.size() && share == 1.0)};
     }
   }
@@ -73,10 +72,7 @@ double leak_off_into_pores(const Section& flow, const ElasticRock& rock, const P
   const PoreFluid fluid = read_pore_fluid(flow);
   const PoreMaterial pores = read_pore_materials(flow, fluid)[0];
   const Tensor<2, 2> mobility = read_mobilities<2>(flow, fluid.viscosity)[0];
-  double across = 0.0;
-  for (int a = 0; a < 2; ++a) {
-    for (int b = 0; b < 2; ++b) across += normal[a] * mobility[2 * a + b] * normal[b];
-  }
+  const double across = dot(normal, mobility * normal);
   const double storage =
       pores.storage + pores.biot_coefficient * pores.biot_coefficient / rock.uniaxial_modulus();
   return std::max(excess, 0.0) * std::sqrt(across * storage / M_PI);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/body/cutouts.hpp"
 #include "core/bonds/projected_weights.hpp"
 #include "core/profile/profile.hpp"
@@ -90,8 +91,7 @@ Index Body<D>::nearest_point(const Vector<D>& x) const {
   double least = INFINITY;
   for (Index i = 0; i < points_.size(); ++i) {
     if (in_layer[i]) continue;
-    double r2 = 0.0;
-    for (int a = 0; a < D; ++a) r2 += std::pow(points_.position[a][i] - x[a], 2);
+    const double r2 = squared_norm(points_.at(i) - x);
     // A tie between lattice points goes to the first along the curve, whatever the rounding.
     if (r2 < least * (1.0 - 1e-12)) {
       least = r2;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/small_vector.hpp"
 #include "core/body/crack_seeds.hpp"
 #include "core/body/outside.hpp"
 #include "core/body/plane_crack_seeds.hpp"
@@ -17,13 +18,6 @@ namespace {
 
 /// Cosine of the angle, 20 degrees, below which facets run beside each other.
 constexpr double parallel = 0.94;
-
-template <int D>
-double dot(const Vector<D>& a, const Vector<D>& b) {
-  double sum = 0.0;
-  for (int k = 0; k < D; ++k) sum += a[k] * b[k];
-  return sum;
-}
 
 std::string name_of(const Section& scene, std::size_t k) {
   return scene.text(fmt::format("cracks[{}].name", k));
@@ -83,16 +77,14 @@ struct Placed {
 template <int D>
 bool lies_along(const Placed<D>& one, const CrackFacet<D>& other, const Vector<D>& normal,
                 double least) {
-  Vector<D> off;
-  for (int a = 0; a < D; ++a) off[a] = one.at[a] - other[0][a];
-  if (std::abs(dot<D>(off, normal)) >= least) return false;
+  if (std::abs(dot(one.at - other[0], normal)) >= least) return false;
   return std::ranges::all_of(place_within<D>(other, one.at),
                              [](double share) { return share > 0.0 && share < 1.0; });
 }
 
 template <int D>
 bool coincide(const Placed<D>& one, const Placed<D>& other, double least) {
-  const double cosine = dot<D>(one.normal, other.normal);
+  const double cosine = dot(one.normal, other.normal);
   if (std::abs(cosine) < parallel) return false;
   if (one.crack == other.crack) {
     // A plane crack is one by itself, and a path only where it turns back.
@@ -187,11 +179,9 @@ double distance(const Vector<D>& x, const CrackFacet<D>& facet) {
   for (std::size_t k = 0; k < along.size(); ++k) {
     const Vector<D>& side = facet[k == 0 ? 1 : D];
     const double share = std::clamp(along[k], 0.0, 1.0);
-    for (int a = 0; a < D; ++a) nearest[a] += share * (side[a] - facet[0][a]);
+    nearest += share * (side - facet[0]);
   }
-  double square = 0.0;
-  for (int a = 0; a < D; ++a) square += (x[a] - nearest[a]) * (x[a] - nearest[a]);
-  return std::sqrt(square);
+  return norm(x - nearest);
 }
 
 template std::vector<std::vector<CrackFacet<2>>> read_cracks<2>(const Section&, const Body<2>&);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -117,17 +119,12 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
                           FaceSet mirrored, Family<D>& family) {
   if (cutouts.empty()) return;
   const std::vector<Region<D>> boxes = with_images<D>(cutouts, faces, mirrored);
-  const auto place = [&](Index i) {
-    Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = family.position[a][i];
-    return x;
-  };
   Index kept = 0;
   for (Index i = 0, begin = 0; i < family.point_count; ++i) {
     const Index end = family.offset[i + 1];
-    const Vector<D> x = place(i);
+    const Vector<D> x = vector_at(family.position, i);
     for (Index bond = begin; bond < end; ++bond) {
-      const Vector<D> y = place(family.other[bond]);
+      const Vector<D> y = vector_at(family.position, family.other[bond]);
       if (std::ranges::any_of(boxes, [&](const auto& box) { return passes_through<D>(box, x, y); }))
         continue;
       family.other[kept] = family.other[bond];

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -20,13 +22,11 @@ Nearest find_nearest(const std::vector<double>& place, const Body<D>& body) {
   Vector<D> x;
   std::ranges::copy(place, x.begin());
   const Index point = body.nearest_point(x);
-  const Vector<D> nearest = body.points().at(point);
-  double r2 = 0.0;
-  for (int a = 0; a < D; ++a) r2 += std::pow(nearest[a] - x[a], 2);
+  const double distance = norm(body.points().at(point) - x);
   // A corner of the body is half a spacing along every axis from its point, or, where points are
   // no lattice, about one.
   const double cell = (body.irregular() ? 1.0 : 0.5) * std::sqrt(double{D}) * body.spacing();
-  return {point, std::sqrt(r2), std::sqrt(r2) <= cell * (1.0 + 1e-9)};
+  return {point, distance, distance <= cell * (1.0 + 1e-9)};
 }
 
 }  // namespace

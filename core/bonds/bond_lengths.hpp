@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/family.hpp"
 
 namespace perifrac {
@@ -19,11 +20,8 @@ BondLengths bond_lengths(const Family<D>& family) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
   for (Index i = 0; i < family.point_count; ++i) {
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      double square = 0.0;
-      for (int a = 0; a < D; ++a) {
-        const double xi = family.position[a][family.other[bond]] - family.position[a][i];
-        square += xi * xi;
-      }
+      const double square = squared_norm(vector_at(family.position, family.other[bond]) -
+                                         vector_at(family.position, i));
       shortest = std::min(shortest, square);
       longest = std::max(longest, square);
     }

@@ -3,26 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 namespace {
 
 /// Of a facet's size: how far beyond its edge a bond still counts as cut, against rounding.
 constexpr double edge_tolerance = 1e-7;
-
-template <int D>
-Vector<D> minus(const Vector<D>& a, const Vector<D>& b) {
-  Vector<D> difference;
-  for (int k = 0; k < D; ++k) difference[k] = a[k] - b[k];
-  return difference;
-}
-
-template <int D>
-double dot(const Vector<D>& a, const Vector<D>& b) {
-  double sum = 0.0;
-  for (int k = 0; k < D; ++k) sum += a[k] * b[k];
-  return sum;
-}
 
 /// A point of the facet's plane lies within its edges.
 template <int D>
@@ -43,15 +31,13 @@ class Blade {
 
   /// Above the facet's plane; in it as good as above [m].
   double height(const Vector<D>& x) const {
-    const double h = dot<D>(minus<D>(x, facet_[0]), normal_);
+    const double h = dot(x - facet_[0], normal_);
     return std::abs(h) <= rounding_ ? rounding_ : h;
   }
   /// Of ends at these heights.
   bool cuts(const Vector<D>& x, double below, const Vector<D>& y, double above) const {
     if (below * above > 0.0) return false;
-    Vector<D> crossing;
-    for (int a = 0; a < D; ++a) crossing[a] = x[a] + below / (below - above) * (y[a] - x[a]);
-    return contains<D>(facet_, crossing);
+    return contains<D>(facet_, x + below / (below - above) * (y - x));
   }
 
  private:
@@ -73,18 +59,13 @@ std::vector<std::pair<Index, Index>> bonds_cut_by(const CrackFacet<D>& facet,
                                                   const Family<D>& family) {
   const Blade<D> blade(facet);
   std::vector<std::pair<Index, Index>> cut;
-  const auto place = [&](Index i) {
-    Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = family.position[a][i];
-    return x;
-  };
   for (Index i = 0; i < family.point_count; ++i) {
-    const Vector<D> x = place(i);
+    const Vector<D> x = vector_at(family.position, i);
     const double below = blade.height(x);
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       const Index j = family.other[bond];
       if (j <= i || j >= family.point_count || family.weight[bond] == 0.0) continue;
-      const Vector<D> y = place(j);
+      const Vector<D> y = vector_at(family.position, j);
       if (blade.cuts(x, below, y, blade.height(y))) cut.emplace_back(i, j);
     }
   }

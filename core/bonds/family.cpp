@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/geometry/cell_grid.hpp"
 
@@ -11,19 +12,12 @@ namespace {
 
 template <int D>
 double squared_distance(const Family<D>& family, Index i, Index j) {
-  double r2 = 0.0;
-  for (int a = 0; a < D; ++a) {
-    const double d = family.position[a][j] - family.position[a][i];
-    r2 += d * d;
-  }
-  return r2;
+  return squared_norm(vector_at(family.position, j) - vector_at(family.position, i));
 }
 
 template <int D>
 double radius(const Family<D>& family, Index i) {
-  double r2 = 0.0;
-  for (int a = 0; a < D; ++a) r2 += family.position[a][i] * family.position[a][i];
-  return std::sqrt(r2);
+  return norm(vector_at(family.position, i));
 }
 
 /// Mirrors every node, ghosts of earlier faces included, that lies within the horizon of a face:
@@ -121,7 +115,7 @@ Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored) {
     const Index ghost = node - family.point_count;
     if (ghost >= 0 && (family.ghost_faces[ghost] & ~mirrored) != 0) continue;
     number[node] = static_cast<Index>(part.volume.size());
-    for (int a = 0; a < D; ++a) part.position[a].push_back(family.position[a][node]);
+    append(part.position, vector_at(family.position, node));
     part.volume.push_back(family.volume[node]);
     if (ghost < 0) continue;
     part.ghost_source.push_back(family.ghost_source[ghost]);

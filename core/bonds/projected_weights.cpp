@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/bonds/shape_tensor.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
@@ -108,9 +109,7 @@ class MomentProjection {
   }
 
   Vector<D> bond_vector(Index i, Index j) const {
-    Vector<D> xi;
-    for (int a = 0; a < D; ++a) xi[a] = family_.position[a][j] - family_.position[a][i];
-    return xi;
+    return vector_at(family_.position, j) - vector_at(family_.position, i);
   }
 
   Index source_of(Index node) const {

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 
 namespace perifrac {
@@ -21,8 +22,7 @@ constexpr double thin_family = 0.05;
 
 template <int D>
 [[noreturn]] void refuse_flat_family(const Family<D>& family, Index i) {
-  Vector<D> x;
-  for (int a = 0; a < D; ++a) x[a] = family.position[a][i];
+  const Vector<D> x = vector_at(family.position, i);
   throw BodyError(fmt::format("the {} bonds of the point at ({:.6g}) m do not span {}D space",
                               family.bond_count(i), fmt::join(x, ", "), D),
                   "a body at least two points thick and a horizon of about 2.5 spacings");

@@ -8,6 +8,7 @@
 #include <omp.h>
 
 #include "core/base/for_each_point.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/geometry/append_near.hpp"
 
 namespace perifrac {
@@ -19,13 +20,6 @@ constexpr double farthest_cell = 1e18;  // differences of cells fit 64 bits
 constexpr Index no_place = -1;
 
 bool is_cell(double c) { return std::abs(c) < farthest_cell; }
-
-template <int D>
-Vector<D> at(const auto& position, Index i) {
-  Vector<D> x;
-  for (int a = 0; a < D; ++a) x[a] = position[a][i];
-  return x;
-}
 
 /// This thread's part of [0, count).
 std::array<Index, 2> share_of_thread(Index count) {
@@ -80,7 +74,7 @@ void CellGrid<D>::sort_into_cells(const Positions<D>& position) {
   place_.resize(n);
 #pragma omp parallel for schedule(static) if (n >= points_worth_threads)
   for (Index i = 0; i < n; ++i) {
-    const Cell c = cell_of(at<D>(position, i));
+    const Cell c = cell_of(vector_at(position, i));
     std::int64_t flat = c[D - 1];
     for (int a = D - 2; a >= 0; --a) flat = flat * size_[a] + c[a];
     cell_[i] = static_cast<Index>(flat);
@@ -197,14 +191,14 @@ void CellGrid<D>::search(Index targets, double reach, Target&& target, Place&& p
 template <int D>
 void CellGrid<D>::find(const Positions<D>& targets, double reach, Neighbours& result) {
   search(
-      static_cast<Index>(targets[0].size()), reach, [&](Index i) { return at<D>(targets, i); },
+      static_cast<Index>(targets[0].size()), reach, [&](Index i) { return vector_at(targets, i); },
       [](Index) { return no_place; }, result);
 }
 
 template <int D>
 void CellGrid<D>::find_others(Index targets, double reach, Neighbours& result) {
   search(
-      targets, reach, [&](Index i) { return at<D>(sorted_, place_[i]); },
+      targets, reach, [&](Index i) { return vector_at(sorted_, place_[i]); },
       [&](Index i) { return place_[i]; }, result);
 }
 

@@ -1,6 +1,7 @@
 #include "core/geometry/jitter.hpp"
 
 #include "core/base/random_bits.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -15,7 +16,7 @@ void jitter_where(Points<D>& points, double distance, std::uint64_t seed, Keep&&
       x[a] += distance * uniform(random_bits(start, std::uint64_t{D} * i + a));
     }
     if (!keep(x)) continue;
-    for (int a = 0; a < D; ++a) points.position[a][i] = x[a];
+    set_at(points.position, i, x);
   }
 }
 

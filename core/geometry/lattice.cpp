@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/small_vector.hpp"
 #include "core/geometry/space_filling_curve.hpp"
 
 namespace perifrac {
@@ -19,13 +20,6 @@ void for_each_cell(const std::array<int, D>& counts, Use&& use) {
     use(cell);
     for (int a = 0; a < D && ++cell[a] == counts[a]; ++a) cell[a] = 0;
   }
-}
-
-template <int D>
-double squared_length(const Vector<D>& x) {
-  double r2 = 0.0;
-  for (const double component : x) r2 += component * component;
-  return r2;
 }
 
 /// The cells of a ball's octant by their numbers along the axes.
@@ -88,7 +82,7 @@ class BallCells {
     return x;
   }
 
-  bool inside(const Vector<D>& x) const { return squared_length<D>(x) < radius_ * radius_; }
+  bool inside(const Vector<D>& x) const { return squared_norm(x) < radius_ * radius_; }
 
   /// Adds a sample of a cell to the nearest points, which are its own or next to it inwards; points
   /// at the same distance share it, so that the ball keeps the symmetry of the lattice.
@@ -105,9 +99,7 @@ class BallCells {
       }
       const Index point = number_[flat(inwards)];
       if (point < 0) return;
-      Vector<D> apart = points_.at(point);
-      for (int a = 0; a < D; ++a) apart[a] -= x[a];
-      const double r2 = squared_length<D>(apart);
+      const double r2 = squared_norm(points_.at(point) - x);
       if (r2 > least * (1.0 + 1e-9)) return;
       if (r2 < least * (1.0 - 1e-9)) count = 0;
       least = r2;

@@ -1,8 +1,9 @@
 #include "modules/crack_fluid/crack_graph.hpp"
 
-#include <cmath>
 #include <map>
 #include <numeric>
+
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -11,12 +12,7 @@ namespace {
 template <int D>
 double width(const FacetSide<D>& side) {
   if constexpr (D == 2) return 1.0;
-  double square = 0.0;
-  for (int a = 0; a < D; ++a) {
-    const double along = side.back()[a] - side.front()[a];
-    square += along * along;
-  }
-  return std::sqrt(square);
+  return norm(side.back() - side.front());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/require.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/solvers/complementarity.hpp"
 #include "modules/crack_fluid/lubrication_newton.hpp"
 
@@ -72,9 +73,7 @@ void CrackNetwork<D>::fill_at_start(const TimeWindow& window) {
   const PointSet& facets = body_->bond_state().facet_points();
   for (std::size_t f = 0; f < facets_.count(); ++f) {
     for (const auto& [box, pressure] : fillings_) {
-      Vector<D> place;
-      for (int a = 0; a < D; ++a) place[a] = facets.position[a][f];
-      if (box.contains(place)) facets_.unknown[f] = pressure;
+      if (box.contains(vector_at<D>(facets.position, f))) facets_.unknown[f] = pressure;
     }
   }
   lubrication_.evaluate(at_rest(window), vector_of(facets_.unknown));
@@ -175,8 +174,7 @@ bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
   if (time.length() > shortest_part * window.length()) return false;
   const PointSet& facets = body_->bond_state().facet_points();
   const Index f = report.worst;
-  Vector<D> place;
-  for (int a = 0; a < D; ++a) place[a] = facets.position[a][f];
+  const Vector<D> place = vector_at<D>(facets.position, f);
   throw NumericalError("crack_pressure", fmt::format("facet, {}", describe_point(f, place)),
                        time.begin, "no balance of mass, in however short a step,");
 }

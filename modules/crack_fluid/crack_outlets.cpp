@@ -1,13 +1,13 @@
 #include "modules/crack_fluid/crack_outlets.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/small_vector.hpp"
 #include "core/io/log.hpp"
 
 namespace perifrac {
@@ -22,9 +22,7 @@ constexpr int no_face = -1;
 
 template <int D>
 Vector<D> middle_of(const FacetSide<D>& side) {
-  Vector<D> x;
-  for (int a = 0; a < D; ++a) x[a] = 0.5 * (side.front()[a] + side.back()[a]);
-  return x;
+  return 0.5 * (side.front() + side.back());
 }
 
 }  // namespace
@@ -48,9 +46,7 @@ int CrackOutlets<D>::face_at(const FacetSide<D>& side) const {
     const Face& face = body_->faces()[f];
     if (!body_->layer(f).empty()) continue;
     const auto inside = [&](const Vector<D>& x) {
-      double square = 0.0;
-      for (int a = 0; a < D; ++a) square += x[a] * x[a];
-      const double along = face.curved() ? std::sqrt(square) : x[face.axis];
+      const double along = face.curved() ? norm(x) : x[face.axis];
       return face.direction * (face.coordinate - along);
     };
     const double farthest = std::max(inside(side.front()), inside(side.back()));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/small_vector.hpp"
 #include "core/body/crack_list.hpp"
 #include "core/config/mistakes.hpp"
 
@@ -24,12 +25,7 @@ Vector<D> read_place(const Section& section, const std::string& path) {
 template <int D>
 std::vector<std::size_t> fed_from(const Vector<D>& x, const std::vector<CrackFacet<D>>& facets,
                                   double spacing) {
-  const auto off = [&](const CrackFacet<D>& facet) {
-    const Vector<D> at = middle<D>(facet);
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) square += (at[a] - x[a]) * (at[a] - x[a]);
-    return std::sqrt(square);
-  };
+  const auto off = [&](const CrackFacet<D>& facet) { return norm(middle<D>(facet) - x); };
   double nearest = std::numeric_limits<double>::infinity();
   for (const CrackFacet<D>& facet : facets) nearest = std::min(nearest, off(facet));
   std::vector<std::size_t> fed;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/point_set.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/geometry/region.hpp"
 
 namespace perifrac {
@@ -20,8 +21,7 @@ class SealedWalls {
   void match(const PointSet& facets) {
     if (boxes_.empty()) return;
     for (std::size_t f = sealed_.size(); f < facets.count; ++f) {
-      Vector<D> middle;
-      for (int a = 0; a < D; ++a) middle[a] = facets.position[a][f];
+      const Vector<D> middle = vector_at<D>(facets.position, f);
       sealed_.push_back(
           std::ranges::any_of(boxes_, [&](const Region<D>& box) { return box.contains(middle); }));
     }

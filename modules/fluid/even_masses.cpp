@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 
 namespace perifrac {
@@ -23,8 +24,7 @@ void EvenMasses<D>::step(const FluidStep<D>& step, double length, FluidPoints<D>
   for (auto& values : gained_) values.resize(points.count);
   for_each_point(points.count, [&](Index i) {
     const double mass = mass_[i], trace = step.moments.trace[i];
-    Vector<D> v;
-    for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
+    const Vector<D> v = vector_at(points.velocity, i);
     const auto sum = sum_over_neighbours<1 + D, D>(
         step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, step.influence,
         [&](Index j, const Vector<D>&, double omega) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/profile/profile.hpp"
 #include "modules/fluid/fluid_momentum.hpp"
@@ -87,8 +88,7 @@ template <int D>
 double FluidDynamics<D>::longest_step(double t) const {
   double fastest = 0.0;
   for (Index i = 0; i < points_.count; ++i) {
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) square += points_.velocity[a][i] * points_.velocity[a][i];
+    const double square = squared_norm(vector_at(points_.velocity, i));
     if (!std::isfinite(square)) {
       throw NumericalError("fluid_velocity", describe_point(i, points_.at(i)), t,
                            "is not a finite number");
@@ -204,9 +204,8 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
     const Index w = walls_.wall[k];
     if (cloud.is_rigid(w)) continue;
     exchange_.mass[cloud.owner[w]] += length * walls_.mass_rate[k];
-    for (int a = 0; a < D; ++a) {
-      impulse_[a * exchange_.mass.size() + cloud.owner[w]] += length * walls_.momentum_rate[a][k];
-    }
+    add_at(impulse_, exchange_.mass.size(), cloud.owner[w],
+           length * vector_at(walls_.momentum_rate, k));
   }
   if (exchange_.law->keeps_mass()) return;
   double made = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 
 namespace perifrac {
@@ -17,8 +18,7 @@ void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, 
   for_each_point(points.count, [&](Index i) {
     std::array<double, symmetric_size<D>> own;
     for (int k = 0; k < symmetric_size<D>; ++k) own[k] = step.stress[k][i];
-    Vector<D> v;
-    for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
+    const Vector<D> v = vector_at(points.velocity, i);
     const double trace = moments.trace[i];
     const auto sum = sum_over_neighbours<D, D>(
         step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, step.influence,
@@ -38,7 +38,7 @@ void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, 
           for (Packet& component : term) component *= weight;
           return term;
         });
-    for (int a = 0; a < D; ++a) force[a][i] = points.volume[i] * sum[a];
+    set_at(force, i, points.volume[i] * sum);
   });
 }
 

@@ -1,8 +1,8 @@
 #include "modules/fluid/particle_shifting.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "modules/fluid/walls/wall_contact.hpp"
 
@@ -29,26 +29,20 @@ void shift_points(const FluidStep<D>& step, const NearWalls<D>& walls, double st
   for_each_point(points.count, [&](Index i) {
     const double part = moments.trace[i] / moments.bulk_trace;
     if (part <= surface) return;
-    double speed = 0.0, crowding = 0.0;
-    for (int a = 0; a < D; ++a) {
-      speed += points.velocity[a][i] * points.velocity[a][i];
-      crowding += moments.crowding[a][i] * moments.crowding[a][i];
-    }
+    const double speed = norm(vector_at(points.velocity, i));
+    const Vector<D> crowded = vector_at(moments.crowding, i);
+    const double crowding = norm(crowded);
     if (crowding == 0.0) return;
-    crowding = std::sqrt(crowding);
     const double inwards = std::min(1.0, (part - surface) / (inside - surface));
-    const double way = std::min(
-        strength * length * std::max(least, std::sqrt(speed)) * inwards * spacing * crowding,
-        longest * spacing);
-    Vector<D> shift;
-    for (int a = 0; a < D; ++a) shift[a] = -way * moments.crowding[a][i] / crowding;
+    const double way =
+        std::min(strength * length * std::max(least, speed) * inwards * spacing * crowding,
+                 longest * spacing);
+    Vector<D> shift = -way * crowded / crowding;
     for_walls_below(step, walls, i, [&](Index, const Vector<D>& normal, double height) {
-      double down = 0.0;
-      for (int a = 0; a < D; ++a) down -= normal[a] * shift[a];
-      const double too_far = std::max(0.0, down - 0.5 * height);
-      for (int a = 0; a < D; ++a) shift[a] += too_far * normal[a];
+      const double too_far = std::max(0.0, -dot(normal, shift) - 0.5 * height);
+      shift += too_far * normal;
     });
-    for (int a = 0; a < D; ++a) points.position[a][i] += shift[a];
+    add_at(points.position, i, shift);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/errors.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/profile/profile.hpp"
 #include "core/state/compensated_sum.hpp"
@@ -35,9 +36,7 @@ DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow,
 template <int D>
 std::string DarcySystem<D>::place(std::size_t unknown) const {
   if (unknown < static_cast<std::size_t>(points_)) {
-    Vector<D> position;
-    for (int a = 0; a < D; ++a) position[a] = flow_->family().position[a][unknown];
-    return describe_point(unknown, position);
+    return describe_point(unknown, vector_at(flow_->family().position, unknown));
   }
   const std::size_t accumulated = unknown - points_;
   const std::size_t faces = face_potential_.size();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 template <int D>
@@ -22,7 +24,7 @@ bool DamagedWalls<D>::apply(std::span<const double> damage, WallCloud<D>& cloud)
     const bool is_intact = lost == 0.0;
     cloud.volume[w] = (1.0 - lost) * intact_.volume[w];
     cloud.depth[w] = is_intact ? intact_.depth[w] : 0.0;
-    for (int a = 0; a < D; ++a) cloud.normal[a][w] = is_intact ? intact_.normal[a][w] : 0.0;
+    set_at(cloud.normal, w, is_intact ? vector_at(intact_.normal, w) : Vector<D>{});
   }
   return true;
 }

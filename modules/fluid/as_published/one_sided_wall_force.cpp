@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "modules/fluid/walls/wall_pairs.hpp"
 
 namespace perifrac {
@@ -26,16 +27,14 @@ void OneSidedWallForce<D>::add(const FluidStep<D>& step, NearWalls<D>& walls,
     Vector<D> pair = stress_along<D>(step, i, y);
     const Vector<D> drag = wall_drag<D>(step, walls, i, w, y);
     const double volumes = omega * points.volume[i] * walls.volume[w];
-    for (int a = 0; a < D; ++a) pair[a] = volumes * (pair[a] + drag[a]);
-    double square = 0.0;
-    for (const double component : y) square += component * component;
+    pair = volumes * (pair + drag);
+    const double square = squared_norm(y);
     const double r = std::sqrt(square);
     if (r >= spacing || step.cloud.depth[walls.wall[w]] > spacing) return pair;
     const double acceleration =
         strength * spline(r / (0.375 * step.scheme.horizon)) * (1.0 - r / spacing) / square;
     const double push = points.density[i] * points.volume[i] * acceleration;
-    for (int a = 0; a < D; ++a) pair[a] -= push * y[a];
-    return pair;
+    return pair - push * y;
   });
 }
 

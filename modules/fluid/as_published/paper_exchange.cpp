@@ -1,5 +1,6 @@
 #include "modules/fluid/as_published/paper_exchange.hpp"
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "modules/fluid/exchange/pair_exchange.hpp"
 #include "modules/fluid/points/symmetric_tensor.hpp"
@@ -46,9 +47,7 @@ template <int D>
 double divergence(const std::array<std::vector<double>, D>& q_own, Index i,
                   const std::array<std::vector<double>, D>& q_other, Index j,
                   const Vector<D>& direction, double weight) {
-  double sum = 0.0;
-  for (int a = 0; a < D; ++a) sum += (q_other[a][j] - q_own[a][i]) * direction[a];
-  return weight * sum;
+  return weight * dot(vector_at(q_other, j) - vector_at(q_own, i), direction);
 }
 
 }  // namespace
@@ -88,8 +87,7 @@ void PaperExchange<D>::find_fluid_flux(const FluidStep<D>& step, const PoreInput
                                     mobility += weight * pores.mobility[step.cloud.owner[wall]];
                                     weights += weight;
                                     const double fall = head<D>(step, pores, t, walls, i, w, y);
-                                    for (double& component : y) component *= -weight * fall;
-                                    return y;
+                                    return -weight * fall * y;
                                   });
     if (weights == 0.0) return;
     const auto of_fluid = sum_over_neighbours<D, D>(
@@ -97,12 +95,11 @@ void PaperExchange<D>::find_fluid_flux(const FluidStep<D>& step, const PoreInput
         [&](Index j, Vector<D> y, double omega) {
           double rise = points.pressure[j] - points.pressure[i];
           for (int a = 0; a < D; ++a) rise -= step.fluid.density * step.gravity[a] * y[a];
-          for (double& component : y) component *= omega * points.volume[j] * rise;
-          return y;
+          return omega * points.volume[j] * rise * y;
         });
-    for (int a = 0; a < D; ++a) gradient[a] += of_fluid[a];
+    gradient += of_fluid;
     const Vector<D> q = times<D>(tensor_at<D>(step.moments.inverse_shape, i), gradient);
-    for (int a = 0; a < D; ++a) fluid_flux_[a][i] = -mobility / weights * q[a];
+    set_at(fluid_flux_, i, -mobility / weights * q);
   });
   for (auto& values : fluid_flux_) step.neighbours.images().copy(values, points.count);
 }
@@ -118,15 +115,12 @@ void PaperExchange<D>::find_body_flux(const FluidStep<D>& step, const PoreInput&
     const Index wall = walls.wall[w];
     if (step.cloud.is_rigid(wall)) return;
     const Index j = step.cloud.owner[wall];
-    Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = step.cloud.position[a][wall];
     const auto of_body = sum_over_neighbours<D, D>(
-        solid_.near, wall, x, solid_.position, step.influence,
+        solid_.near, wall, step.cloud.at(wall), solid_.position, step.influence,
         [&](Index other, Vector<D> y, double omega) {
           double rise = pores.at(solid_.source[other], t) - pores.at(j, t);
           for (int a = 0; a < D; ++a) rise -= step.fluid.density * step.gravity[a] * y[a];
-          for (double& component : y) component *= omega * solid_.volume[other] * rise;
-          return y;
+          return omega * solid_.volume[other] * rise * y;
         });
     const auto of_fluid = sum_over_neighbours<D + symmetric_size<D>, D>(
         step.neighbours.fluid_of_walls(), w, walls.at(w), points.position, step.influence,
@@ -146,7 +140,7 @@ void PaperExchange<D>::find_body_flux(const FluidStep<D>& step, const PoreInput&
     Vector<D> gradient;
     for (int a = 0; a < D; ++a) gradient[a] = of_body[a] + of_fluid[a];
     const Vector<D> q = times<D>(inverted, gradient);
-    for (int a = 0; a < D; ++a) body_flux_[a][w] = -pores.mobility[j] * q[a];
+    set_at(body_flux_, w, -pores.mobility[j] * q);
     for (int k = 0; k < symmetric_size<D>; ++k) body_inverse_[k][w] = inverted[k];
   });
   for (auto& values : body_flux_) step.neighbours.wall_images().copy(values, walls.count);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/small_vector.hpp"
 #include "modules/fluid/exchange/pair_exchange.hpp"
 #include "modules/fluid/walls/body_neighbours.hpp"
 
@@ -12,9 +13,7 @@ namespace {
 /// omega r^2 V
 template <int D>
 std::array<double, 1> moment(const Vector<D>& y, double weight) {
-  double square = 0.0;
-  for (int a = 0; a < D; ++a) square += y[a] * y[a];
-  return {weight * square};
+  return {weight * squared_norm(y)};
 }
 
 template <int D>

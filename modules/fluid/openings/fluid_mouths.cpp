@@ -1,10 +1,11 @@
 #include "modules/fluid/openings/fluid_mouths.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
+
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -15,9 +16,7 @@ constexpr double most_part = 0.5;
 
 template <int D>
 double distance(const Vector<D>& x, const Vector<D>& y) {
-  double square = 0.0;
-  for (int a = 0; a < D; ++a) square += (x[a] - y[a]) * (x[a] - y[a]);
-  return std::sqrt(square);
+  return norm(x - y);
 }
 
 /// The points of the body that are nearest to x, equally near ones together.
@@ -60,7 +59,7 @@ FluidMouths<D>::FluidMouths(const std::vector<Vector<D>>& places, const Body<D>&
                             double horizon)
     : horizon_(horizon), influence_(horizon) {
   for (const Vector<D>& x : places) {
-    for (int a = 0; a < D; ++a) place_[a].push_back(x[a]);
+    append(place_, x);
     beside_.push_back(nearest_points<D>(body, x));
   }
   point_set_ = {.name = "mouths", .dimension = D, .count = places.size()};
@@ -73,8 +72,7 @@ FluidMouths<D>::FluidMouths(const std::vector<Vector<D>>& places, const Body<D>&
 template <int D>
 double FluidMouths<D>::find_weights(const FluidPoints<D>& fluid, std::size_t mouth) {
   weights_.clear();
-  Vector<D> x;
-  for (int a = 0; a < D; ++a) x[a] = place_[a][mouth];
+  const Vector<D> x = vector_at(place_, mouth);
   double sum = 0.0;
   for (Index i = 0; i < fluid.count; ++i) {
     const double r = distance<D>(fluid.at(i), x);
@@ -141,11 +139,11 @@ void FluidMouths<D>::give(FluidPoints<D>& fluid, double length, std::vector<doub
       fluid.density[i] -= left / fluid.volume[i];
       given_.add(left);
       last_[k] += left;
-      for (int a = 0; a < D; ++a) momentum[a] += left * fluid.velocity[a][i];
+      momentum += left * vector_at(fluid.velocity, i);
     }
     const double share = 1.0 / static_cast<double>(beside_[k].size());
     for (const Index j : beside_[k]) {
-      for (int a = 0; a < D; ++a) impulse[a * body_points + j] += share * momentum[a];
+      add_at(impulse, body_points, j, share * momentum);
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/small_vector.hpp"
 #include "modules/fluid/openings/named_box.hpp"
 
 namespace perifrac {
@@ -55,8 +56,7 @@ Index Inlets<D>::make_points(FluidPoints<D>& points,
     if (inlet.waiting < point_mass_) continue;
     find_inside(points, inlet.box);
     if (!inside_.empty()) continue;
-    Vector<D> centre;
-    for (int a = 0; a < D; ++a) centre[a] = 0.5 * (inlet.box.from[a] + inlet.box.to[a]);
+    const Vector<D> centre = 0.5 * (inlet.box.from + inlet.box.to);
     if (!is_free(centre)) continue;
     points.add(centre, {}, density_, point_mass_);
     inlet.waiting -= point_mass_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -14,12 +16,7 @@ double farthest(const std::array<std::vector<double>, D>& now,
                 const std::array<std::vector<double>, D>& before, Index count) {
   double largest = 0.0;
   for (Index i = 0; i < count; ++i) {
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double moved = now[a][i] - before[a][i];
-      square += moved * moved;
-    }
-    largest = std::max(largest, square);
+    largest = std::max(largest, squared_norm(vector_at(now, i) - vector_at(before, i)));
   }
   return largest;
 }
@@ -79,7 +76,7 @@ void FluidNeighbours<D>::find_candidates(const FluidPoints<D>& points,
     }
     if (!is_near) continue;
     candidates_.push_back(w);
-    for (int a = 0; a < D; ++a) candidate_position_[a].push_back(wall_position[a][w]);
+    append(candidate_position_, vector_at(wall_position, w));
   }
 }
 

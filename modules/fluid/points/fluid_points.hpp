@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/points.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -36,10 +37,8 @@ struct FluidPoints {
 
   void add(const Vector<D>& x, const Vector<D>& v, double rho, double m) {
     trim();
-    for (int a = 0; a < D; ++a) {
-      position[a].push_back(x[a]);
-      velocity[a].push_back(v[a]);
-    }
+    append(position, x);
+    append(velocity, v);
     density.push_back(rho);
     mass.push_back(m);
     id.push_back(next_id++);
@@ -53,10 +52,8 @@ struct FluidPoints {
     Index kept = 0;
     for (Index i = 0; i < count; ++i) {
       if (gone(i)) continue;
-      for (int a = 0; a < D; ++a) {
-        position[a][kept] = position[a][i];
-        velocity[a][kept] = velocity[a][i];
-      }
+      set_at(position, kept, vector_at(position, i));
+      set_at(velocity, kept, vector_at(velocity, i));
       density[kept] = density[i];
       mass[kept] = mass[i];
       id[kept++] = id[i];
@@ -78,11 +75,7 @@ struct FluidPoints {
     density.resize(count);
   }
 
-  Vector<D> at(Index i) const {
-    Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = position[a][i];
-    return x;
-  }
+  Vector<D> at(Index i) const { return vector_at(position, i); }
 };
 
 }  // namespace perifrac

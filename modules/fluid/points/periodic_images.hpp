@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/points.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -53,9 +54,7 @@ struct PeriodicImages {
       const Index before = size();
       for (Index i = 0; i < count; ++i) add(i, {});
       for (Index k = 0; k < before; ++k) {
-        Vector<D> moved;
-        for (int b = 0; b < D; ++b) moved[b] = shift[b][k];
-        add(source[k], moved);
+        add(source[k], vector_at(shift, k));
       }
     }
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -14,21 +16,9 @@ double nearest(const Neighbours& neighbours, Index i, const Vector<D>& x,
                const std::array<std::vector<double>, D>& position) {
   double least = std::numeric_limits<double>::infinity();
   for (Index k = neighbours.offset[i]; k < neighbours.offset[i + 1]; ++k) {
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double y = position[a][neighbours.other[k]] - x[a];
-      square += y * y;
-    }
-    least = std::min(least, square);
+    least = std::min(least, squared_norm(vector_at(position, neighbours.other[k]) - x));
   }
   return least;
-}
-
-template <int D>
-Vector<D> shifted(const Vector<D>& x, const Vector<D>& by, double factor) {
-  Vector<D> result;
-  for (int a = 0; a < D; ++a) result[a] = x[a] + factor * by[a];
-  return result;
 }
 
 /// Half the way between the two that point i becomes.
@@ -50,7 +40,7 @@ Vector<D> best_half_distance(const FluidPoints<D>& points, const NearWalls<D>& w
     for (double& component : e) component *= half / std::sqrt(square);
     double room = std::numeric_limits<double>::infinity();
     for (const double side : {-1.0, 1.0}) {
-      const Vector<D> there = shifted<D>(x, e, side);
+      const Vector<D> there = x + side * e;
       // Walls do not give way: they count as twice as near.
       room = std::min({room, nearest<D>(neighbours.fluid_of_fluid(), i, there, points.position),
                        0.25 * nearest<D>(neighbours.walls_of_fluid(), i, there, walls.position)});
@@ -72,11 +62,10 @@ Index split_points(FluidPoints<D>& points, const NearWalls<D>& walls,
   }
   for (const auto& [i, half] : heavy) {
     const Vector<D> x = points.at(i);
-    Vector<D> v;
-    for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
+    const Vector<D> v = vector_at(points.velocity, i);
     points.mass[i] *= 0.5;
-    for (int a = 0; a < D; ++a) points.position[a][i] = x[a] + half[a];
-    points.add(shifted<D>(x, half, -1.0), v, points.density[i], points.mass[i]);
+    set_at(points.position, i, x + half);
+    points.add(x - half, v, points.density[i], points.mass[i]);
   }
   return static_cast<Index>(heavy.size());
 }

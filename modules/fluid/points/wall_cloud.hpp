@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/points.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -31,19 +32,13 @@ struct WallCloud {
 
   Index size() const { return static_cast<Index>(volume.size()); }
 
-  Vector<D> at(Index w) const {
-    Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = position[a][w];
-    return x;
-  }
+  Vector<D> at(Index w) const { return vector_at(position, w); }
   bool is_rigid(Index w) const { return w < rigid_count; }
 
   void add(const Vector<D>& x, const Vector<D>& outwards, double below, double v, bool is_slippery,
            Index of) {
-    for (int a = 0; a < D; ++a) {
-      position[a].push_back(x[a]);
-      normal[a].push_back(outwards[a]);
-    }
+    append(position, x);
+    append(normal, outwards);
     depth.push_back(below);
     volume.push_back(v);
     slips.push_back(is_slippery);
@@ -56,10 +51,8 @@ struct WallCloud {
     Index kept = 0;
     for (Index w = 0; w < size(); ++w) {
       if (gone(w)) continue;
-      for (int a = 0; a < D; ++a) {
-        position[a][kept] = position[a][w];
-        normal[a][kept] = normal[a][w];
-      }
+      set_at(position, kept, vector_at(position, w));
+      set_at(normal, kept, vector_at(normal, w));
       depth[kept] = depth[w];
       volume[kept] = volume[w];
       slips[kept] = slips[w];
@@ -95,11 +88,7 @@ struct NearWalls {
   std::vector<double> mass_rate;                     ///< [kg/s]
   std::array<std::vector<double>, D> momentum_rate;  ///< that goes with it [N]
 
-  Vector<D> at(Index k) const {
-    Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = position[a][k];
-    return x;
-  }
+  Vector<D> at(Index k) const { return vector_at(position, k); }
 };
 
 }  // namespace perifrac

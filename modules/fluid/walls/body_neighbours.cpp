@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "core/base/small_vector.hpp"
 #include "core/geometry/cell_grid.hpp"
 
 namespace perifrac {
@@ -13,7 +14,7 @@ BodyNeighbours<D>::BodyNeighbours(const Body<D>& body, const WallCloud<D>& cloud
     : position(body.points().position), volume(body.points().volume), source(volume.size()) {
   std::iota(source.begin(), source.end(), 0);
   for (const Index w : others) {
-    for (int a = 0; a < D; ++a) position[a].push_back(cloud.position[a][w]);
+    append(position, cloud.at(w));
     volume.push_back(cloud.volume[w]);
     source.push_back(-1);
   }

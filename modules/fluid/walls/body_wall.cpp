@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "core/geometry/cell_grid.hpp"
 #include "modules/fluid/walls/wall_surface.hpp"
 
@@ -74,10 +75,8 @@ void add_body(const Body<D>& body, bool slips, double spacing, double horizon,
   const std::vector<NearFace<D>> faces = faces_near_points(body, period, horizon);
   std::array<std::vector<double>, D> beyond;
   for (const NearFace<D>& face : faces) {
-    const Vector<D> x = body.points().at(face.point);
-    for (int a = 0; a < D; ++a) {
-      beyond[a].push_back(x[a] + (face.surface.depth + 0.5 * spacing) * face.surface.normal[a]);
-    }
+    append(beyond, body.points().at(face.point) +
+                       (face.surface.depth + 0.5 * spacing) * face.surface.normal);
   }
   CellGrid<D> grid;
   grid.build(positions_of(cloud.position), spacing);

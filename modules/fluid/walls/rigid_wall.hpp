@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/points.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/time/schedule.hpp"
 
 namespace perifrac {
@@ -23,26 +24,19 @@ struct RigidWall {
   Vector<D> displacement{};  ///< [m]
   Vector<D> velocity{};      ///< [m/s]
 
-  void drift(double length) {
-    for (int a = 0; a < D; ++a) displacement[a] += length * velocity[a];
-  }
+  void drift(double length) { displacement += length * velocity; }
 
   /// The velocity for a step about time t, before anything is evaluated.
   void follow(double t) {
     if (motion != Motion::moving) return;
-    for (int a = 0; a < D; ++a) velocity[a] = value[a] * schedule.factor(t);
+    velocity = value * schedule.factor(t);
   }
 
   /// `force` is the fluid's.
   void kick(double t, double length, const Vector<D>& force, const Vector<D>& gravity) {
     if (motion != Motion::piston) return;
-    double along = 0.0, square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double all = value[a] * schedule.factor(t) + force[a] + mass * gravity[a];
-      along += all * value[a];
-      square += value[a] * value[a];
-    }
-    for (int a = 0; a < D; ++a) velocity[a] += length * along / (mass * square) * value[a];
+    const double along = dot(value * schedule.factor(t) + force + mass * gravity, value);
+    velocity += length * along / (mass * squared_norm(value)) * value;
   }
 };
 

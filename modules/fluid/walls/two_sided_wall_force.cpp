@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/small_vector.hpp"
 #include "modules/fluid/walls/wall_pairs.hpp"
 
 namespace perifrac {
@@ -17,9 +18,8 @@ Vector<D> pair_force(const FluidStep<D>& step, const NearWalls<D>& walls, Index 
   const double volumes = omega * points.volume[i] * walls.volume[w];
   Vector<D> force = wall_drag<D>(step, walls, i, w, y);
   const Vector<D> stress = points.pressure[i] > 0.0 ? stress_along<D>(step, i, y) : Vector<D>{};
-  for (int a = 0; a < D; ++a) force[a] += stress[a] - walls.pressure[w] / bulk * y[a];
-  for (double& component : force) component *= volumes;
-  return force;
+  force += stress - walls.pressure[w] / bulk * y;
+  return volumes * force;
 }
 
 }  // namespace
@@ -30,13 +30,10 @@ void TwoSidedWallForce<D>::extrapolate_pressure(const FluidStep<D>& step,
   const FluidPoints<D>& points = step.points;
   walls.pressure.resize(walls.count);
   for_each_point(walls.count, [&](Index w) {
-    Vector<D> x;
-    for (int a = 0; a < D; ++a) x[a] = walls.position[a][w];
     const auto [weighted, weights] = sum_over_neighbours<2, D>(
-        step.neighbours.fluid_of_walls(), w, x, points.position, step.influence,
+        step.neighbours.fluid_of_walls(), w, walls.at(w), points.position, step.influence,
         [&](Index j, const Vector<D>& y, double omega) {
-          double depth = 0.0;
-          for (int a = 0; a < D; ++a) depth -= step.gravity[a] * y[a];
+          const double depth = -dot(step.gravity, y);
           const double weight = omega * points.volume[j];
           return std::array{weight * (points.pressure[j] + points.density[j] * depth), weight};
         });

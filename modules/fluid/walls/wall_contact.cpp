@@ -1,5 +1,7 @@
 #include "modules/fluid/walls/wall_contact.hpp"
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 template <int D>
@@ -9,17 +11,13 @@ void stop_at_walls(const FluidStep<D>& step, double length, FluidPoints<D>& poin
   const PeriodicImages<D>& images = step.neighbours.wall_images();
   for (Index i = 0; i < points.count; ++i) {
     for_walls_below(step, walls, i, [&](Index w, const Vector<D>& normal, double height) {
-      double approach = 0.0;
-      for (int a = 0; a < D; ++a) {
-        approach -= normal[a] * (points.velocity[a][i] - walls.velocity[a][w]);
-      }
+      const double approach =
+          -dot(normal, vector_at(points.velocity, i) - vector_at(walls.velocity, w));
       const double too_fast = approach - rate * height;
       if (too_fast <= 0.0) return;
       const Index source = w < walls.count ? w : images.source[w - walls.count];
-      for (int a = 0; a < D; ++a) {
-        points.velocity[a][i] += too_fast * normal[a];
-        walls.force[a][source] -= points.mass[i] * too_fast * normal[a] / length;
-      }
+      add_at(points.velocity, i, too_fast * normal);
+      add_at(walls.force, source, -points.mass[i] * too_fast * normal / length);
     });
   }
 }

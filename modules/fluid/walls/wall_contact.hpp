@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/small_vector.hpp"
 #include "modules/fluid/walls/wall_force.hpp"
 
 namespace perifrac {
@@ -16,14 +17,9 @@ void for_walls_below(const FluidStep<D>& step, const NearWalls<D>& walls, Index 
   for (Index k = near.offset[i]; k < near.offset[i + 1]; ++k) {
     const Index w = near.other[k];
     const Index wall = walls.wall[w];
-    Vector<D> normal;
-    double square = 0.0, normal_distance = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double y = step.points.position[a][i] - walls.position[a][w];
-      normal[a] = step.cloud.normal[a][wall];
-      square += y * y;
-      normal_distance += normal[a] * y;
-    }
+    const Vector<D> normal = vector_at(step.cloud.normal, wall);
+    const Vector<D> y = step.points.at(i) - walls.at(w);
+    const double square = squared_norm(y), normal_distance = dot(normal, y);
     if (square - normal_distance * normal_distance > aside * aside) continue;
     use(w, normal, std::max(0.0, normal_distance - step.cloud.depth[wall]));
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 template <int D>
@@ -20,12 +22,11 @@ void WallMotion<D>::kick(double t, double length, const Vector<D>& gravity,
   on_rigid_.assign(rigid_.size(), Vector<D>{});
   for (Index k = 0; k < near.count; ++k) {
     const Index w = near.wall[k];
-    for (int a = 0; a < D; ++a) {
-      if (cloud_.is_rigid(w)) {
-        on_rigid_[cloud_.owner[w]][a] += near.force[a][k];
-      } else {
-        impulse[a * body_points_ + cloud_.owner[w]] += length * near.force[a][k];
-      }
+    const Vector<D> force = vector_at(near.force, k);
+    if (cloud_.is_rigid(w)) {
+      on_rigid_[cloud_.owner[w]] += force;
+    } else {
+      add_at(impulse, body_points_, cloud_.owner[w], length * force);
     }
   }
   for (std::size_t r = 0; r < rigid_.size(); ++r) {
@@ -36,30 +37,24 @@ void WallMotion<D>::kick(double t, double length, const Vector<D>& gravity,
 template <int D>
 Vector<D> WallMotion<D>::displacement(Index w, double t) const {
   if (cloud_.is_rigid(w)) return rigid_[cloud_.owner[w]].displacement;
-  Vector<D> result{};
-  if (body_.displacement.empty()) return result;
-  for (int a = 0; a < D; ++a) {
-    const std::size_t k = a * body_points_ + cloud_.owner[w];
-    result[a] = body_.displacement[k] + body_.rate[k] * (t - body_.end);
-  }
-  return result;
+  if (body_.displacement.empty()) return {};
+  const Index owner = cloud_.owner[w];
+  return vector_at<D>(body_.displacement, body_points_, owner) +
+         vector_at<D>(body_.rate, body_points_, owner) * (t - body_.end);
 }
 
 template <int D>
 Vector<D> WallMotion<D>::velocity(Index w) const {
   if (cloud_.is_rigid(w)) return rigid_[cloud_.owner[w]].velocity;
-  Vector<D> result{};
-  if (body_.displacement.empty()) return result;
-  for (int a = 0; a < D; ++a) result[a] = body_.rate[a * body_points_ + cloud_.owner[w]];
-  return result;
+  if (body_.displacement.empty()) return {};
+  return vector_at<D>(body_.rate, body_points_, cloud_.owner[w]);
 }
 
 template <int D>
 const std::array<std::vector<double>, D>& WallMotion<D>::positions(double t) {
   for (int a = 0; a < D; ++a) position_[a].resize(cloud_.size());
   for (Index w = 0; w < cloud_.size(); ++w) {
-    const Vector<D> moved = displacement(w, t);
-    for (int a = 0; a < D; ++a) position_[a][w] = cloud_.position[a][w] + moved[a];
+    set_at(position_, w, cloud_.at(w) + displacement(w, t));
   }
   return position_;
 }
@@ -72,11 +67,8 @@ void WallMotion<D>::place(double t, const PeriodicImages<D>& images, NearWalls<D
   }
   for (Index k = 0; k < near.count; ++k) {
     const Index w = near.wall[k];
-    const Vector<D> moved = displacement(w, t), v = velocity(w);
-    for (int a = 0; a < D; ++a) {
-      near.position[a][k] = cloud_.position[a][w] + moved[a];
-      near.velocity[a][k] = v[a];
-    }
+    set_at(near.position, k, cloud_.at(w) + displacement(w, t));
+    set_at(near.velocity, k, velocity(w));
   }
   images.copy_positions(near.position, near.count);
   for (int a = 0; a < D; ++a) images.copy(near.velocity[a], near.count);
@@ -91,12 +83,7 @@ void WallMotion<D>::copy_volumes(NearWalls<D>& near) const {
 template <int D>
 bool WallMotion<D>::leaves_room(const Vector<D>& x, double t, double spacing) const {
   for (Index w = 0; w < cloud_.size(); ++w) {
-    const Vector<D> moved = displacement(w, t);
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double y = cloud_.position[a][w] + moved[a] - x[a];
-      square += y * y;
-    }
+    const double square = squared_norm(cloud_.at(w) + displacement(w, t) - x);
     const double reach = 0.45 * (spacing + std::pow(cloud_.volume[w], 1.0 / D));
     if (square < reach * reach) return false;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "modules/fluid/walls/wall_force.hpp"
 
@@ -40,13 +41,8 @@ void add_pair_forces(const FluidStep<D>& step, NearWalls<D>& walls,
                      std::array<std::vector<double>, D>& force, Pair&& pair) {
   for (auto& values : walls.force) values.resize(walls.count);
   sum_wall_pairs<D, D>(
-      step, walls, pair,
-      [&](Index i, const Vector<D>& sum) {
-        for (int a = 0; a < D; ++a) force[a][i] += sum[a];
-      },
-      [&](Index w, const Vector<D>& sum) {
-        for (int a = 0; a < D; ++a) walls.force[a][w] = -sum[a];
-      });
+      step, walls, pair, [&](Index i, const Vector<D>& sum) { add_at(force, i, sum); },
+      [&](Index w, const Vector<D>& sum) { set_at(walls.force, w, -sum); });
 }
 
 /// The stress -p M^-1 of fluid point i times y.
@@ -74,23 +70,16 @@ template <int D>
 Vector<D> wall_drag(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index w,
                     const Vector<D>& y) {
   const Index wall = walls.wall[w];
-  Vector<D> drag{};
-  if (step.cloud.slips[wall]) return drag;
+  if (step.cloud.slips[wall]) return {};
+  const Vector<D> normal = vector_at(step.cloud.normal, wall);
+  const Vector<D> relative = vector_at(step.points.velocity, i) - vector_at(walls.velocity, w);
   double height = -step.cloud.depth[wall];
-  double along_normal = 0.0;
-  Vector<D> normal, relative;
-  for (int a = 0; a < D; ++a) {
-    normal[a] = step.cloud.normal[a][wall];
-    relative[a] = step.points.velocity[a][i] - walls.velocity[a][w];
-    height -= normal[a] * y[a];
-    along_normal += normal[a] * relative[a];
-  }
+  for (int a = 0; a < D; ++a) height -= normal[a] * y[a];
   const double steepness =
       1.0 + step.cloud.depth[wall] / std::max(height, 0.5 * step.scheme.spacing);
   const double factor = wall_viscosity(step) * 4.0 * D /
                         (step.moments.trace[i] + step.moments.bulk_trace) * steepness;
-  for (int a = 0; a < D; ++a) drag[a] = -factor * (relative[a] - along_normal * normal[a]);
-  return drag;
+  return -factor * (relative - dot(normal, relative) * normal);
 }
 
 }  // namespace perifrac

@@ -4,6 +4,7 @@
 #include <functional>
 #include <type_traits>
 
+#include "core/base/small_vector.hpp"
 #include "modules/fluid/points/wall_cloud.hpp"
 
 namespace perifrac {
@@ -28,7 +29,7 @@ class BestSurface {
 
   void offer(const WallSurface<D>& surface) {
     if (count_ > 0 && std::abs(surface.depth - first_.depth) <= rounding_) {
-      for (int a = 0; a < D; ++a) sum_[a] += surface.normal[a];
+      sum_ += surface.normal;
       ++count_;
     } else if (count_ == 0 || Compare{}(surface.depth, first_.depth)) {
       first_ = surface;
@@ -42,9 +43,7 @@ class BestSurface {
   WallSurface<D> surface() const {
     if (count_ == 1 || !std::is_same_v<Compare, std::greater<>>) return first_;
     const double length = std::sqrt(static_cast<double>(count_));  // axes are normal to each other
-    WallSurface<D> result{sum_, length * first_.depth};
-    for (double& component : result.normal) component /= length;
-    return result;
+    return {sum_ / length, length * first_.depth};
   }
 
  private:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 template <int D>
@@ -21,9 +23,7 @@ PoreGravity<D>::PoreGravity(const Body<D>& body, const Vector<D>& gravity, doubl
 
 template <int D>
 double PoreGravity<D>::at(const Vector<D>& x) const {
-  double sum = 0.0;
-  for (int a = 0; a < D; ++a) sum -= weight_[a] * (x[a] - top_[a]);
-  return sum;
+  return dot(weight_, top_ - x);
 }
 
 template <int D>

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/small_vector.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "modules/pore_flow/flux/flow_operator.hpp"
 
@@ -42,10 +43,8 @@ class GradientFlow : public FlowOperator<D> {
     operator_.gradient(p, velocity);
     const Index points = family().point_count;
     for_each_point(points, [&](Index i) {
-      Tensor<1, D> gradient;
-      for (int a = 0; a < D; ++a) gradient[a] = velocity[a * points + i];
-      const Tensor<1, D> flux = law_at(operator_.law(), i).stress(gradient);
-      for (int a = 0; a < D; ++a) velocity[a * points + i] = -flux[a];
+      const Tensor<1, D> gradient = vector_at<D>(velocity, points, i);
+      set_at(velocity, points, i, -law_at(operator_.law(), i).stress(gradient));
     });
   }
 

@@ -4,6 +4,7 @@
 
 #include "core/base/law_by_region.hpp"
 #include "core/base/small_tensor.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -14,19 +15,9 @@ struct AnisotropicDarcyLaw {
 
   Tensor<D, D> mobility;
 
-  Tensor<1, D> stress(const Tensor<1, D>& gradient) const {
-    Tensor<1, D> result{};
-    for (int a = 0; a < D; ++a) {
-      for (int b = 0; b < D; ++b) result[a] += mobility[a * D + b] * gradient[b];
-    }
-    return result;
-  }
+  Tensor<1, D> stress(const Tensor<1, D>& gradient) const { return mobility * gradient; }
 
-  double mean_mobility() const {
-    double trace = 0.0;
-    for (int a = 0; a < D; ++a) trace += mobility[a * D + a];
-    return trace / D;
-  }
+  double mean_mobility() const { return trace(mobility) / D; }
 
   /// As for an isotropic mobility of the same mean. One number cannot cancel the leading error
   /// along all axes: second order inside.

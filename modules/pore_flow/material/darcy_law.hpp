@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/base/small_tensor.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -12,11 +13,7 @@ struct DarcyLaw {
 
   double mobility;  ///< permeability / viscosity [m^2/(Pa s)]
 
-  Tensor<1, D> stress(const Tensor<1, D>& gradient) const {
-    Tensor<1, D> result;
-    for (int a = 0; a < D; ++a) result[a] = mobility * gradient[a];
-    return result;
-  }
+  Tensor<1, D> stress(const Tensor<1, D>& gradient) const { return mobility * gradient; }
 
   double mean_mobility() const { return mobility; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/small_vector.hpp"
 #include "core/operators/face_load.hpp"
 
 namespace perifrac {
@@ -63,9 +64,7 @@ void SolidBoundary<D>::body_force(const Vector<D>& force, Schedule schedule) {
 
 template <int D>
 void SolidBoundary<D>::gravity(double density, const Vector<D>& gravity) {
-  Vector<D> weight;
-  for (int a = 0; a < D; ++a) weight[a] = density * gravity[a];
-  body_force(weight);
+  body_force(density * gravity);
 }
 
 template <int D>

@@ -1,6 +1,7 @@
 #include "modules/solid/equilibrium/cracked_work.hpp"
 
 #include "core/base/eigen_view.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -61,9 +62,7 @@ double CrackedWork<D>::relief(std::span<const double> unknowns,
   double relief = 0.0;
   for (Index f = 0; f < static_cast<Index>(cracked.jumps().size()); ++f) {
     const Vector<D> stress = cracked.relief(f), jump = cracked.jump(f, unknowns);
-    double sum = 0.0;
-    for (int a = 0; a < D; ++a) sum += stress[a] * jump[a];
-    relief += cracked.jumps()[f].area * sum;
+    relief += cracked.jumps()[f].area * dot(stress, jump);
   }
   const std::span<const double> at_rest = body_.load().pore_stress_at_rest();
   for (std::size_t i = 0; i < at_rest.size(); ++i) {

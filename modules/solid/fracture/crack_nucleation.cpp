@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 
 namespace perifrac {
@@ -22,8 +23,8 @@ constexpr double tie = 1e-7;
 
 double distance(const Vector<2>& x, const CrackFacet<2>& facet) {
   const double t = std::clamp(place_within<2>(facet, x)[0], 0.0, 1.0);
-  return std::hypot(x[0] - facet[0][0] - t * (facet[1][0] - facet[0][0]),
-                    x[1] - facet[0][1] - t * (facet[1][1] - facet[0][1]));
+  const Vector<2> off = x - facet[0] - t * (facet[1] - facet[0]);
+  return std::hypot(off[0], off[1]);
 }
 
 /// The symmetric stress at a point of blocks of components.
@@ -112,14 +113,12 @@ bool CrackNucleation::is_largest(Index i) const {
 std::vector<CrackNucleation::LinePoint> CrackNucleation::points_along(
     const Vector<2>& x, const Vector<2>& normal, std::span<const double> stress) const {
   std::vector<LinePoint> line;
-  const std::array<std::vector<double>, 2>& position = body_.points().position;
   for (Index i = 0; i < body_.points().size(); ++i) {
-    const Vector<2> from = {position[0][i] - x[0], position[1][i] - x[1]};
-    const double above = from[0] * normal[0] + from[1] * normal[1];
+    const Vector<2> from = body_.points().at(i) - x;
+    const double above = dot(from, normal);
     if (std::abs(above) > beside * body_.spacing()) continue;
-    line.push_back({from[1] * normal[0] - from[0] * normal[1],
-                    PlaneStress(stress, i).across(normal) / strength_[i], above > 0.0,
-                    near_[i] != 0});
+    line.push_back({cross(normal, from), PlaneStress(stress, i).across(normal) / strength_[i],
+                    above > 0.0, near_[i] != 0});
   }
   std::ranges::stable_sort(line, {}, &LinePoint::along);
   return line;
@@ -143,7 +142,7 @@ CrackNucleation::Nucleus CrackNucleation::nucleus_at(Index i,
   Nucleus best{};
   const double same = tie * dx;
   for (const double side : {0.5 * dx, -0.5 * dx}) {
-    const Vector<2> x = {at[0] + side * normal[0], at[1] + side * normal[1]};
+    const Vector<2> x = at + side * normal;
     const std::vector<LinePoint> line = points_along(x, normal, stress);
     // The body goes on as far as points follow one another.
     const auto middle = std::ranges::lower_bound(line, 0.0, {}, &LinePoint::along);
@@ -186,9 +185,7 @@ CrackNucleation::Nucleus CrackNucleation::nucleus_at(Index i,
     if (near || !is_inside) continue;
     const double mean = unit_ * std::round(sum / count / unit_);
     if (mean <= best.readiness) continue;
-    const auto place = [&](double s) {
-      return Vector<2>{x[0] - s * normal[1], x[1] + s * normal[0]};
-    };
+    const auto place = [&](double s) { return x + s * perpendicular(normal); };
     best = {place(begin), place(end),
             std::max(1, static_cast<int>(std::lround((end - begin) / dx))), mean};
   }
@@ -200,10 +197,7 @@ double CrackNucleation::cut() {
   Vector<2> from = readiest_.begin;
   for (int k = 1; k <= readiest_.facets; ++k) {
     const double share = static_cast<double>(k) / readiest_.facets;
-    Vector<2> to;
-    for (int a = 0; a < 2; ++a) {
-      to[a] = readiest_.begin[a] + share * (readiest_.end[a] - readiest_.begin[a]);
-    }
+    const Vector<2> to = readiest_.begin + share * (readiest_.end - readiest_.begin);
     const CrackFacet<2> facet = {from, to};
     if (cracked_.cut(facet)) energy += area<2>(facet) * fracture_energy_.at(middle<2>(facet));
     from = to;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <unsupported/Eigen/SpecialFunctions>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -23,24 +25,15 @@ CrackPlane::Cell sum(const CrackPlane::Cell& a, const CrackPlane::Cell& b) {
 
 CrackPlane::CrackPlane(const CrackFacet<3>& first,
                        std::function<bool(const CrackFacet<3>&)> is_rock)
-    : origin_(first[0]), asks_rock_(std::move(is_rock)) {
-  for (int a = 0; a < 3; ++a) {
-    side_[0][a] = first[1][a] - first[0][a];
-    side_[1][a] = first[3][a] - first[0][a];
-  }
-}
+    : origin_(first[0]),
+      side_{first[1] - first[0], first[3] - first[0]},
+      asks_rock_(std::move(is_rock)) {}
 
 std::optional<CrackPlane::Cell> CrackPlane::cell_of(const CrackFacet<3>& facet) const {
   Cell cell;
-  Vector<3> off;
-  for (int a = 0; a < 3; ++a) off[a] = facet[0][a] - origin_[a];
+  const Vector<3> off = facet[0] - origin_;
   for (int k = 0; k < 2; ++k) {
-    double along = 0.0, square = 0.0;
-    for (int a = 0; a < 3; ++a) {
-      along += off[a] * side_[k][a];
-      square += side_[k][a] * side_[k][a];
-    }
-    cell[k] = static_cast<int>(std::lround(along / square));
+    cell[k] = static_cast<int>(std::lround(dot(off, side_[k]) / squared_norm(side_[k])));
   }
   const CrackFacet<3> own = this->facet(cell);
   const double size = std::sqrt(area<3>(own));
@@ -61,9 +54,7 @@ CrackFacet<3> CrackPlane::facet(const Cell& cell) const {
       facet[c] = known->second;
       continue;
     }
-    for (int a = 0; a < 3; ++a) {
-      facet[c][a] = origin_[a] + number[0] * side_[0][a] + number[1] * side_[1][a];
-    }
+    facet[c] = origin_ + number[0] * side_[0] + number[1] * side_[1];
   }
   return facet;
 }

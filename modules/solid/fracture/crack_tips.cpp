@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "core/state/visit_each.hpp"
 
 namespace perifrac {
@@ -54,7 +55,7 @@ void CrackTips::take_ends(std::span<const CrackFacet<2>> facets, std::size_t fir
       if (joined) continue;
       const double sign = end == 1 ? 1.0 : -1.0;
       const Vector<2>& along = cracked_.jumps()[f].tangents[0];
-      Tip tip{{place, {sign * along[0], sign * along[1]}, static_cast<Index>(f), before},
+      Tip tip{{place, sign * along, static_cast<Index>(f), before},
               t,
               true,
               body_.nearest_point(place)};
@@ -66,16 +67,13 @@ void CrackTips::take_ends(std::span<const CrackFacet<2>> facets, std::size_t fir
 
 CrackFacet<2> CrackTips::next_facet(const CrackTip& tip, double turn) const {
   const double c = std::cos(turn), s = std::sin(turn);
-  const Vector<2> ahead = {c * tip.direction[0] - s * tip.direction[1],
-                           s * tip.direction[0] + c * tip.direction[1]};
-  return {tip.place,
-          {tip.place[0] + body_.spacing() * ahead[0], tip.place[1] + body_.spacing() * ahead[1]}};
+  const Vector<2> ahead = c * tip.direction + s * perpendicular(tip.direction);
+  return {tip.place, tip.place + body_.spacing() * ahead};
 }
 
 /// Per length of it [J/m^2].
 double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
-  return fracture_energy_.at(
-      {0.5 * (facet[0][0] + facet[1][0]), 0.5 * (facet[0][1] + facet[1][1])});
+  return fracture_energy_.at(middle<2>(facet));
 }
 
 double CrackTips::readiness(Tip& tip, const CrackState<2>& state) const {
@@ -168,9 +166,8 @@ double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& 
 
 /// From the tip to the middle of the last facet but one [m].
 double CrackTips::behind(const CrackTip& at) const {
-  const CrackFacet<2>& facet = cracked_.facets()[at.before];
-  return std::hypot(at.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
-                    at.place[1] - 0.5 * (facet[0][1] + facet[1][1]));
+  const Vector<2> back = at.place - middle<2>(cracked_.facets()[at.before]);
+  return std::hypot(back[0], back[1]);
 }
 
 /// Openings end to go as sqrt(s) where the crack's other end makes itself felt: as that of a crack

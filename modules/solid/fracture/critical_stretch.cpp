@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/bonds/crack_cut.hpp"
 #include "core/profile/profile.hpp"
@@ -147,15 +148,9 @@ void CriticalStretch<D>::append_stretched(Index i, std::span<const double> u, Bo
   for (Index bond = family_->offset[i]; bond < budget_.end_of_real_bonds(i); ++bond) {
     const Index j = family_->other[bond];
     if (j <= i || family_->weight[bond] == 0.0) continue;
-    double now = 0.0, square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double xi = family_->position[a][j] - family_->position[a][i];
-      const std::size_t block = static_cast<std::size_t>(a) * points;
-      const double moved = xi + u[block + j] - u[block + i];
-      now += moved * moved;
-      square += xi * xi;
-    }
-    if (now > most * square) bonds.emplace_back(i, j);
+    const Vector<D> xi = vector_at(family_->position, j) - vector_at(family_->position, i);
+    const Vector<D> moved = xi + vector_at<D>(u, points, j) - vector_at<D>(u, points, i);
+    if (squared_norm(moved) > most * squared_norm(xi)) bonds.emplace_back(i, j);
   }
 }
 

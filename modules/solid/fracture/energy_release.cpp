@@ -5,12 +5,15 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/bonds/shape_tensor.hpp"
 
 namespace perifrac {
 
 namespace {
+
+double length(const Vector<2>& a) { return std::hypot(a[0], a[1]); }
 
 /// The weight q of the domain integral, 1 at the tip, and its gradient.
 struct Cutoff {
@@ -19,7 +22,7 @@ struct Cutoff {
   double outer;
 
   double at(const Vector<2>& x) const {
-    const double distance = std::hypot(x[0] - centre[0], x[1] - centre[1]);
+    const double distance = length(x - centre);
     if (distance <= inner) return 1.0;
     if (distance >= outer) return 0.0;
     return 0.5 * (1.0 + std::cos(M_PI * (distance - inner) / (outer - inner)));
@@ -30,12 +33,12 @@ struct Cutoff {
   }
 
   Vector<2> gradient(const Vector<2>& x) const {
-    const Vector<2> r = {x[0] - centre[0], x[1] - centre[1]};
-    const double distance = std::hypot(r[0], r[1]);
+    const Vector<2> r = x - centre;
+    const double distance = length(r);
     if (distance <= inner || distance >= outer) return {};
     const double slope =
         -0.5 * M_PI / (outer - inner) * std::sin(M_PI * (distance - inner) / (outer - inner));
-    return {slope * r[0] / distance, slope * r[1] / distance};
+    return slope * r / distance;
   }
 };
 
@@ -45,13 +48,13 @@ double rise_along(const Vector<2>& d, std::span<const double> a, const Family<2>
   const auto moment = sum_over_bonds<2>(family, i, [&](Index j, const Vector<2>& xi, double w) {
     const Index end = j < family.point_count ? j : family.ghost_source[j - family.point_count];
     const double difference = w * (a[end] - a[i]);
-    return std::array{difference * xi[0], difference * xi[1]};
+    return difference * xi;
   });
   const auto shape = shape_tensor_at(family, i);
   const double determinant = shape[0] * shape[3] - shape[1] * shape[2];
   const Vector<2> gradient = {(shape[3] * moment[0] - shape[1] * moment[1]) / determinant,
                               (shape[0] * moment[1] - shape[2] * moment[0]) / determinant};
-  return gradient[0] * d[0] + gradient[1] * d[1];
+  return dot(d, gradient);
 }
 
 /// The jump that turns a straight crack least reliably is the last one. On a row at 26.6 degrees to
@@ -127,21 +130,17 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
   int count = 0;
   for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
-    const Vector<2> back = {tip.place[0] - 0.5 * (facet[0][0] + facet[1][0]),
-                            tip.place[1] - 0.5 * (facet[0][1] + facet[1][1])};
-    const double behind = back[0] * tip.direction[0] + back[1] * tip.direction[1];
-    const double aside = back[0] * tip.direction[1] - back[1] * tip.direction[0];
+    const Vector<2> back = tip.place - middle<2>(facet);
+    const double behind = dot(back, tip.direction), aside = cross(back, tip.direction);
     if (behind < first_jump * spacing_ || behind > last_jump * spacing_) continue;
     if (std::abs(aside) > spacing_) continue;
     const FaceJump<2>& face = body_.jumps()[f];
     // In the frame of the tip: x ahead, y to the left. The jump is from the lower face to the
     // upper.
-    const Vector<2> d = {jumps[f][0] * face.normal[0] + jumps[f][1] * face.tangents[0][0],
-                         jumps[f][0] * face.normal[1] + jumps[f][1] * face.tangents[0][1]};
-    const double up = -tip.direction[1] * face.normal[0] + tip.direction[0] * face.normal[1];
-    const double sign = up > 0.0 ? 1.0 : -1.0;
-    mean.opening += sign * (-tip.direction[1] * d[0] + tip.direction[0] * d[1]);
-    mean.sliding += sign * (tip.direction[0] * d[0] + tip.direction[1] * d[1]);
+    const Vector<2> d = jumps[f][0] * face.normal + jumps[f][1] * face.tangents[0];
+    const double sign = cross(tip.direction, face.normal) > 0.0 ? 1.0 : -1.0;
+    mean.opening += sign * cross(tip.direction, d);
+    mean.sliding += sign * dot(tip.direction, d);
     ++count;
   }
   if (count > 0) {
@@ -155,18 +154,16 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
 Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
                                  std::span<const Vector<2>> jumps) const {
   Vector<2> sum{};
-  const auto is_at = [&](const Vector<2>& x) {
-    return std::hypot(x[0] - corner[0], x[1] - corner[1]) < 1e-6 * spacing_;
-  };
+  const auto is_at = [&](const Vector<2>& x) { return length(x - corner) < 1e-6 * spacing_; };
   if (is_at(tip.place)) return sum;
   int count = 0;
   for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
     if (!is_at(facet[0]) && !is_at(facet[1])) continue;
     ++count;
-    for (int a = 0; a < 2; ++a) sum[a] += jumps[f][a];
+    sum += jumps[f];
   }
-  return {sum[0] / count, sum[1] / count};
+  return sum / count;
 }
 
 double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
@@ -177,36 +174,23 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
   const Family<2>& family = body_.family();
   const Cutoff cutoff{tip.place, spacing_, radius(tip)};
   const DeformedMaterial<2> deformed = body_.elastic().deform(unknowns);
+  const Vector<2>& d = tip.direction;
   double sum = 0.0;
   for (const Index i : points_around(cutoff.centre, cutoff.outer)) {
-    const Vector<2> x = {family.position[0][i], family.position[1][i]};
+    const Vector<2> x = vector_at(family.position, i);
     const double q = cutoff.at(x);
-    const Tensor<2, 2> g = deformed.gradient(i);
-    const Vector<2> slope = cutoff.gradient(x);
-    if (inertia) {
-      const Vector<2> force = inertia(i);
-      for (int a = 0; a < 2; ++a) {
-        sum += q * force[a] * (g[a * 2] * tip.direction[0] + g[a * 2 + 1] * tip.direction[1]);
-      }
-    }
-    Tensor<2, 2> stress = deformed.stress(i, g);
+    const Vector<2> grad_q = cutoff.gradient(x);
+    const Tensor<2, 2> grad_u = deformed.gradient(i);
+    if (inertia) sum += dot(inertia(i), grad_u * d) * q;
+    Tensor<2, 2> stress = deformed.stress(i, grad_u);
     if (!pore_stress.empty()) {
-      const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
-      for (const int k : {0, 3}) stress[k] -= pore_stress[i];
-      sum += family.volume[i] * (g[0] + g[3]) *
-             (pore_stress[i] * along + q * rise_along(tip.direction, pore_stress, family, i));
+      add_to_diagonal(stress, -pore_stress[i]);
+      sum += family.volume[i] * trace(grad_u) *
+             (pore_stress[i] * dot(d, grad_q) + q * rise_along(d, pore_stress, family, i));
     }
-    if (slope == Vector<2>{}) continue;
-    double work = 0.0;  // d . (grad u^T sigma) . grad q
-    for (int a = 0; a < 2; ++a) {
-      for (int b = 0; b < 2; ++b) {
-        for (int c = 0; c < 2; ++c) {
-          work += tip.direction[a] * g[c * 2 + a] * stress[c * 2 + b] * slope[b];
-        }
-      }
-    }
-    const double along = slope[0] * tip.direction[0] + slope[1] * tip.direction[1];
-    sum += family.volume[i] * work - deformed.energy(i) * along;
+    if (grad_q == Vector<2>{}) continue;
+    sum +=
+        family.volume[i] * dot(grad_u * d, stress * grad_q) - deformed.energy(i) * dot(d, grad_q);
   }
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
@@ -216,16 +200,13 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
     const CrackFacet<2>& facet = body_.facets()[f];
     const std::array q = {cutoff.at(facet[0]), cutoff.at(facet[1])};
     if (q[0] == 0.0 && q[1] == 0.0) continue;
-    const Vector<2>& tangent = body_.jumps()[f].tangents[0];
-    const double ahead = tangent[0] * tip.direction[0] + tangent[1] * tip.direction[1];
+    const double ahead = dot(body_.jumps()[f].tangents[0], d);
     const Vector<2> relief = body_.relief(static_cast<Index>(f));
     const Vector<2> load = {pressure[f] + relief[0],
                             shear.empty() ? relief[1] : relief[1] + shear[f]};
-    for (int a = 0; a < 2; ++a) {
-      const double begin = jump_at(facet[0], tip, jumps)[a] - jumps[f][a];
-      const double end = jump_at(facet[1], tip, jumps)[a] - jumps[f][a];
-      sum += ahead * load[a] * (begin * q[0] - end * q[1]);
-    }
+    const Vector<2> begin = jump_at(facet[0], tip, jumps) - jumps[f];
+    const Vector<2> end = jump_at(facet[1], tip, jumps) - jumps[f];
+    sum += ahead * dot(load, q[0] * begin - q[1] * end);
   }
   return sum;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/crack_cut.hpp"
 
 namespace perifrac {
@@ -30,17 +31,10 @@ FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, doubl
   std::vector<Crossing> crossings;
   double shortest = INFINITY;
   for (const auto& [i, j] : bonds_cut_by<D>(facet, family)) {
-    Vector<D> xi, at;
-    double across = 0.0, to_i = 0.0, square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double x = family.position[a][i];
-      xi[a] = family.position[a][j] - x;
-      across += jump.normal[a] * xi[a];
-      to_i += jump.normal[a] * (x - facet[0][a]);
-      square += xi[a] * xi[a];
-    }
-    for (int a = 0; a < D; ++a) at[a] = family.position[a][i] - to_i / across * xi[a];
-    const double length = std::sqrt(square);
+    const Vector<D> x = vector_at(family.position, i), xi = vector_at(family.position, j) - x;
+    const double across = dot(jump.normal, xi), to_i = dot(jump.normal, x - facet[0]);
+    const Vector<D> at = x - to_i / across * xi;
+    const double length = norm(xi);
     const double steep = across / length;
     double weight = steep * steep;
     for (const double t : place_within<D>(facet, at)) {

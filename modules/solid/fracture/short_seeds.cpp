@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/crack_cut.hpp"
 #include "modules/solid/fracture/crack_plane.hpp"
 
@@ -36,11 +37,7 @@ struct Chain {
 };
 
 bool is_tip(const CrackFacet<2>& facet, int end, const Family<2>& cut) {
-  CrackFacet<2> next;
-  for (int a = 0; a < 2; ++a) {
-    next[0][a] = facet[end][a];
-    next[1][a] = 2.0 * facet[end][a] - facet[1 - end][a];
-  }
+  const CrackFacet<2> next = {facet[end], 2.0 * facet[end] - facet[1 - end]};
   return !bonds_cut_by<2>(next, cut).empty();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_lengths.hpp"
 #include "core/bonds/bond_traversal.hpp"
 
@@ -112,9 +113,7 @@ double StretchBudget<D>::farthest_apart(Index block) const {
       box.high[a] = std::max(box.high[a], near.high[a]);
     }
   }
-  double square = 0.0;
-  for (int a = 0; a < D; ++a) square += (box.high[a] - box.low[a]) * (box.high[a] - box.low[a]);
-  return std::sqrt(square);
+  return norm(box.high - box.low);
 }
 
 template class StretchBudget<2>;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -27,13 +29,9 @@ CrossingBonds crossing_bonds(const Family<D>& family, double spacing) {
   const auto sum_beyond = [&](double plane) {
     double sum = 0.0;
     for (Index bond = family.offset[whole]; bond < family.offset[whole + 1]; ++bond) {
-      double square = 0.0;
-      for (int a = 0; a < D; ++a) {
-        const double xi = family.position[a][family.other[bond]] - family.position[a][whole];
-        if (a == 0 && xi < plane) break;
-        square += xi * xi;
-      }
-      sum += family.weight[bond] * square;
+      const Vector<D> xi =
+          vector_at(family.position, family.other[bond]) - vector_at(family.position, whole);
+      if (xi[0] >= plane) sum += family.weight[bond] * squared_norm(xi);
     }
     return sum;
   };

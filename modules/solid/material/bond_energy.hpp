@@ -1,9 +1,8 @@
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
 
+#include "core/base/small_vector.hpp"
 #include "core/operators/point_stiffness.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
@@ -22,13 +21,9 @@ PointStiffness bond_energy_stiffness(const Family<D>& family, const MirrorCondit
   Eigen::MatrixXd extension = Eigen::MatrixXd::Zero(bonds, D * (bonds + 1));
   Eigen::VectorXd length(bonds), weight(bonds);
   for (Index b = 0; b < bonds; ++b) {
-    Vector<D> xi;
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      xi[a] = family.position[a][family.other[first + b]] - family.position[a][i];
-      square += xi[a] * xi[a];
-    }
-    length[b] = std::sqrt(square);
+    const Vector<D> xi =
+        vector_at(family.position, family.other[first + b]) - vector_at(family.position, i);
+    length[b] = norm(xi);
     weight[b] = family.weight[first + b];
     for (int a = 0; a < D; ++a) {
       extension(b, a * (bonds + 1) + b) += xi[a] / length[b];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/base/block_sum.hpp"
+#include "core/base/small_vector.hpp"
 #include "modules/solid/material/linear_exact_elasticity.hpp"
 #include "modules/solid/material/turned_law.hpp"
 #include "modules/solid/material/turning_bonds.hpp"
@@ -106,12 +107,10 @@ class CorotationalElasticity final : public LinearExactElasticity<D, Law> {
                   PoreStressAt&& pore_stress) {
     operator_.apply(u, force, [&](Index i, const Tensor<D, D>& gradient, Tensor<D, D>& stress) {
       const Turned<D> at = turned(gradient);
-      double theta = 0.0;
-      for (int a = 0; a < D; ++a) theta += at.strain[a * D + a];
+      const double theta = trace(at.strain);
       if (!dilatation.empty()) dilatation[i] = theta;
       Tensor<D, D> unturned = law_at(operator_.law(), i).stress(at.strain);
-      const double pressure = pore_stress(i, theta);
-      for (int a = 0; a < D; ++a) unturned[a * D + a] -= pressure;
+      add_to_diagonal(unturned, -pore_stress(i, theta));
       stress = product<D>(at.rotation, unturned);
     });
   }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/small_vector.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "modules/solid/material/bond_energy.hpp"
 #include "modules/solid/material/breakable_elasticity.hpp"
@@ -144,11 +145,9 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   void apply_with(std::span<const double> u, std::span<double> force, std::span<double> dilatation,
                   PoreStressAt&& pore_stress, AddInitial&& add_initial) {
     operator_.apply(u, force, [&](Index i, const Tensor<D, D>& gradient, Tensor<D, D>& stress) {
-      double theta = 0.0;
-      for (int a = 0; a < D; ++a) theta += gradient[a * D + a];
+      const double theta = trace(gradient);
       if (!dilatation.empty()) dilatation[i] = theta;
-      const double pressure = pore_stress(i, theta);
-      for (int a = 0; a < D; ++a) stress[a * D + a] -= pressure;
+      add_to_diagonal(stress, -pore_stress(i, theta));
       add_initial(stress);
     });
     for (const ThinPoint& thin : thin_points_) add_force(thin.stiffness, u, force);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/operators/node_unknowns.hpp"
 #include "core/operators/nonlocal_gradient.hpp"
@@ -12,13 +13,6 @@
 namespace perifrac {
 
 namespace {
-
-template <int D>
-double dot(const Vector<D>& a, const Vector<D>& b) {
-  double sum = 0.0;
-  for (int k = 0; k < D; ++k) sum += a[k] * b[k];
-  return sum;
-}
 
 template <int D>
 constexpr double bonds_per_shear_modulus = D == 2 ? 8.0 : 15.0;  // c / mu
@@ -98,7 +92,7 @@ void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
   const auto write_forces = [&]<bool initially_stressed>() {
     for_each_point(points, [&](Index i) {
       const Vector<D> f = bond_forces<initially_stressed>(i);
-      for (int r = 0; r < D; ++r) force[static_cast<std::size_t>(r) * points + i] = -f[r];
+      set_at(force, points, i, -f);
     });
   };
   if (initial_state_.empty()) {
@@ -108,8 +102,7 @@ void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
   }
   for_each_point(static_cast<Index>(face_points_.size()), [&](Index k) {
     const Index i = face_points_[k];
-    const Vector<D> f = image_forces(i);
-    for (int r = 0; r < D; ++r) force[static_cast<std::size_t>(r) * points + i] -= f[r];
+    add_at(force, points, i, -image_forces(i));
   });
   add_face_reactions(force.subspan(static_cast<std::size_t>(D) * points));
 }
@@ -194,15 +187,13 @@ Vector<D> LpsElasticity<D>::image_forces(Index i) const {
     if (ghost < 0) continue;
     const Index source = family_->ghost_source[ghost];
     const Vector<D> xi = bond_vector(i, points + ghost);
-    Vector<D> image = xi;
-    for (int r = 0; r < D; ++r) image[r] *= image_sign_[ghost][r];
+    const Vector<D> image = componentwise(xi, image_sign_[ghost]);
     const double pull = volume_state_[source] + bond_stiffness_[source] *
-                                                    dot<D>(image, difference(i, points + ghost)) /
-                                                    dot<D>(xi, xi);
-    for (int r = 0; r < D; ++r) force[r] += family_->weight[bond] * pull * image[r];
+                                                    dot(image, difference(i, points + ghost)) /
+                                                    squared_norm(xi);
+    force += family_->weight[bond] * pull * image;
   }
-  for (double& component : force) component *= family_->volume[i];
-  return force;
+  return family_->volume[i] * force;
 }
 
 /// dE/dU of the face values: the part of real points' bonds in the ghosts at their ends. Serial, so
@@ -219,7 +210,7 @@ void LpsElasticity<D>::add_face_reactions(std::span<double> reaction) const {
       if (j < points) continue;
       const Vector<D> xi = bond_vector(i, j);
       const double pull =
-          volume_state_[i] + bond_stiffness_[i] * dot<D>(xi, difference(i, j)) / dot<D>(xi, xi);
+          volume_state_[i] + bond_stiffness_[i] * dot(xi, difference(i, j)) / squared_norm(xi);
       for (int r = 0; r < D; ++r) {
         const auto image = mirror_.image(family_->ghost_faces[j - points], r);
         if (image.term_count == 0) continue;
@@ -238,17 +229,13 @@ void LpsElasticity<D>::add_face_reactions(std::span<double> reaction) const {
 
 template <int D>
 Vector<D> LpsElasticity<D>::bond_vector(Index i, Index j) const {
-  Vector<D> xi;
-  for (int a = 0; a < D; ++a) xi[a] = family_->position[a][j] - family_->position[a][i];
-  return xi;
+  return vector_at(family_->position, j) - vector_at(family_->position, i);
 }
 
 template <int D>
 Vector<D> LpsElasticity<D>::difference(Index i, Index j) const {
   const std::size_t nodes = family_->node_count();
-  Vector<D> result;
-  for (int r = 0; r < D; ++r) result[r] = field_[r * nodes + j] - field_[r * nodes + i];
-  return result;
+  return vector_at<D>(field_, nodes, j) - vector_at<D>(field_, nodes, i);
 }
 
 /// sum_j T(xi) (x) xi of the point's own force states T: dW/dF for a uniform gradient F.
@@ -322,7 +309,7 @@ Eigen::SparseMatrix<double> LpsElasticity<D>::extension_matrix() const {
     for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
       const Index j = family_->other[bond];
       const Vector<D> xi = bond_vector(i, j);
-      const double length = std::sqrt(dot<D>(xi, xi));
+      const double length = norm(xi);
       for (int r = 0; r < D; ++r) {
         Combination end = node_unknowns(*family_, mirror_, j, r);
         end.add(r * points + i, -1.0);

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cmath>
 #include <span>
 #include <vector>
 
+#include "core/base/small_vector.hpp"
 #include "core/operators/node_unknowns.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
@@ -23,15 +23,13 @@ class TurningBonds {
       if (family.weight[b] == 0.0) continue;
       Bond bond{};
       bond.weight = family.weight[b];
-      double square = 0.0;
+      bond.xi = vector_at(family.position, family.other[b]) - vector_at(family.position, i);
       for (int a = 0; a < D; ++a) {
-        bond.xi[a] = family.position[a][family.other[b]] - family.position[a][i];
-        square += bond.xi[a] * bond.xi[a];
         bond.parting[a] = node_unknowns(family, mirror, family.other[b], a);
         bond.parting[a].add(a * family.point_count + i, -1.0);
       }
-      bond.length = std::sqrt(square);
-      weighted_volume_ += bond.weight * square;
+      bond.length = norm(bond.xi);
+      weighted_volume_ += bond.weight * squared_norm(bond.xi);
       bonds_.push_back(bond);
     }
   }
@@ -88,12 +86,7 @@ class TurningBonds {
 
   /// |y| - |xi|, with no loss of digits where y is near xi.
   static double extension(const Bond& bond, const Vector<D>& y) {
-    double square = 0.0, gained = 0.0;
-    for (int a = 0; a < D; ++a) {
-      square += y[a] * y[a];
-      gained += (y[a] - bond.xi[a]) * (y[a] + bond.xi[a]);
-    }
-    return gained / (std::sqrt(square) + bond.length);
+    return dot(y - bond.xi, y + bond.xi) / (norm(y) + bond.length);
   }
 
   double dilatation(std::span<const double> u) const {
