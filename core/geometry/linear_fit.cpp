@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/solvers/symmetric_spectrum.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -21,12 +23,12 @@ using Offsets = Eigen::MatrixXd;  // a row a point, from the place, over the rea
 Eigen::MatrixXd spread_directions(const Offsets& offsets) {
   const Eigen::MatrixXd centred = offsets.rowwise() - offsets.colwise().mean();
   const Eigen::MatrixXd covariance = centred.transpose() * centred / double(offsets.rows());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  const auto [spread, directions] = symmetric_spectrum(covariance);
   Eigen::Index dropped = 0;  // eigenvalues rise
-  while (dropped < covariance.rows() && solver.eigenvalues()[dropped] < no_spread * no_spread) {
+  while (dropped < covariance.rows() && spread[dropped] < no_spread * no_spread) {
     ++dropped;
   }
-  return solver.eigenvectors().rightCols(covariance.rows() - dropped);
+  return directions.rightCols(covariance.rows() - dropped);
 }
 
 /// Falls to 0 with its slope at the reach, and is all but infinite at the place.

@@ -2,8 +2,9 @@
 
 #include <array>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+
+#include "core/solvers/symmetric_spectrum.hpp"
 
 namespace perifrac {
 
@@ -68,13 +69,13 @@ std::string rigid_motion_without_energy(const Points<D>& points,
     }
   }
   const Eigen::MatrixXd energy = motions.transpose() * (stiffness * motions);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(energy);
+  const SymmetricSpectrum spectrum = symmetric_spectrum(energy);
   const double typical = stiffness.diagonal().mean();
   // Held by one face, a motion costs about 1 / (points across) of a bond's stiffness; free, only
   // rounding is left.
-  if (spectrum.eigenvalues()[0] > 1e-11 * typical) return {};
+  if (spectrum.values[0] > 1e-11 * typical) return {};
   Eigen::Index worst;
-  spectrum.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+  spectrum.vectors.col(0).cwiseAbs().maxCoeff(&worst);
   return names[worst];
 }
 

@@ -124,6 +124,67 @@ std::vector<CrackNucleation::LinePoint> CrackNucleation::points_along(
   return line;
 }
 
+/// The body goes on from the middle as far as points follow one another.
+std::span<const CrackNucleation::LinePoint> CrackNucleation::part_in_body(
+    std::span<const LinePoint> line) const {
+  const double most = gap * body_.spacing();
+  const auto middle = std::ranges::lower_bound(line, 0.0, {}, &LinePoint::along);
+  auto last = middle, first = middle;
+  while (last != line.end() &&
+         (last == line.begin() || last->along - std::prev(last)->along <= most)) {
+    ++last;
+  }
+  while (first != line.begin() &&
+         (first == line.end() || first->along - std::prev(first)->along <= most)) {
+    --first;
+  }
+  return {first, last};
+}
+
+/// Where a nucleus would lie on such a part, along the line: around its middle, or at a face that
+/// is near.
+std::pair<double, double> CrackNucleation::piece_of(std::span<const LinePoint> part,
+                                                    double length) const {
+  const double dx = body_.spacing(), same = tie * dx;
+  const auto facets = [](double count, int least) {
+    return std::max(least, static_cast<int>(std::min(std::ceil(count - 1e-6), 1e6)));
+  };
+  const double inner = dx * facets(inner_nucleus * length, least_inner_facets);
+  const double edge = dx * facets(edge_nucleus * length, least_edge_facets);
+  const double clear = dx * least_edge_facets;
+  const double low = part.front().along - 0.5 * dx, high = part.back().along + 0.5 * dx;
+  double begin = -0.5 * inner, end = 0.5 * inner;
+  if (-low <= high + same && -low <= edge + same) {
+    begin = low;
+    end = low + edge;
+  } else if (high <= edge + same) {
+    begin = high - edge;
+    end = high;
+  } else if (high - low >= inner + 2.0 * clear - same) {
+    // What remains between it and a face is not to be too thin for J.
+    begin = std::clamp(begin, low + clear, high - clear - inner);
+    end = begin + inner;
+  }
+  return {std::max(begin, low), std::min(end, high)};
+}
+
+/// The mean over a piece, in whole units; 0 where a crack is near, or the rock lies on one side.
+double CrackNucleation::readiness_over(std::span<const LinePoint> part, double begin,
+                                       double end) const {
+  const double same = tie * body_.spacing();
+  double sum = 0.0;
+  int count = 0, above = 0;
+  for (const LinePoint& point : part) {
+    if (point.along < begin - same || point.along > end + same) continue;
+    if (point.near_crack) return 0.0;
+    sum += point.readiness;
+    ++count;
+    above += point.is_above ? 1 : 0;
+  }
+  const bool is_inside = 4 * above > count && 4 * above < 3 * count;
+  return is_inside ? unit_ * std::round(sum / count / unit_) : 0.0;
+}
+
 /// Half a spacing beside point i, where a crack cuts least unevenly through the points around it;
 /// on the side that is under more tension.
 CrackNucleation::Nucleus CrackNucleation::nucleus_at(Index i,
@@ -133,61 +194,18 @@ CrackNucleation::Nucleus CrackNucleation::nucleus_at(Index i,
   const Vector<2> normal = PlaneStress(stress, i).largest_direction();
   const double length = cracked_.elastic().law(i).plane_strain_modulus() * fracture_energy_.at(at) /
                         (strength_[i] * strength_[i]) / dx;
-  const auto facets = [](double count, int least) {
-    return std::max(least, static_cast<int>(std::min(std::ceil(count - 1e-6), 1e6)));
-  };
-  const double inner = dx * facets(inner_nucleus * length, least_inner_facets);
-  const double edge = dx * facets(edge_nucleus * length, least_edge_facets);
-  const double clear = dx * least_edge_facets;
   Nucleus best{};
-  const double same = tie * dx;
   for (const double side : {0.5 * dx, -0.5 * dx}) {
     const Vector<2> x = at + side * normal;
     const std::vector<LinePoint> line = points_along(x, normal, stress);
-    // The body goes on as far as points follow one another.
-    const auto middle = std::ranges::lower_bound(line, 0.0, {}, &LinePoint::along);
-    auto last = middle, first = middle;
-    while (last != line.end() &&
-           (last == line.begin() || last->along - std::prev(last)->along <= gap * dx)) {
-      ++last;
-    }
-    while (first != line.begin() &&
-           (first == line.end() || first->along - std::prev(first)->along <= gap * dx)) {
-      --first;
-    }
-    if (first == last) continue;
-    const double low = first->along - 0.5 * dx, high = std::prev(last)->along + 0.5 * dx;
-    double begin = -0.5 * inner, end = 0.5 * inner;
-    if (-low <= high + same && -low <= edge + same) {
-      begin = low;
-      end = low + edge;
-    } else if (high <= edge + same) {
-      begin = high - edge;
-      end = high;
-    } else if (high - low >= inner + 2.0 * clear - same) {
-      // What remains between it and a face is not to be too thin for J.
-      begin = std::clamp(begin, low + clear, high - clear - inner);
-      end = begin + inner;
-    }
-    begin = std::max(begin, low);
-    end = std::min(end, high);
-    double sum = 0.0;
-    int count = 0, above = 0;
-    bool near = false;
-    for (auto point = first; point != last; ++point) {
-      if (point->along < begin - same || point->along > end + same) continue;
-      sum += point->readiness;
-      ++count;
-      above += point->is_above ? 1 : 0;
-      near = near || point->near_crack;
-    }
-    const bool is_inside = 4 * above > count && 4 * above < 3 * count;
-    if (near || !is_inside) continue;
-    const double mean = unit_ * std::round(sum / count / unit_);
-    if (mean <= best.readiness) continue;
+    const std::span<const LinePoint> part = part_in_body(line);
+    if (part.empty()) continue;
+    const auto [begin, end] = piece_of(part, length);
+    const double readiness = readiness_over(part, begin, end);
+    if (readiness <= best.readiness) continue;
     const auto place = [&](double s) { return x + s * perpendicular(normal); };
     best = {place(begin), place(end),
-            std::max(1, static_cast<int>(std::lround((end - begin) / dx))), mean};
+            std::max(1, static_cast<int>(std::lround((end - begin) / dx))), readiness};
   }
   return best;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/body/body.hpp"
@@ -55,6 +56,9 @@ class CrackNucleation {
   Nucleus nucleus_at(Index i, std::span<const double> stress) const;
   std::vector<LinePoint> points_along(const Vector<2>& x, const Vector<2>& normal,
                                       std::span<const double> stress) const;
+  std::span<const LinePoint> part_in_body(std::span<const LinePoint> line) const;
+  std::pair<double, double> piece_of(std::span<const LinePoint> part, double length) const;
+  double readiness_over(std::span<const LinePoint> part, double begin, double end) const;
 
   const Body<2>& body_;
   CutBody<2>& cracked_;

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/solvers/symmetric_spectrum.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -154,14 +156,14 @@ std::vector<std::vector<Index>> find_loose_pieces(
     motions.add(Eigen::VectorXd::Unit(free_unknowns.cols(), plate), -1);
   }
   const Eigen::MatrixXd energy = energies(elastic, motions, free_unknowns, family.point_count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(energy);
+  const SymmetricSpectrum spectrum = symmetric_spectrum(energy);
   // What it takes to move a point beside its neighbours [N/m], in 2D per metre.
   const double typical = elastic.law(0).stabilisation() * std::pow(family.volume[0], (D - 2.0) / D);
   std::vector<double> share(pieces.size(), 0.0);
-  for (Eigen::Index v = 0; v < spectrum.eigenvalues().size(); ++v) {
-    if (spectrum.eigenvalues()[v] > nothing * typical) break;
+  for (Eigen::Index v = 0; v < spectrum.values.size(); ++v) {
+    if (spectrum.values[v] > nothing * typical) break;
     for (std::size_t c = 0; c < motions.piece.size(); ++c) {
-      const double part = spectrum.eigenvectors()(static_cast<Eigen::Index>(c), v);
+      const double part = spectrum.vectors(static_cast<Eigen::Index>(c), v);
       if (motions.piece[c] >= 0) share[motions.piece[c]] += part * part;
     }
   }

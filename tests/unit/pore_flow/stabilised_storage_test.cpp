@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/bonds/crack_cut.hpp"
+#include "core/solvers/symmetric_spectrum.hpp"
 #include "tests/unit/pore_flow/pore_body.hpp"
 
 namespace perifrac {
@@ -82,7 +83,7 @@ void expect_roughness(const Setting<D>& setting) {
     for (Index i = 0; i < n; ++i) p[i] = 1.0 + setting.body->points().position[a][i];
     EXPECT_LT(test::largest(Eigen::VectorXd(b * p)), 1e-12 * top);
   }
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(b).eigenvalues();
+  const Eigen::VectorXd values = symmetric_spectrum(b).values;
   EXPECT_GT(values[0], -1e-13 * top);
   EXPECT_GT(values[D + 1], 1e-3 * top) << "more than the linear pressures is left out";
 }

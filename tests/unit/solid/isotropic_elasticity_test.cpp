@@ -14,6 +14,7 @@
 #include "core/base/errors.hpp"
 #include "core/config/scene.hpp"
 #include "core/operators/linear_exact.hpp"
+#include "core/solvers/symmetric_spectrum.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {
@@ -87,7 +88,7 @@ LinearExactOperator<D, IsotropicElasticity<D>> free_solid(const Body<D>& body) {
 template <int D>
 void expect_null_modes(const Body<D>& body) {
   const Eigen::MatrixXd a = free_solid<D>(body).assemble();
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues();
+  const Eigen::VectorXd values = symmetric_spectrum(a).values;
   const int rigid = D * (D + 1) / 2;
   const double top = values[values.size() - 1];
   EXPECT_LT(values.head(rigid).cwiseAbs().maxCoeff(), 1e-13 * top);
