@@ -48,21 +48,30 @@ bool is_left_as_it_was(const Section& scene, const std::string& face) {
          scene.number(face + ".pressure") == scene.number("pore_flow.initial_pressure");
 }
 
-/// A face whose pressure is given, or cracks that leak off into pores; empty where there is
-/// neither.
-std::string where_fluid_seeps(const Section& scene) {
-  if (!writes(scene, "pore_flow")) return "";
+/// Where fluid seeps, and how many spacings deep for its rate to be known.
+struct Seepage {
+  std::string through;
+  double least_depth = 1.0;
+};
+
+/// Through a face whose pressure is given, cracks that leak off into pores, or where free fluid,
+/// whose points lie half a spacing before it, touches the body; empty where there is none of them.
+Seepage where_fluid_seeps(const Section& scene) {
+  if (!writes(scene, "pore_flow")) return {};
   if (writes(scene, "crack_fluid") && scene.word("crack_fluid.leak_off") == "pores") {
-    return "the faces of cracks";
+    return {"the faces of cracks"};
   }
-  if (!writes(scene, "pore_flow.boundary")) return "";
+  if (writes(scene, "fluid") && scene.word("interface.exchange") != "none") {
+    return {"what free fluid touches", 2.0};
+  }
+  if (!writes(scene, "pore_flow.boundary")) return {};
   for (const std::string& name : scene.names("pore_flow.boundary")) {
     const std::string face = "pore_flow.boundary." + name;
     if (scene.word(face + ".type") == "pressure" && !is_left_as_it_was(scene, face)) {
-      return fmt::format("face '{}'", name);
+      return {fmt::format("face '{}'", name)};
     }
   }
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -85,17 +94,18 @@ std::optional<std::string> filling_warning(const Section& scene, const Simulatio
 }
 
 std::optional<std::string> seepage_warning(const Section& scene, double time) {
-  const std::string through = where_fluid_seeps(scene);
+  const auto [through, least_depth] = where_fluid_seeps(scene);
   if (through.empty() || !scene.has("body.spacing")) return {};
   const double spacing = scene.number("body.spacing");
   const bool is_flat = scene.integer("dimension") == 2;
   const double c = is_flat ? diffusivity<2>(scene) : diffusivity<3>(scene);
   const double depth = std::sqrt(c * time);
-  if (!(depth < spacing)) return {};
+  if (!(depth < least_depth * spacing)) return {};
   return fmt::format(
-      "pressure goes {:.2g} m into the pores by t = {:.3g} s, less than body.spacing: what flows "
-      "through {} depends on the spacing; bring points closer together, or look at later times",
-      depth, time, through);
+      "pressure goes {:.2g} m into the pores by t = {:.3g} s, less than {:g} body.spacing: what "
+      "flows through {} depends on the spacing; bring points closer together, or look at later "
+      "times",
+      depth, time, least_depth, through);
 }
 
 }  // namespace perifrac

@@ -121,6 +121,11 @@ class Validity(RunTest):
         soon = {"time.end": "1 ms", "output.times": "[]", "output.probes": "[]"}
         self.assert_warns(CONFIGS / "aquifer.yaml", soon, "through face 'left' depends on the spacing")
         self.assert_warns(CONFIGS / "aquifer.yaml", soon | {"time.end": "1 s"})
+        # A depth of 1.9 spacings, and 2.7.
+        for end, warns in (("5 s", True), ("10 s", False)):
+            keys = {"time.end": end, "output.times": "[]", "output.interval": end}
+            warned = self.warnings(self.without_reference("constant_head.yaml"), keys)
+            self.assertEqual(any("through what free fluid touches" in warning for warning in warned), warns, warned)
         # Far from a crack that does not leak a face holds what was there.
         tight = {"body.spacing": "5 mm", "time.end": "1 ms", "output.interval": "1 ms", "crack_fluid.leak_off": "none"}
         for pressure, warns in (("0 Pa", False), ("10 kPa", True)):
