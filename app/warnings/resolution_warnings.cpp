@@ -62,7 +62,7 @@ Seepage where_fluid_seeps(const Section& scene) {
     return {"the faces of cracks"};
   }
   if (writes(scene, "fluid") && scene.word("interface.exchange") != "none") {
-    return {"what free fluid touches", 2.0};
+    return {"what free fluid touches", 2.5};
   }
   if (!writes(scene, "pore_flow.boundary")) return {};
   for (const std::string& name : scene.names("pore_flow.boundary")) {

@@ -38,6 +38,7 @@ TRIAL = 0.5  # s
 MOST_POINTS = 5000
 OUT_OF_TIME = (-signal.SIGXCPU,)
 FAULTS = ("crash", "hang", "silent", "refused without a reason", "failed without a reason")
+TOO_LARGE = "too large to be tried here"  # of `check`: what memory there is would not do
 REASON = re.compile(r"error: .+ in \S.* at .+, t = \S+ s")
 REFUSAL = re.compile(r":\d+(:\d+)?: .+; |expected")
 
@@ -77,8 +78,8 @@ class Attack:
                                         patience=SHORTEST)
         if code != 0:
             return code, said, 0.0
-        forecast = json.loads(told).get("forecast") or {}
-        return code, said, forecast.get("seconds") or 0.0
+        told = json.loads(told)
+        return code, " ".join([said, *told.get("warnings", [])]), (told.get("forecast") or {}).get("seconds") or 0.0
 
     def run(self, scene, file, foretold, until):
         file.write_text(json.dumps(scene), encoding="utf-8")
@@ -107,6 +108,8 @@ class Attack:
         file.write_text(json.dumps(scene), encoding="utf-8")
         code, said, foretold = self.foretell(file)
         until = None
+        if code == 0 and TOO_LARGE in said:
+            return {"outcome": "warned", "said": TOO_LARGE, "warned": True}
         if code == 0 and foretold > DEAR:
             until, foretold = scene["time"]["end"] * DEAR / foretold, DEAR
         if code in (0, 1):
