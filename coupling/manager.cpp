@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/final_error.hpp"
+#include "core/base/errors.hpp"
 #include "core/io/log.hpp"
 #include "coupling/connect.hpp"
 

@@ -1,8 +1,7 @@
-#include "app/references/cantilever_reference.hpp"
-
 #include <cmath>
 
 #include "app/references/comparison.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/cantilever_solution.hpp"
 #include "app/references/solutions/oscillation.hpp"

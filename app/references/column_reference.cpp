@@ -1,10 +1,9 @@
-#include "app/references/column_reference.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/layered_column_solution.hpp"
 #include "app/references/solutions/terzaghi_solution.hpp"

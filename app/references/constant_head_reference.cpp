@@ -1,5 +1,3 @@
-#include "app/references/constant_head_reference.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -7,6 +5,7 @@
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
 #include "app/references/moving_points.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/seepage_solution.hpp"
 

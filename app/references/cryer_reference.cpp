@@ -1,11 +1,10 @@
-#include "app/references/cryer_reference.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/cryer_solution.hpp"
 

@@ -1,5 +1,3 @@
-#include "app/references/dam_break_reference.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +5,7 @@
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
 #include "app/references/moving_points.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/solutions/martin_moyce.hpp"
 
 namespace perifrac {

@@ -1,10 +1,9 @@
-#include "app/references/diffusion_reference.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/slab_drainage.hpp"
 

@@ -1,10 +1,9 @@
-#include "app/references/drained_plate_reference.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/plate_solution.hpp"
 #include "core/geometry/faces.hpp"

@@ -1,10 +1,9 @@
-#include "app/references/hydrostatic_reference.hpp"
-
 #include <cmath>
 
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
 #include "app/references/moving_points.hpp"
+#include "app/references/reference_types.hpp"
 
 namespace perifrac {
 

@@ -1,5 +1,3 @@
-#include "app/references/kgd_reference.hpp"
-
 #include <cmath>
 #include <stdexcept>
 
@@ -7,6 +5,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/growth_step.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/kgd_solution.hpp"
 #include "modules/solid/fracture/damage_keys.hpp"

@@ -1,5 +1,3 @@
-#include "app/references/mandel_reference.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/mandel_solution.hpp"
 

@@ -1,11 +1,10 @@
-#include "app/references/poiseuille_reference.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
 #include "app/references/moving_points.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/solutions/poiseuille_solution.hpp"
 
 namespace perifrac {

@@ -1,5 +1,3 @@
-#include "app/references/radial_reference.hpp"
-
 #include <array>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/growth_step.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/radial_solution.hpp"
 #include "modules/solid/fracture/damage_keys.hpp"

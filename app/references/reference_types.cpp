@@ -2,21 +2,7 @@
 
 #include <algorithm>
 
-#include "app/references/cantilever_reference.hpp"
-#include "app/references/column_reference.hpp"
-#include "app/references/constant_head_reference.hpp"
-#include "app/references/cryer_reference.hpp"
-#include "app/references/dam_break_reference.hpp"
-#include "app/references/diffusion_reference.hpp"
-#include "app/references/drained_plate_reference.hpp"
-#include "app/references/hydrostatic_reference.hpp"
-#include "app/references/kgd_reference.hpp"
-#include "app/references/mandel_reference.hpp"
-#include "app/references/poiseuille_reference.hpp"
-#include "app/references/radial_reference.hpp"
-#include "app/references/slit_flow_reference.hpp"
 #include "app/references/table_reference.hpp"
-#include "app/references/water_on_plate_reference.hpp"
 
 namespace perifrac {
 

@@ -1,9 +1,8 @@
-#include "app/references/slit_flow_reference.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "app/references/comparison.hpp"
+#include "app/references/reference_types.hpp"
 #include "core/body/crack_seeds.hpp"
 
 namespace perifrac {

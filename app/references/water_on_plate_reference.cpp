@@ -1,11 +1,10 @@
-#include "app/references/water_on_plate_reference.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
+#include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
 #include "app/references/solutions/beam_section.hpp"
 

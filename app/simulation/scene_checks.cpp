@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,15 +14,113 @@ namespace perifrac {
 
 namespace {
 
-bool names(const Section& scene, const std::string& section) {
-  return std::ranges::count(scene.names(""), section) > 0;
+/// Neither section says anything wrong, and together they make no scene.
+struct Rule {
+  std::string key;  ///< what is refused
+  bool (*broken)(const Section& scene);
+  const char* problem;
+  const char* expected;
+};
+
+constexpr const char* critical_stretch = "critical_stretch";
+
+bool is(const Section& scene, const char* key, const char* word) {
+  return scene.has(key) && scene.word(key) == word;
+}
+
+bool has_cracks(const Section& scene) { return scene.has("damage") || scene.count("cracks") > 0; }
+
+bool is_flat(const Section& scene) { return scene.integer("dimension") == 2; }
+
+bool has_friction(const Section& scene) { return scene.has("solid.crack_friction"); }
+
+bool turns_far(const Section& scene) { return is(scene, "solid.kinematics", "corotational"); }
+
+bool is_dynamic(const Section& scene) { return is(scene, "solid.type", "dynamic"); }
+
+/// In this order: of those with one key the first that is broken is told.
+// NOLINTNEXTLINE(readability-function-size): a table
+const std::vector<Rule>& rules() {
+  static const std::vector<Rule> all = {
+      {"solid.crack_friction",
+       [](const Section& scene) { return has_friction(scene) && is_dynamic(scene); },
+       "in a solid with inertia", "type: quasi_static, or a solid without crack_friction"},
+      {"solid.crack_friction",
+       [](const Section& scene) { return has_friction(scene) && !has_cracks(scene); },
+       "without cracks",
+       "a list 'cracks' with one crack or more, or a solid without crack_friction"},
+      {"solid.crack_friction",
+       [](const Section& scene) { return has_friction(scene) && !is_flat(scene); }, "in 3D",
+       "dimension: 2, or a solid without crack_friction"},
+      {"solid.crack_friction",
+       [](const Section& scene) { return has_friction(scene) && scene.has("crack_fluid"); },
+       "beside fluid in cracks", "dry cracks, or a solid without crack_friction"},
+      {"solid.crack_friction",
+       [](const Section& scene) { return has_friction(scene) && scene.has("pore_flow"); },
+       "beside pore flow, whose pressure faces do not feel",
+       "dry rock, or a solid without crack_friction"},
+      {"solid.kinematics",
+       [](const Section& scene) { return turns_far(scene) && !is_dynamic(scene); },
+       "'corotational' of a solid in equilibrium", "type: dynamic, or small"},
+      {"solid.kinematics",
+       [](const Section& scene) { return turns_far(scene) && scene.has("fluid"); },
+       "'corotational' beside free fluid, whose walls do not turn", "small"},
+      {"solid.kinematics",
+       [](const Section& scene) {
+         return turns_far(scene) && scene.has("gravity") && scene.has("pore_flow");
+       },
+       "'corotational' beside pores that gravity acts in",
+       "a scene without gravity or without pore_flow, or small"},
+      {"solid.kinematics",
+       [](const Section& scene) {
+         return turns_far(scene) && has_cracks(scene) &&
+                !is(scene, "damage.type", critical_stretch);
+       },
+       "'corotational' beside cracks whose faces do not turn",
+       "damage.type: critical_stretch, or small"},
+      {"solid.density",
+       [](const Section& scene) {
+         return scene.has("gravity") && scene.has("solid") && !is(scene, "solid.type", "rigid") &&
+                !scene.has("solid.density");
+       },
+       "missing, and gravity is on", "the bulk density of the rock"},
+      {"damage.tensile_strength",
+       [](const Section& scene) {
+         return scene.has("damage.tensile_strength") && is_dynamic(scene) &&
+                is(scene, "damage.type", "energy_release");
+       },
+       "in a dynamic solid", "solid.type: quasi_static, or none"},
+      {"crack_fluid",
+       [](const Section& scene) {
+         return scene.has("crack_fluid") && scene.has("solid") && scene.count("cracks") == 0;
+       },
+       "no crack that it could be in", "a list 'cracks' with one crack or more"},
+      {"crack_fluid.counts",
+       [](const Section& scene) {
+         return is(scene, "crack_fluid.counts", "both") && !is_flat(scene);
+       },
+       "'both' in 3D", "one_wing: the rate of the part that the scene holds"},
+      {"crack_fluid.leak_off",
+       [](const Section& scene) {
+         return is(scene, "crack_fluid.leak_off", "pores") && !scene.has("pore_flow");
+       },
+       "the scene has no section 'pore_flow'", "none or carter"},
+      {"damage.type",
+       [](const Section& scene) {
+         return is(scene, "damage.type", critical_stretch) && is_dynamic(scene) &&
+                scene.has("crack_fluid");
+       },
+       "'critical_stretch' beside fluid in cracks",
+       "energy_release, whose cracks are facets that fluid may fill"},
+  };
+  return all;
 }
 
 /// Repeating a window changes the steps that CVODE chooses, and its answer by its own tolerance:
 /// iterations cannot agree any better.
 void refuse_unreachable_tolerance(const Section& scene) {
   if (!scene.has("coupling.iterations.max") || scene.integer("coupling.iterations.max") == 1 ||
-      !names(scene, "solid") || !names(scene, "pore_flow") ||
+      !scene.has("solid") || !scene.has("pore_flow") ||
       scene.word("pore_flow.integrator.type") != "cvode") {
     return;
   }
@@ -35,12 +136,12 @@ void refuse_unreachable_tolerance(const Section& scene) {
 
 /// Where fluid touches a body, the scene says how; elsewhere there is nothing to say.
 void check_interface(const Section& scene) {
-  if (names(scene, "fluid") && names(scene, "body") && !names(scene, "interface")) {
+  if (scene.has("fluid") && scene.has("body") && !scene.has("interface")) {
     scene.fail("fluid", "a fluid beside a body, and nothing says how they meet",
                "a section interface");
   }
   for (const char* side : {"fluid", "body"}) {
-    if (!names(scene, "interface") || names(scene, side)) continue;
+    if (!scene.has("interface") || scene.has(side)) continue;
     scene.fail("interface", fmt::format("the scene has no section '{}'", side),
                "an interface where free fluid meets a body");
   }
@@ -56,26 +157,26 @@ void check_density(const Section& scene, const std::string& fluid) {
              fmt::format("pore_flow.fluid.density, {:g} kg/m^3", in_pores));
 }
 
-/// What cracks take from free fluid is of its kind.
-void check_mouths(const Section& scene) {
-  for (std::size_t k = 0; k < scene.count("crack_fluid.inlets"); ++k) {
-    if (scene.word(fmt::format("crack_fluid.inlets[{}].holds", k)) != "fluid") continue;
-    if (!names(scene, "fluid")) return;  // which crack_fluid says
-    const double outside = scene.number("fluid.density");
-    const double inside = scene.number("crack_fluid.density");
-    if (std::abs(outside - inside) <= 1e-12 * outside) return;
-    scene.fail("crack_fluid.density",
-               fmt::format("{:g} kg/m^3 of what comes from the free fluid", inside),
-               fmt::format("fluid.density, {:g} kg/m^3", outside));
+/// What cracks take from free fluid is of its kind, in 2D.
+void check_mouth(const Section& scene, const std::string& inlet) {
+  if (!is(scene, (inlet + ".holds").c_str(), "fluid")) return;
+  if (!scene.has("fluid")) {
+    scene.fail(inlet + ".holds", "the scene has no section 'fluid'", "rate or pressure");
   }
+  if (!is_flat(scene)) scene.fail(inlet + ".holds", "'fluid' in 3D", "rate or pressure");
+  const double outside = scene.number("fluid.density");
+  const double inside = scene.number("crack_fluid.density");
+  if (std::abs(outside - inside) <= 1e-12 * outside) return;
+  scene.fail("crack_fluid.density",
+             fmt::format("{:g} kg/m^3 of what comes from the free fluid", inside),
+             fmt::format("fluid.density, {:g} kg/m^3", outside));
 }
 
 /// What flows into the pores is of their kind, and comes from one side.
 void check_exchange(const Section& scene) {
-  if (!names(scene, "pore_flow")) return;
-  const bool free = names(scene, "fluid") && scene.word("interface.exchange") != "none";
-  const bool in_cracks =
-      names(scene, "crack_fluid") && scene.word("crack_fluid.leak_off") == "pores";
+  if (!scene.has("pore_flow")) return;
+  const bool free = scene.has("fluid") && scene.word("interface.exchange") != "none";
+  const bool in_cracks = scene.has("crack_fluid") && scene.word("crack_fluid.leak_off") == "pores";
   if (free) check_density(scene, "fluid");
   if (in_cracks) check_density(scene, "crack_fluid");
   if (free && in_cracks) {
@@ -86,21 +187,25 @@ void check_exchange(const Section& scene) {
 
 }  // namespace
 
-void check_sections_together(const Section& scene) {
-  Mistakes mistakes;
-  mistakes.note([&] {
-    if (scene.count("cracks") == 0 || names(scene, "solid")) return;
+bool check_sections_together(const Section& scene, Mistakes& mistakes) {
+  std::set<std::string> refused;
+  for (const Rule& rule : rules()) {
+    if (refused.contains(rule.key) || !rule.broken(scene)) continue;
+    refused.insert(rule.key);
+    mistakes.note([&] { scene.fail(rule.key, rule.problem, rule.expected); });
+  }
+  mistakes.note([&] { refuse_unreachable_tolerance(scene); });
+  for (std::size_t k = 0; k < scene.count("crack_fluid.inlets"); ++k) {
+    mistakes.note([&] { check_mouth(scene, fmt::format("crack_fluid.inlets[{}]", k)); });
+  }
+  const bool cracks_lie_in_rock = mistakes.note([&] {
+    if (scene.count("cracks") == 0 || scene.has("solid")) return;
     scene.fail("cracks", "the scene has no section 'solid', whose bonds they cut",
                "a solid, of type: rigid where nothing is to deform");
   });
-  mistakes.note([&] { refuse_unreachable_tolerance(scene); });
-  if (mistakes.note([&] { check_interface(scene); })) {
-    mistakes.note([&] { check_exchange(scene); });
-  }
-  mistakes.note([&] {
-    if (names(scene, "crack_fluid")) check_mouths(scene);
-  });
-  mistakes.throw_if_any();
+  const bool fluid_meets_a_body = mistakes.note([&] { check_interface(scene); });
+  if (fluid_meets_a_body) mistakes.note([&] { check_exchange(scene); });
+  return cracks_lie_in_rock && fluid_meets_a_body;
 }
 
 }  // namespace perifrac

@@ -61,11 +61,11 @@ Simulation make_simulation(const Section& scene) {
   Simulation simulation;
   simulation.end = scene.number("time.end");
   Mistakes mistakes;
-  const bool fits = mistakes.note([&] { check_sections_together(scene); });
+  const bool fits = check_sections_together(scene, mistakes);
   const bool has_body = mistakes.note([&] { simulation.body = make_body_if_any(scene); });
   std::vector<ModuleSlot> modules;
   for (const std::string& physics : physics_of(scene)) {
-    if (!fits || !has_body) break;  // modules take for granted what they could not see anyway
+    if (!fits || !has_body) break;
     mistakes.note([&] {
       modules.push_back({physics, make_module(scene, physics, simulation.body)});
     });

@@ -49,6 +49,12 @@ class NumericalError : public std::runtime_error {
   double time_;
 };
 
+/// A NumericalError that no shorter window gets past: none is tried.
+class FinalError : public NumericalError {
+ public:
+  using NumericalError::NumericalError;
+};
+
 /// A result cannot be written (disk full, folder gone): exit code 1, the last good checkpoint is
 /// kept.
 class OutputError : public std::runtime_error {

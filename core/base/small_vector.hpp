@@ -6,6 +6,11 @@
 
 namespace perifrac {
 
+/// R rows by D columns, row by row: the gradient of an R-component field in D dimensions, or what
+/// is conjugate to it.
+template <int R, int D>
+using Tensor = std::array<double, R * D>;
+
 /// The notation of vectors and tensors for Vector<D> and Tensor<R, D>. Every sum starts at 0 and
 /// adds in the order of the components: a formula has the bits of the loop that it stands for.
 

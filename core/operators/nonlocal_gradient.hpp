@@ -4,7 +4,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "core/base/small_tensor.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/bonds/mirror_condition.hpp"
 #include "core/bonds/shape_tensor.hpp"

@@ -64,10 +64,6 @@ std::unique_ptr<LeakOff> read_leak_off(const Section& section, std::shared_ptr<c
   SealedWalls<D> sealed = read_sealed_walls<D>(section);
   if (word == "none") return nullptr;
   if (word == "pores") {
-    const Section scene = section.scene();
-    if (!scene.has("pore_flow")) {
-      section.fail("leak_off", "the scene has no section 'pore_flow'", "none or carter");
-    }
     return std::make_unique<PoreLeakOff<D>>(std::move(body), liquid.density, liquid.vapour_pressure,
                                             std::move(sealed));
   }

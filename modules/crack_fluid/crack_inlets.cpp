@@ -150,10 +150,6 @@ CrackInlet read_inlet(const Section& section, const std::string& path, double pa
     inlet.amount = section.number(path + ".pressure");
   } else if (!inlet.from_fluid) {
     inlet.amount = part * read_rate(section, path);
-  } else if (!section.scene().has("fluid")) {
-    section.fail(path + ".holds", "the scene has no section 'fluid'", "rate or pressure");
-  } else if (section.scene().integer("dimension") == 3) {
-    section.fail(path + ".holds", "'fluid' in 3D", "rate or pressure");
   }
   std::ranges::copy(section.numbers(path + ".at"), inlet.at.begin());
   return inlet;
@@ -162,9 +158,6 @@ CrackInlet read_inlet(const Section& section, const std::string& path, double pa
 }  // namespace
 
 std::vector<CrackInlet> read_crack_inlets(const Section& section) {
-  if (section.scene().integer("dimension") == 3 && section.word("counts") == "both") {
-    section.fail("counts", "'both' in 3D", "one_wing: the rate of the part that the scene holds");
-  }
   const double part = section.word("counts") == "both" ? 0.5 : 1.0;
   std::vector<CrackInlet> inlets;
   Mistakes mistakes;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/base/eigen_view.hpp"
-#include "core/base/final_error.hpp"
+#include "core/base/errors.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/boundary/rigid_motion.hpp"
 #include "modules/solid/fracture/loose_piece.hpp"

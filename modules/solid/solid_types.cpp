@@ -47,10 +47,6 @@ Cracks<D> read_growing_cracks(const Section& section, const Body<D>& body) {
   Cracks<D> cracks{.seeds = all_facets<D>(read_cracks(scene, body)),
                    .fracture_energy = read_fracture_energy(scene, body),
                    .tensile_strength = read_tensile_strength(scene, body)};
-  if (cracks.seeds.empty() && scene.has("crack_fluid")) {
-    scene.fail("crack_fluid", "no crack that it could be in",
-               "a list 'cracks' with one crack or more");
-  }
   if (cracks.seeds.empty() && !cracks.tensile_strength) {
     scene.fail("damage", "no crack to grow",
                "a list 'cracks' with one crack or more, or damage.tensile_strength");
@@ -74,15 +70,6 @@ struct CrackedParts {
   std::optional<InitialStress<D>> stress;
 };
 
-constexpr const char* kinematics_key = "kinematics";
-
-/// What is held to be small in a solid of this kind.
-void refuse_large_rotations(const Section& section, const std::string& where,
-                            const std::string& instead) {
-  if (!is_corotational(section)) return;
-  section.fail(kinematics_key, "'corotational' " + where, instead + ", or small");
-}
-
 /// What does not turn with the body.
 template <int D>
 void check_large_rotations(const Section& section, const Body<D>& body,
@@ -93,7 +80,6 @@ void check_large_rotations(const Section& section, const Body<D>& body,
     section.fail(key, problem + " beside kinematics: corotational",
                  expected + ", or kinematics: small");
   };
-  const Section scene = section.scene();
   if (section.word("material.type") != "linear_exact") {
     refuse("material.type", fmt::format("'{}'", section.word("material.type")), "linear_exact");
   }
@@ -108,14 +94,6 @@ void check_large_rotations(const Section& section, const Body<D>& body,
     refuse(fmt::format("boundary.{}.type", plate.face), "a plate without mass",
            fmt::format("body.boundary.{}: layer", plate.face));
   }
-  if (scene.has("fluid")) {
-    section.fail(kinematics_key, "'corotational' beside free fluid, whose walls do not turn",
-                 "small");
-  }
-  if (scene.has("gravity") && scene.has("pore_flow")) {
-    section.fail(kinematics_key, "'corotational' beside pores that gravity acts in",
-                 "a scene without gravity or without pore_flow, or small");
-  }
 }
 
 template <int D>
@@ -127,7 +105,7 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));
   auto solid = std::make_unique<FracturingSolid<D>>(
       body, family, std::move(elastic), boundary, stress, cracks.seeds, cracks.fracture_energy,
-      cracks.tensile_strength, read_crack_friction<D>(section));
+      cracks.tensile_strength, read_crack_friction(section));
   solid->set_pore_stress_at_rest(read_pore_stress_at_rest<D>(section, *body));
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
@@ -139,13 +117,7 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
 
 std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
                                                      std::shared_ptr<const Body<2>> body) {
-  refuse_large_rotations(section, "beside cracks whose faces do not turn",
-                         "damage.type: critical_stretch");
   const auto& [cracks, boundary, stress] = CrackedParts<2>(section, *body);
-  if (cracks.tensile_strength) {
-    section.scene().fail("damage.tensile_strength", "in a dynamic solid",
-                         "solid.type: quasi_static, or none");
-  }
   auto family = std::make_shared<Family<2>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<2>> elastic =
       read_breakable_material<2>(section, *body, family, boundary.mirror_condition(*family));
@@ -167,9 +139,7 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
 template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
-  refuse_large_rotations(section, "of a solid in equilibrium", "type: dynamic");
   if (has_cracks(section)) return make_fracturing(section, body);
-  refuse_crack_friction(section, "without cracks", "a list 'cracks' with one crack or more");
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
   auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary);
@@ -205,7 +175,6 @@ std::unique_ptr<CriticalStretch<D>> make_breaking(const Section& section, const 
 template <int D>
 std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
-  refuse_crack_friction(section, "in a solid with inertia", "type: quasi_static");
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   check_large_rotations(section, *body, boundary);
   const auto make = [&](std::shared_ptr<ElasticOperator<D>> elastic,
@@ -222,10 +191,6 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
         "linear_exact, or type: quasi_static");
   }
   if (!names_critical_stretch(section.scene())) return make_dynamic_fracture(section, body);
-  if (section.scene().has("crack_fluid")) {
-    section.scene().fail("damage.type", "'critical_stretch' beside fluid in cracks",
-                         "energy_release, whose cracks are facets that fluid may fill");
-  }
   auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<D>> elastic =
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));

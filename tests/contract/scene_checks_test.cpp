@@ -31,7 +31,9 @@ std::string complaint(const std::string& text, const std::vector<std::string>& o
                        "",
                        true});
   try {
-    check_sections_together(read_scene_text(text, overrides, catalogue));
+    Mistakes mistakes;
+    check_sections_together(read_scene_text(text, overrides, catalogue), mistakes);
+    mistakes.throw_if_any();
     return "";
   } catch (const InputError& error) {
     const std::string what = error.what();

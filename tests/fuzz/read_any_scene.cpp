@@ -66,7 +66,8 @@ void read_any_scene(const std::string& file) {
     const double end = scene.number("time.end");
     read_output_times(scene.at("output"), end);
     read_coupling_options(scene.at("coupling"), end);
-    check_sections_together(scene);
+    Mistakes mistakes;
+    check_sections_together(scene, mistakes);
     if (!is_small(scene)) return;
     Simulation simulation = make_simulation(scene);
     initialize(scene, simulation);

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/base/law_by_region.hpp"
-#include "core/base/small_tensor.hpp"
 #include "core/base/small_vector.hpp"
 
 namespace perifrac {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/base/small_tensor.hpp"
 #include "core/base/small_vector.hpp"
 
 namespace perifrac {

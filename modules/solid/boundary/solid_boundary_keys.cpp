@@ -224,10 +224,7 @@ void read_body_force(const Section& section, SolidBoundary<D>& boundary) {
 
 template <int D>
 void read_gravity(const Section& section, SolidBoundary<D>& boundary) {
-  if (!section.scene().has("gravity")) return;
-  if (!section.has("density")) {
-    section.fail("density", "missing, and gravity is on", "the bulk density of the rock");
-  }
+  if (!section.scene().has("gravity") || !section.has("density")) return;
   boundary.gravity(section.number("density"), read_vector<D>(section.scene(), "gravity"));
 }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/base/small_tensor.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/packet.hpp"
-#include "core/base/small_tensor.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "core/base/small_tensor.hpp"
+#include "core/base/small_vector.hpp"
 
 namespace perifrac::test {
 

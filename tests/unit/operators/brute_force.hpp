@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "core/base/points.hpp"
-#include "core/base/small_tensor.hpp"
+#include "core/base/small_vector.hpp"
 #include "core/bonds/influence_function.hpp"
 #include "core/bonds/mirror_condition.hpp"
 #include "core/geometry/faces.hpp"

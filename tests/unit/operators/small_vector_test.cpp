@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/points.hpp"
-#include "core/base/small_tensor.hpp"
 
 namespace perifrac {
 namespace {

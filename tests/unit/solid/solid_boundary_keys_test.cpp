@@ -79,8 +79,6 @@ TEST(SolidBoundaryKeys, RefuseWhatWouldDoNothing) {
               HasSubstr("solid.boundary.left.schedule: nothing that it could multiply"));
   EXPECT_THAT(complaint(*body, "body_force_schedule: {ramp: 1}"),
               HasSubstr("solid.body_force_schedule: nothing that it could multiply"));
-  EXPECT_THAT(complaint(*body, "body_force: [0, 0]", "gravity: [0, -9.81]\n"),
-              HasSubstr("solid.density: missing, and gravity is on"));
   EXPECT_EQ(complaint(*body, "density: 2000"), "none");
 }
 
