@@ -122,8 +122,8 @@ mutants: configure
 	tests/mutants/mutants.py
 
 toughness: configure
-	@cmake --build --preset release --target verification_toughness
-	$(BUILD)/bin/verification_toughness
+	@cmake --build --preset release --target verification_slow
+	$(BUILD)/bin/verification_slow --gtest_filter=*Toughness*
 
 clean:
 	rm -rf build

@@ -10,18 +10,19 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "a cantilever under a sudden load";
+const std::string cantilever_problem = "a cantilever under a sudden load";
 
-CantileverProblem read_problem(const Section& scene) {
+CantileverProblem read_cantilever(const Section& scene) {
   if (scene.integer("dimension") != 2) {
     scene.fail("reference.type", "the beam is plane", "dimension: 2");
   }
-  require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "solid.type", {"dynamic"});
-  require_word(scene, problem, "solid.boundary.left.type", {"fixed"});
-  require_absent(scene, problem, {"pore_flow", "solid.regions", "gravity", "solid.damping"});
+  require_word(scene, cantilever_problem, "body.shape", {"box"});
+  require_word(scene, cantilever_problem, "solid.type", {"dynamic"});
+  require_word(scene, cantilever_problem, "solid.boundary.left.type", {"fixed"});
+  require_absent(scene, cantilever_problem,
+                 {"pore_flow", "solid.regions", "gravity", "solid.damping"});
   if (!writes(scene, "solid.body_force")) {
-    scene.fail("reference.type", "this scene is not " + problem, "solid.body_force");
+    scene.fail("reference.type", "this scene is not " + cantilever_problem, "solid.body_force");
   }
   const ElasticRock elasticity = read_elastic_rock(scene);
   const std::vector<double> size = scene.numbers("body.size");
@@ -37,10 +38,10 @@ CantileverProblem read_problem(const Section& scene) {
 
 std::unique_ptr<Reference> make_cantilever_reference(const Section& scene,
                                                      const Simulation& simulation) {
-  const CantileverProblem problem = read_problem(scene);
-  const CantileverSolution solution(problem);
+  const CantileverProblem beam = read_cantilever(scene);
+  const CantileverSolution solution(beam);
   const Field displacement = field_named(*simulation.manager, "displacement");
-  const std::vector<double> tip = {scene.numbers("body.size")[0], 0.5 * problem.height};
+  const std::vector<double> tip = {scene.numbers("body.size")[0], 0.5 * beam.height};
   auto reference =
       std::make_unique<Reference>("cantilever", "Timoshenko's beam, first mode", solution.period());
   reference->add(Reference::History{"deflection at the tip", "m",

@@ -13,7 +13,7 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "a constant head test";
+const std::string constant_head_problem = "a constant head test";
 
 /// What presses on the water: the area it fills, and the pressure that comes of it.
 struct Piston {
@@ -23,13 +23,13 @@ struct Piston {
 };
 
 [[noreturn]] void refuse(const Section& scene, const char* expected) {
-  scene.fail("reference.type", "this scene is not " + problem, expected);
+  scene.fail("reference.type", "this scene is not " + constant_head_problem, expected);
 }
 
 Piston read_piston(const Section& scene) {
   const int vertical = scene.integer("dimension") - 1;
   if (scene.count("fluid.walls") != 1) refuse(scene, "one item under fluid.walls");
-  require_word(scene, problem, "fluid.walls[0].motion", {"piston"});
+  require_word(scene, constant_head_problem, "fluid.walls[0].motion", {"piston"});
   const Box container = read_box(scene, "fluid.container");
   Piston piston{.area = 1.0,
                 .pressure = -scene.numbers("fluid.walls[0].force")[vertical],
@@ -39,15 +39,15 @@ Piston read_piston(const Section& scene) {
   return piston;
 }
 
-SeepageProblem read_problem(const Section& scene, const Piston& piston) {
+SeepageProblem read_constant_head(const Section& scene, const Piston& piston) {
   const int vertical = scene.integer("dimension") - 1;
-  require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "pore_flow.type", {"darcy"});
-  require_word(scene, problem, "pore_flow.boundary.bottom.type", {"pressure"});
-  require_absent(scene, problem,
+  require_word(scene, constant_head_problem, "body.shape", {"box"});
+  require_word(scene, constant_head_problem, "pore_flow.type", {"darcy"});
+  require_word(scene, constant_head_problem, "pore_flow.boundary.bottom.type", {"pressure"});
+  require_absent(scene, constant_head_problem,
                  {"gravity", "pore_flow.regions", "pore_flow.sources", "fluid.inlets",
                   "fluid.outlets", "body.boundary.top"});
-  if (scene.has("solid")) require_word(scene, problem, "solid.type", {"rigid"});
+  if (scene.has("solid")) require_word(scene, constant_head_problem, "solid.type", {"rigid"});
   const Section flow = scene.at("pore_flow");
   const std::vector<double> size = scene.numbers("body.size");
   const Box container = read_box(scene, "fluid.container");
@@ -176,7 +176,7 @@ void compare_interface(Reference& reference, const Test& test, const Field& pore
 std::unique_ptr<Reference> make_constant_head_reference(const Section& scene,
                                                         const Simulation& simulation) {
   const Piston piston = read_piston(scene);
-  const SeepageProblem slab = read_problem(scene, piston);
+  const SeepageProblem slab = read_constant_head(scene, piston);
   const SeepageSolution solution(slab);
   const PointSet& points = simulation.points();
   const int axis = points.dimension - 1;

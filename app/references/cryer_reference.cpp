@@ -12,18 +12,18 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "Cryer's problem";
+const std::string cryer_problem = "Cryer's problem";
 
-CryerProblem read_problem(const Section& scene) {
+CryerProblem read_cryer(const Section& scene) {
   if (scene.integer("dimension") != 3) {
     scene.fail("reference.type", "Cryer's problem is a ball", "dimension: 3");
   }
-  require_word(scene, problem, "body.shape", {"ball"});
-  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
-  require_word(scene, problem, "pore_flow.type", {"darcy"});
-  require_word(scene, problem, "solid.boundary.surface.type", {"pressure"});
-  require_word(scene, problem, "pore_flow.boundary.surface.type", {"pressure"});
-  require_absent(scene, problem,
+  require_word(scene, cryer_problem, "body.shape", {"ball"});
+  require_word(scene, cryer_problem, "solid.type", {"quasi_static", "dynamic"});
+  require_word(scene, cryer_problem, "pore_flow.type", {"darcy"});
+  require_word(scene, cryer_problem, "solid.boundary.surface.type", {"pressure"});
+  require_word(scene, cryer_problem, "pore_flow.boundary.surface.type", {"pressure"});
+  require_absent(scene, cryer_problem,
                  {"solid.regions", "pore_flow.regions", "solid.body_force", "gravity",
                   "pore_flow.initial_gradient"});
   const ElasticRock elasticity = read_elastic_rock(scene);
@@ -54,7 +54,7 @@ Reference::Figure peak(const CryerSolution& solution) {
 
 std::unique_ptr<Reference> make_cryer_reference(const Section& scene,
                                                 const Simulation& simulation) {
-  const auto solution = std::make_shared<const CryerSolution>(read_problem(scene));
+  const auto solution = std::make_shared<const CryerSolution>(read_cryer(scene));
   const PointSet& points = simulation.points();
   const auto radius = [points](Index i) {
     return std::hypot(points.position[0][i], points.position[1][i], points.position[2][i]);

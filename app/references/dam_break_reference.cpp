@@ -12,15 +12,16 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "the collapse of a column";
+const std::string dam_break_problem = "the collapse of a column";
 
 Box read_column(const Section& scene) {
-  require_absent(scene, problem, {"body", "fluid.walls", "fluid.inlets", "fluid.outlets"});
-  const Box column = read_block(scene, problem);
+  require_absent(scene, dam_break_problem,
+                 {"body", "fluid.walls", "fluid.inlets", "fluid.outlets"});
+  const Box column = read_block(scene, dam_break_problem);
   const int vertical = scene.integer("dimension") - 1;
   if (column.from != scene.numbers("fluid.container.from") ||
       std::abs(column.size(vertical) - 2.0 * column.size(0)) > 1e-6 * column.size(0)) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + dam_break_problem,
                "a block in the container's left corner that is twice as high as wide");
   }
   return column;
@@ -33,7 +34,7 @@ std::unique_ptr<Reference> make_dam_break_reference(const Section& scene,
   const Box column = read_column(scene);
   const FreeFluid fluid = read_free_fluid(scene);
   const double width = column.size(0);
-  const double time_scale = std::sqrt(0.5 * width / read_weight(scene, problem));
+  const double time_scale = std::sqrt(0.5 * width / read_weight(scene, dam_break_problem));
   const Field pressure = field_named(*simulation.manager, "fluid_pressure");
   const Reference::Computed edge = edge_of(pressure, 0, fluid.spacing);
   const double left = column.from[0];

@@ -11,7 +11,7 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "diffusion from one face";
+const std::string diffusion_problem = "diffusion from one face";
 
 /// A slab between a face at a pressure and a sealed one.
 struct Slab {
@@ -44,9 +44,9 @@ struct Slab {
 void add_weight(const Section& scene, const std::string& face, Slab& slab) {
   if (!writes(scene, "gravity")) return;
   const Section flow = scene.at("pore_flow");
-  require_word(scene, problem, "pore_flow.initial_state", {"hydrostatic"});
+  require_word(scene, diffusion_problem, "pore_flow.initial_state", {"hydrostatic"});
   if (!flow.boolean(face + ".hydrostatic")) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + diffusion_problem,
                fmt::format("pore_flow.{}.hydrostatic: true", face));
   }
   const std::vector<double> size = scene.numbers("body.size");
@@ -55,17 +55,19 @@ void add_weight(const Section& scene, const std::string& face, Slab& slab) {
     slab.top.push_back(gravity > 0.0 ? 0.0 : size[slab.top.size()]);
   }
   if (slab.weight[slab.axis] != 0.0) {
-    scene.fail("reference.type", "this scene is not " + problem, "gravity across the flow");
+    scene.fail("reference.type", "this scene is not " + diffusion_problem,
+               "gravity across the flow");
   }
 }
 
 Slab read_slab(const Section& scene) {
-  require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "pore_flow.type", {"darcy"});
-  require_absent(scene, problem,
+  require_word(scene, diffusion_problem, "body.shape", {"box"});
+  require_word(scene, diffusion_problem, "pore_flow.type", {"darcy"});
+  require_absent(scene, diffusion_problem,
                  {"solid.regions", "pore_flow.regions", "pore_flow.initial_gradient"});
   if (scene.has("solid") && scene.word("solid.type") != "rigid") {
-    scene.fail("reference.type", "this scene is not " + problem, "no solid, or solid.type: rigid");
+    scene.fail("reference.type", "this scene is not " + diffusion_problem,
+               "no solid, or solid.type: rigid");
   }
   const Section flow = scene.at("pore_flow");
   std::vector<std::string> faces = flow.names("boundary");
@@ -73,11 +75,11 @@ Slab read_slab(const Section& scene) {
     return flow.word(fmt::format("boundary.{}.type", face)) == "sealed";
   });
   if (faces.size() != 1) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + diffusion_problem,
                "one face with type: pressure under pore_flow.boundary, the others sealed");
   }
   const std::string face = "boundary." + faces[0];
-  require_word(scene, problem, "pore_flow." + face + ".type", {"pressure"});
+  require_word(scene, diffusion_problem, "pore_flow." + face + ".type", {"pressure"});
   const bool low = faces[0] == "left" || faces[0] == "front" || faces[0] == "bottom";
   const bool sideways = faces[0] == "left" || faces[0] == "right";
   const bool vertical = faces[0] == "bottom" || faces[0] == "top";

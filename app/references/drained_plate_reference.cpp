@@ -12,23 +12,23 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "a plate under uniform tractions";
+const std::string drained_plate_problem = "a plate under uniform tractions";
 
 std::array<double, 3> read_strain(const Section& scene) {
   const int dimension = scene.integer("dimension");
-  require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "solid.type", {"quasi_static"});
-  require_absent(scene, problem,
+  require_word(scene, drained_plate_problem, "body.shape", {"box"});
+  require_word(scene, drained_plate_problem, "solid.type", {"quasi_static"});
+  require_absent(scene, drained_plate_problem,
                  {"pore_flow", "solid.regions", "solid.body_force", "solid.confining_stress",
                   "solid.total_stress", "gravity"});
   const auto names = dimension == 2 ? face_names<2>() : face_names<3>();
   std::array<double, 3> stress{};
   for (int axis = 0; axis < dimension; ++axis) {
     const std::string high = "solid.boundary." + names[2 * axis + 1];
-    require_word(scene, problem, fmt::format("solid.boundary.{}.type", names[2 * axis]),
-                 {"roller"});
+    require_word(scene, drained_plate_problem,
+                 fmt::format("solid.boundary.{}.type", names[2 * axis]), {"roller"});
     if (!scene.has(high)) continue;
-    require_word(scene, problem, high + ".type", {"traction", "free"});
+    require_word(scene, drained_plate_problem, high + ".type", {"traction", "free"});
     if (scene.word(high + ".type") == "traction") {
       stress[axis] = scene.numbers(high + ".traction")[axis];
     }

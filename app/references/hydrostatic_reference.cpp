@@ -9,18 +9,19 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "fluid at rest in a tank";
+const std::string hydrostatic_problem = "fluid at rest in a tank";
 
 Box read_tank(const Section& scene) {
-  require_absent(scene, problem, {"body", "fluid.walls", "fluid.inlets", "fluid.outlets"});
-  require_word(scene, problem, "fluid.container.faces.top", {"open"});
-  const Box block = read_block(scene, problem);
+  require_absent(scene, hydrostatic_problem,
+                 {"body", "fluid.walls", "fluid.inlets", "fluid.outlets"});
+  require_word(scene, hydrostatic_problem, "fluid.container.faces.top", {"open"});
+  const Box block = read_block(scene, hydrostatic_problem);
   const Box container = read_box(scene, "fluid.container");
   const std::size_t vertical = block.from.size() - 1;
   bool covers = block.from == container.from;
   for (std::size_t a = 0; a < vertical; ++a) covers = covers && block.to[a] == container.to[a];
   if (!covers || scene.number("fluid.blocks[0].pressure") != 0.0) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + hydrostatic_problem,
                "a block without pressure above it that covers the container's floor");
   }
   return block;
@@ -40,7 +41,7 @@ std::unique_ptr<Reference> make_hydrostatic_reference(const Section& scene,
                                                       const Simulation& simulation) {
   const Box tank = read_tank(scene);
   const FreeFluid fluid = read_free_fluid(scene);
-  const double gravity = read_weight(scene, problem);
+  const double gravity = read_weight(scene, hydrostatic_problem);
   const int vertical = scene.integer("dimension") - 1;
   const double floor = tank.from[vertical], surface = tank.to[vertical];
   const double depth = surface - floor;

@@ -15,17 +15,17 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "one wing of a crack that fluid drives from an axis of symmetry";
+const std::string kgd_problem = "one wing of a crack that fluid drives from an axis of symmetry";
 
-KgdProblem read_problem(const Section& scene) {
-  require_word(scene, problem, "solid.type", {"quasi_static"});
-  require_word(scene, problem, "solid.boundary.left.type", {"roller"});
-  require_word(scene, problem, "crack_fluid.leak_off", {"none"});
-  require_word(scene, problem, "crack_fluid.counts", {"both"});
-  require_absent(scene, problem, {"pore_flow", "solid.regions", "damage.regions", "gravity"});
+KgdProblem read_kgd(const Section& scene) {
+  require_word(scene, kgd_problem, "solid.type", {"quasi_static"});
+  require_word(scene, kgd_problem, "solid.boundary.left.type", {"roller"});
+  require_word(scene, kgd_problem, "crack_fluid.leak_off", {"none"});
+  require_word(scene, kgd_problem, "crack_fluid.counts", {"both"});
+  require_absent(scene, kgd_problem, {"pore_flow", "solid.regions", "damage.regions", "gravity"});
   if (!writes(scene, "damage") || scene.count("crack_fluid.inlets") != 1 ||
       !scene.has("crack_fluid.inlets[0].rate")) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + kgd_problem,
                "damage, and one inlet with a rate");
   }
   return {read_elastic_rock(scene).plane_strain_modulus(), read_fracture_energy(scene),
@@ -43,7 +43,7 @@ KgdSolution solve(const Section& scene, const KgdProblem& driven) {
 }  // namespace
 
 std::unique_ptr<Reference> make_kgd_reference(const Section& scene, const Simulation& simulation) {
-  const KgdProblem driven = read_problem(scene);
+  const KgdProblem driven = read_kgd(scene);
   const KgdSolution solution = solve(scene, driven);
   const auto& manager = *simulation.manager;
   const double spacing = scene.number("body.spacing");

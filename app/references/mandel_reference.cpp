@@ -13,20 +13,20 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "Mandel's problem";
+const std::string mandel_problem = "Mandel's problem";
 
-MandelProblem read_problem(const Section& scene) {
+MandelProblem read_mandel(const Section& scene) {
   if (scene.integer("dimension") != 2) {
     scene.fail("reference.type", "Mandel's problem is plane", "dimension: 2");
   }
-  require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
-  require_word(scene, problem, "pore_flow.type", {"darcy"});
-  require_word(scene, problem, "solid.boundary.left.type", {"roller"});
-  require_word(scene, problem, "solid.boundary.bottom.type", {"roller"});
-  require_word(scene, problem, "solid.boundary.top.type", {"rigid_plate"});
-  require_word(scene, problem, "pore_flow.boundary.right.type", {"pressure"});
-  require_absent(scene, problem,
+  require_word(scene, mandel_problem, "body.shape", {"box"});
+  require_word(scene, mandel_problem, "solid.type", {"quasi_static", "dynamic"});
+  require_word(scene, mandel_problem, "pore_flow.type", {"darcy"});
+  require_word(scene, mandel_problem, "solid.boundary.left.type", {"roller"});
+  require_word(scene, mandel_problem, "solid.boundary.bottom.type", {"roller"});
+  require_word(scene, mandel_problem, "solid.boundary.top.type", {"rigid_plate"});
+  require_word(scene, mandel_problem, "pore_flow.boundary.right.type", {"pressure"});
+  require_absent(scene, mandel_problem,
                  {"solid.regions", "pore_flow.regions", "gravity", "pore_flow.initial_gradient"});
   const ElasticRock elasticity = read_elastic_rock(scene);
   const PorousRock pore = read_porous_rock(scene);
@@ -59,7 +59,7 @@ Reference::Figure peak(const MandelSolution& solution, double x) {
 
 std::unique_ptr<Reference> make_mandel_reference(const Section& scene,
                                                  const Simulation& simulation) {
-  const auto solution = std::make_shared<const MandelSolution>(read_problem(scene));
+  const auto solution = std::make_shared<const MandelSolution>(read_mandel(scene));
   const PointSet& points = simulation.points();
   const std::span<const double> x = points.position[0];
   const Field pressure = field_named(*simulation.manager, "pore_pressure");

@@ -11,24 +11,24 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "flow between two plates";
+const std::string poiseuille_problem = "flow between two plates";
 
-PoiseuilleProblem read_problem(const Section& scene, const FreeFluid& fluid) {
+PoiseuilleProblem read_poiseuille(const Section& scene, const FreeFluid& fluid) {
   if (scene.integer("dimension") != 2) {
     scene.fail("reference.type", "the slit is plane", "dimension: 2");
   }
-  require_absent(scene, problem,
+  require_absent(scene, poiseuille_problem,
                  {"body", "fluid.walls", "fluid.inlets", "fluid.outlets",
                   "fluid.container.faces.bottom", "fluid.container.faces.top"});
-  require_word(scene, problem, "fluid.container.faces.left", {"periodic"});
-  require_word(scene, problem, "fluid.container.slip", {"no_slip"});
-  const Box block = read_block(scene, problem);
+  require_word(scene, poiseuille_problem, "fluid.container.faces.left", {"periodic"});
+  require_word(scene, poiseuille_problem, "fluid.container.slip", {"no_slip"});
+  const Box block = read_block(scene, poiseuille_problem);
   const Box container = read_box(scene, "fluid.container");
   const std::vector<double> gravity =
       scene.has("gravity") ? scene.numbers("gravity") : std::vector{0.0, 0.0};
   if (gravity[0] == 0.0 || gravity[1] != 0.0 || block.from != container.from ||
       block.to != container.to) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + poiseuille_problem,
                "gravity along x, and a block that fills the container");
   }
   return {.gap = container.size(1),
@@ -41,7 +41,7 @@ PoiseuilleProblem read_problem(const Section& scene, const FreeFluid& fluid) {
 std::unique_ptr<Reference> make_poiseuille_reference(const Section& scene,
                                                      const Simulation& simulation) {
   const FreeFluid fluid = read_free_fluid(scene);
-  const PoiseuilleProblem slit = read_problem(scene, fluid);
+  const PoiseuilleProblem slit = read_poiseuille(scene, fluid);
   const PoiseuilleSolution solution(slit);
   const double floor = scene.numbers("fluid.container.from")[1];
   const Field velocity = field_named(*simulation.manager, "fluid_velocity");

@@ -15,7 +15,8 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "a quarter of a crack that fluid drives from an edge of the body";
+const std::string radial_problem =
+    "a quarter of a crack that fluid drives from an edge of the body";
 
 /// Of the whole crack's rate and area, what the scene holds.
 constexpr double share = 0.25;
@@ -46,23 +47,24 @@ int normal_axis(const Section& scene) {
     low || high ? ++planes : normal = a;
   }
   if (planes != 2) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + radial_problem,
                "crack_fluid.inlets[0].at on two faces with boundary type roller");
   }
   return normal;
 }
 
-RadialProblem read_problem(const Section& scene) {
+RadialProblem read_radial(const Section& scene) {
   if (scene.integer("dimension") != 3) {
-    scene.fail("reference.type", "this scene is not " + problem, "dimension: 3");
+    scene.fail("reference.type", "this scene is not " + radial_problem, "dimension: 3");
   }
-  require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "solid.type", {"quasi_static"});
-  require_word(scene, problem, "crack_fluid.leak_off", {"none"});
-  require_absent(scene, problem, {"pore_flow", "solid.regions", "damage.regions", "gravity"});
+  require_word(scene, radial_problem, "body.shape", {"box"});
+  require_word(scene, radial_problem, "solid.type", {"quasi_static"});
+  require_word(scene, radial_problem, "crack_fluid.leak_off", {"none"});
+  require_absent(scene, radial_problem,
+                 {"pore_flow", "solid.regions", "damage.regions", "gravity"});
   if (!writes(scene, "damage") || scene.count("crack_fluid.inlets") != 1 ||
       !scene.has("crack_fluid.inlets[0].volume_rate")) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + radial_problem,
                "damage, and one inlet with a volume_rate");
   }
   return {read_elastic_rock(scene).plane_strain_modulus(), read_fracture_energy(scene),
@@ -74,7 +76,7 @@ RadialProblem read_problem(const Section& scene) {
 
 std::unique_ptr<Reference> make_radial_reference(const Section& scene,
                                                  const Simulation& simulation) {
-  const RadialProblem driven = read_problem(scene);
+  const RadialProblem driven = read_radial(scene);
   const RadialSolution solution(driven);
   const int normal = normal_axis(scene);
   const auto& manager = *simulation.manager;

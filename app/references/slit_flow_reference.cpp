@@ -9,7 +9,7 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "flow through one straight slit between two pressures";
+const std::string slit_flow_problem = "flow through one straight slit between two pressures";
 
 /// A facet whose pressure is held.
 struct End {
@@ -45,12 +45,12 @@ End read_end(const Section& scene, const std::string& inlet, const PointSet& fac
 }
 
 Slit read_slit(const Section& scene, const PointSet& facets) {
-  require_word(scene, problem, "solid.type", {"rigid"});
-  require_word(scene, problem, "crack_fluid.leak_off", {"none"});
+  require_word(scene, slit_flow_problem, "solid.type", {"rigid"});
+  require_word(scene, slit_flow_problem, "crack_fluid.leak_off", {"none"});
   if (scene.count("cracks") != 1 || read_crack_corners(scene, 0).size() != 2 ||
       scene.count("crack_fluid.inlets") != 2 || !scene.has("crack_fluid.inlets[0].pressure") ||
       !scene.has("crack_fluid.inlets[1].pressure")) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + slit_flow_problem,
                "one crack of one leg, and an inlet with a pressure at each of its ends");
   }
   Slit slit{.from = read_end(scene, "crack_fluid.inlets[0]", facets),

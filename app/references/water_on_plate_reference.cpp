@@ -12,28 +12,29 @@ namespace perifrac {
 
 namespace {
 
-const std::string problem = "water on a clamped plate";
+const std::string water_on_plate_problem = "water on a clamped plate";
 
 /// Deflection in the middle [m], downwards negative.
 double read_deflection(const Section& scene) {
   if (scene.integer("dimension") != 2) {
     scene.fail("reference.type", "the plate is plane", "dimension: 2");
   }
-  require_word(scene, problem, "body.shape", {"box"});
-  require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
+  require_word(scene, water_on_plate_problem, "body.shape", {"box"});
+  require_word(scene, water_on_plate_problem, "solid.type", {"quasi_static", "dynamic"});
   for (const char* const side : {"left", "right"}) {
-    require_word(scene, problem, std::string("solid.boundary.") + side + ".type", {"fixed"});
+    require_word(scene, water_on_plate_problem, std::string("solid.boundary.") + side + ".type",
+                 {"fixed"});
   }
-  require_absent(scene, problem,
+  require_absent(scene, water_on_plate_problem,
                  {"pore_flow", "solid.regions", "solid.body_force", "solid.boundary.top",
                   "solid.boundary.bottom", "fluid.walls", "fluid.inlets", "fluid.outlets"});
   const std::vector<double> size = scene.numbers("body.size");
-  const Box water = read_block(scene, problem);
+  const Box water = read_block(scene, water_on_plate_problem);
   if (water.from != std::vector{0.0, size[1]} || water.to[0] != size[0]) {
-    scene.fail("reference.type", "this scene is not " + problem,
+    scene.fail("reference.type", "this scene is not " + water_on_plate_problem,
                "a block of fluid that covers the body");
   }
-  const double gravity = read_weight(scene, problem);
+  const double gravity = read_weight(scene, water_on_plate_problem);
   const double load = read_free_fluid(scene).pressure_at_rest(water.size(1), gravity) +
                       scene.number("solid.density") * gravity * size[1];
   const ElasticRock plate = read_elastic_rock(scene);

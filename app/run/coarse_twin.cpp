@@ -19,12 +19,7 @@ namespace {
 constexpr int factors[] = {5, 4, 3, 2};
 
 /// Cracks of fewer facets at the start are another scene's.
-constexpr std::size_t least_facets = 2;
-
-std::size_t facet_count(const Simulation& simulation) {
-  return std::visit([](const auto& body) { return body->bond_state().facets().size(); },
-                    simulation.body);
-}
+constexpr Index least_facets = 2;
 
 double spacing(const Simulation& simulation) {
   return std::visit([](const auto& body) { return body->spacing(); }, simulation.body);
@@ -57,7 +52,8 @@ std::optional<double> crack_length_of_coarse_twin(const std::string& scene_file,
       const Section twin = read_scene(scene_file, overrides, scene_catalogue());
       Simulation simulation = make_simulation(twin);
       initialize(twin, simulation);
-      if (facet_count(simulation) < least_facets * scene.count("cracks")) continue;
+      if (facet_count(simulation) < least_facets * static_cast<Index>(scene.count("cracks")))
+        continue;
       return crack_length(twin, simulation, seconds);
     } catch (const InputError&) {  // the next one
     } catch (const NumericalError&) {

@@ -30,14 +30,6 @@ struct Trial {
   Index facets;                 ///< that cracks gained in it
 };
 
-Index facet_count(const Simulation& simulation) {
-  return std::visit(
-      [](const auto& body) {
-        return body ? static_cast<Index>(body->bond_state().facets().size()) : Index{0};
-      },
-      simulation.body);
-}
-
 /// Wall time in every module so far, and in all.
 std::vector<double> spent(const CouplingManager& manager, Clock::time_point begin) {
   std::vector<double> seconds;

@@ -96,6 +96,14 @@ void initialize(const Section& scene, Simulation& simulation) {
   }
 }
 
+Index facet_count(const Simulation& simulation) {
+  return std::visit(
+      [](const auto& body) {
+        return body ? static_cast<Index>(body->bond_state().facets().size()) : Index{0};
+      },
+      simulation.body);
+}
+
 std::vector<Field> fields_of(const CouplingManager& manager) {
   std::vector<Field> fields;
   for (const ModuleSlot& slot : manager.modules()) {

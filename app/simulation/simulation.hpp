@@ -27,6 +27,9 @@ Simulation make_simulation(const Section& scene);
 /// NumericalError.
 void initialize(const Section& scene, Simulation& simulation);
 
+/// Of the cracks that there are by now; 0 without a body.
+Index facet_count(const Simulation& simulation);
+
 /// An out-port that lives on points.
 struct Field {
   PhysicsModule* module;

@@ -106,15 +106,15 @@ std::vector<std::string> skipped_labels(const StudyAxis& axis, const YamlNode& n
   return labels;
 }
 
-std::vector<Combination> read_skipped(const Study& study) {
-  std::vector<Combination> result;
+std::vector<AxisValues> read_skipped(const Study& study) {
+  std::vector<AxisValues> result;
   if (!study.section.has("skip")) return result;
   const YamlNode& list = study.section.tree("skip");
   for (const YamlNode& entry : list.children) {
     if (list.kind != YamlNode::Kind::list || entry.kind != YamlNode::Kind::map) {
       refuse(entry.place, describe_kind(entry), "a list of maps, such as [{AXIS: VALUE}]");
     }
-    Combination& combination = result.emplace_back();
+    AxisValues& combination = result.emplace_back();
     for (const YamlNode& axis : entry.children) {
       const auto names = names_of(study.axes);
       if (std::ranges::count(names, axis.key) == 0) {

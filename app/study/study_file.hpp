@@ -27,7 +27,7 @@ struct StudyAxis {
 };
 
 /// Names of values by axis: a combination that is left out.
-using Combination = std::map<std::string, std::vector<std::string>>;
+using AxisValues = std::map<std::string, std::vector<std::string>>;
 
 struct ErrorMeasure {
   std::string against;
@@ -47,7 +47,7 @@ struct Study {
   std::string scene;
   Overrides common;
   std::vector<StudyAxis> axes;
-  std::vector<Combination> skipped;
+  std::vector<AxisValues> skipped;
   ErrorMeasure error;
   std::string cost_of;
   bool cpu_cost;         ///< CPU time is the cost, else wall time

@@ -74,7 +74,7 @@ std::string name_of(const Study& study, const std::vector<std::size_t>& choice) 
 }
 
 bool is_skipped(const Study& study, const std::vector<std::size_t>& choice) {
-  return std::ranges::any_of(study.skipped, [&](const Combination& combination) {
+  return std::ranges::any_of(study.skipped, [&](const AxisValues& combination) {
     for (std::size_t a = 0; a < study.axes.size(); ++a) {
       const auto entry = combination.find(study.axes[a].name);
       if (entry == combination.end()) continue;

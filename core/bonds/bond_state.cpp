@@ -82,6 +82,13 @@ void keep_each_once(std::vector<Index>& points) {
   points.erase(repeats.begin(), repeats.end());
 }
 
+std::vector<Index> ends_of(std::span<const std::pair<Index, Index>> bonds) {
+  std::vector<Index> points;
+  for (const auto& [i, j] : bonds) points.insert(points.end(), {i, j});
+  keep_each_once(points);
+  return points;
+}
+
 template <int D>
 void find_damage(const Family<D>& family, std::span<double> damage) {
   for_each_point(family.point_count, [&](Index i) {

@@ -65,6 +65,9 @@ void silence(Family<D>& family, Index i, Index j);
 /// Sorts points and drops repeats: the ends of many bonds, as operators want to hear of them.
 void keep_each_once(std::vector<Index>& points);
 
+/// The ends of bonds, each once, ascending.
+std::vector<Index> ends_of(std::span<const std::pair<Index, Index>> bonds);
+
 /// The part of every point's family, by volume, that is beyond silenced bonds (paper Eq 16).
 template <int D>
 void find_damage(const Family<D>& family, std::span<double> damage);

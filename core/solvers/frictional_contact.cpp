@@ -13,7 +13,7 @@ namespace perifrac {
 namespace {
 
 /// Newton's method may go on so often without fewer wrong pairs.
-constexpr int patience = 10;
+constexpr int slip_patience = 10;
 constexpr int most_rounds = 20, sweeps_a_round = 100;
 constexpr double limit_tolerance = 1e-9;
 
@@ -100,7 +100,7 @@ class Search {
 
   bool newton() {
     Eigen::Index fewest = count_ + 1;
-    for (int left = patience; left >= 0; --left) {
+    for (int left = slip_patience; left >= 0; --left) {
       find_values();
       Eigen::Index wrong = 0;
       for (Eigen::Index i = 0; i < count_; ++i) {
@@ -111,7 +111,7 @@ class Search {
       if (wrong == 0) return x_.allFinite();
       if (wrong < fewest) {
         fewest = wrong;
-        left = patience;
+        left = slip_patience;
       }
     }
     return false;

@@ -6,12 +6,11 @@
 #include "core/base/errors.hpp"
 #include "core/solvers/complementarity.hpp"
 #include "core/time/equal_steps.hpp"
+#include "modules/solid/whole_solid.hpp"
 
 namespace perifrac {
 
 namespace {
-
-const PointSet whole_body{.name = "solid"};
 
 /// Bonds let go while sound passes so many spacings: the more, the less a step of growth shakes the
 /// body; the tip goes no faster than sound divided by it.
@@ -59,12 +58,12 @@ void DynamicFracture::add_ports() {
       {.name = "free_crack_opening", .unit = "m", .role = PortRole::property}, [this, facets] {
         return PortView{facets, view(cracks_.opening()), {}, cracks_.slope(), cracks_.forecast()};
       });
-  ports_.total({"crack_length", "m"}, whole_body, [this] {
+  ports_.total({"crack_length", "m"}, whole_solid, [this] {
     double length = 0.0;
     for (const FaceJump<2>& jump : cracks_.jumps()) length += jump.area;
     return length;
   });
-  ports_.total(total_port("fracture_energy", "J", PortRole::energy_dissipated, 2), whole_body,
+  ports_.total(total_port("fracture_energy", "J", PortRole::energy_dissipated, 2), whole_solid,
                [this] { return cracks_.spent_energy(); });
 }
 

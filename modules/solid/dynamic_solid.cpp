@@ -1,12 +1,8 @@
 #include "modules/solid/dynamic_solid.hpp"
 
+#include "modules/solid/whole_solid.hpp"
+
 namespace perifrac {
-
-namespace {
-
-const PointSet whole_body{.name = "solid"};
-
-}  // namespace
 
 template <int D>
 DynamicSolid<D>::DynamicSolid(std::shared_ptr<const Body<D>> body,
@@ -29,7 +25,7 @@ void DynamicSolid<D>::make_ports(const SolidBoundary<D>& boundary) {
   const PointSet* const points = &body_->point_set();
   const std::size_t count = body_->points().size();
   const auto energy = [this](const char* name, PortRole role, std::function<double()> find) {
-    ports_.total(total_port(name, "J", role, D), whole_body, std::move(find));
+    ports_.total(total_port(name, "J", role, D), whole_solid, std::move(find));
   };
   ports_.in(
       {"pore_stress", "Pa"},
@@ -68,13 +64,13 @@ void DynamicSolid<D>::make_ports(const SolidBoundary<D>& boundary) {
          [this] { return kinetic_energy(system_->mass(), motion_.velocity); });
   energy("external_work", PortRole::energy_gained, [this] { return external_work(); });
   energy("damped_energy", PortRole::energy_dissipated, [this] { return damped_energy(); });
-  ports_.total(work_port("integrator_steps"), whole_body,
+  ports_.total(work_port("integrator_steps"), whole_solid,
                [this] { return static_cast<double>(verlet_->steps()); });
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
   std::size_t plate = 0;
   for (const auto& [face, column] : boundary.plates(mirror)) {
     const Index unknown = system_->plate_unknowns()[plate++];
-    ports_.total({face + "_plate_displacement", "m"}, whole_body,
+    ports_.total({face + "_plate_displacement", "m"}, whole_solid,
                  [this, unknown] { return system_->unknowns()[unknown]; });
   }
   if (!breaking_) return;

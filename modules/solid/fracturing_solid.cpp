@@ -8,12 +8,11 @@
 #include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/boundary/rigid_motion.hpp"
 #include "modules/solid/fracture/loose_piece.hpp"
+#include "modules/solid/whole_solid.hpp"
 
 namespace perifrac {
 
 namespace {
-
-const PointSet whole_body{.name = "solid"};
 
 /// The first unknown that a free one moves.
 Index first_row(const Eigen::SparseMatrix<double>& free_unknowns, Eigen::Index column) {
@@ -95,12 +94,12 @@ void FracturingSolid<D>::make_crack_ports() {
                const std::span<double> rows(slope.data(), static_cast<std::size_t>(slope.size()));
                return PortView{facets, view(opening), {}, rows};
              });
-  ports_.total({std::string("crack_") + measure, unit}, whole_body, [this] {
+  ports_.total({std::string("crack_") + measure, unit}, whole_solid, [this] {
     double area = 0.0;
     for (const FaceJump<D>& jump : cracked_.jumps()) area += jump.area;
     return area;
   });
-  ports_.total({std::string("open_crack_") + measure, unit}, whole_body, [this] {
+  ports_.total({std::string("open_crack_") + measure, unit}, whole_solid, [this] {
     double area = 0.0;
     for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
       if (equilibrium_.faces().opening[f] > 0.0) area += cracked_.jumps()[f].area;
@@ -112,7 +111,7 @@ void FracturingSolid<D>::make_crack_ports() {
 template <int D>
 void FracturingSolid<D>::make_energy_ports() {
   const auto energy = [this](const char* name, PortRole role, std::function<double()> find) {
-    ports_.total(total_port(name, "J", role, D), whole_body, std::move(find));
+    ports_.total(total_port(name, "J", role, D), whole_solid, std::move(find));
   };
   using enum PortRole;
   energy("elastic_energy", energy_stored, [this] { return work_.elastic_energy(); });
@@ -120,12 +119,12 @@ void FracturingSolid<D>::make_energy_ports() {
   energy("fracture_energy", energy_dissipated, [this] { return work_.fracture_energy(); });
   energy("radiated_energy", energy_dissipated, [this] { return work_.radiated_energy(); });
   for (const auto& [face, unknown] : plates_) {
-    ports_.total({face + "_plate_displacement", "m"}, whole_body,
+    ports_.total({face + "_plate_displacement", "m"}, whole_solid,
                  [this, unknown] { return equilibrium_.unknowns()[unknown]; });
   }
   if (!friction_) return;
   energy("friction_dissipation", energy_dissipated, [this] { return friction_->dissipation(); });
-  ports_.total({"crack_slip_area", "m^2"}, whole_body, [this] {
+  ports_.total({"crack_slip_area", "m^2"}, whole_solid, [this] {
     double area = 0.0;
     for (std::size_t f = 0; f < friction_->slip().size(); ++f) {
       area += cracked_.jumps()[f].area * std::abs(friction_->slip()[f]);

@@ -7,12 +7,11 @@
 #include "core/base/eigen_view.hpp"
 #include "core/profile/profile.hpp"
 #include "modules/solid/boundary/rigid_motion.hpp"
+#include "modules/solid/whole_solid.hpp"
 
 namespace perifrac {
 
 namespace {
-
-const PointSet whole_body{.name = "solid"};
 
 /// The first unknown that a free one moves.
 Index first_row(const Eigen::SparseMatrix<double>& free_unknowns, Index column) {
@@ -78,12 +77,12 @@ void QuasiStaticSolid<D>::make_ports() {
   });
   ports_.found({.name = "effective_stress", .unit = "Pa", .components = D * D}, *points,
                [this](std::vector<double>& stress) { find_effective_stress(stress); });
-  ports_.total(total_port("elastic_energy", "J", PortRole::energy_stored, D), whole_body,
+  ports_.total(total_port("elastic_energy", "J", PortRole::energy_stored, D), whole_solid,
                [this] { return elastic_energy_; });
-  ports_.total(total_port("external_work", "J", PortRole::energy_gained, D), whole_body,
+  ports_.total(total_port("external_work", "J", PortRole::energy_gained, D), whole_solid,
                [this] { return external_work_; });
   for (const auto& [face, unknown] : plates_) {
-    ports_.total({face + "_plate_displacement", "m"}, whole_body,
+    ports_.total({face + "_plate_displacement", "m"}, whole_solid,
                  [this, unknown] { return unknowns_[unknown]; });
   }
 }

@@ -6,8 +6,8 @@ import unittest
 from perifrac_runs import CONFIGS, FLUIDS, RunTest, SMALL, VARIANTS
 
 # Enough points for every loop to be shared out.
-FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.times": "[0.02 s]",
-                "time.end": "0.04 s"}
+FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.times": "[0.01 s]",
+                "time.end": "0.02 s"}
 SCHEMES = {"explicit": {"pore_flow.integrator.type": "explicit"},
            "cvode, krylov": {"pore_flow.integrator.linear_solver": "krylov"},
            "stabilised": {"pore_flow.undrained_stabilisation": "0.25"},
@@ -27,7 +27,7 @@ class Threads(RunTest):
     def test_the_number_of_threads_changes_nothing(self):
         for name, keys in SCHEMES.items():
             one = self.run_scene(FINE | keys, f"{name}/1", "--threads", "1")
-            for number in ("2", "4"):
+            for number in ("2", "4") if name == "explicit" else ("4",):
                 with self.subTest(name, threads=number):
                     other = self.run_scene(FINE | keys, f"{name}/{number}", "--threads", number)
                     self.assert_same_results(one, other)

@@ -15,16 +15,6 @@ namespace perifrac {
 
 namespace {
 
-/// The ends of bonds, each once, ascending.
-std::vector<Index> ends_of(std::span<const std::pair<Index, Index>> bonds) {
-  std::vector<Index> points;
-  for (const auto& [i, j] : bonds) points.insert(points.end(), {i, j});
-  std::ranges::sort(points);
-  const auto twice = std::ranges::unique(points);
-  points.erase(twice.begin(), twice.end());
-  return points;
-}
-
 /// The bounds of single points say how the whole compares only within this factor: 1.43 at most was
 /// met among bodies torn at random, most of which are far below.
 constexpr double margin = 1.5;

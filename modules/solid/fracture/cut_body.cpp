@@ -8,13 +8,6 @@ namespace perifrac {
 
 namespace {
 
-std::vector<Index> ends_of(std::span<const std::pair<Index, Index>> bonds) {
-  std::vector<Index> points;
-  for (const auto& [i, j] : bonds) points.insert(points.end(), {i, j});
-  keep_each_once(points);
-  return points;
-}
-
 /// Undoes silence(), where the bond has its weight in `whole`.
 template <int D>
 void unsilence(Family<D>& family, const Family<D>& whole, Index i, Index j) {

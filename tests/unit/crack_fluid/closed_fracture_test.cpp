@@ -10,8 +10,6 @@ namespace {
 
 using namespace test;
 
-constexpr double dx = 1e-3;
-
 /// A straight crack in an infinite plane under a confining stress, whose faces do not overlap.
 class ConfinedCrack {
  public:

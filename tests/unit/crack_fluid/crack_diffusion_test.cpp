@@ -10,8 +10,7 @@ namespace {
 using namespace test;
 
 constexpr double length = 0.05;  ///< half of a slit that is held at both ends [m]
-constexpr double w = 5e-5;
-constexpr double step = 1e3;  ///< of pressure [Pa], so small that the fluid is linear
+constexpr double step = 1e3;     ///< of pressure [Pa], so small that the fluid is linear
 constexpr CrackLiquid liquid{
     .density = 1000.0, .viscosity = 1e-3, .bulk_modulus = 2.2e9, .residual_aperture = 1e-9};
 

@@ -9,9 +9,6 @@ namespace {
 
 using namespace test;
 
-constexpr double dx = 1e-3;
-constexpr double w = 5e-5;
-
 /// Stiff: all that came in is in the length.
 constexpr CrackLiquid stiff{
     .density = 1000.0, .viscosity = 1e-3, .bulk_modulus = 1e14, .residual_aperture = 1e-9};

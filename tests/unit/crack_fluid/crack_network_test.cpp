@@ -15,8 +15,6 @@ namespace {
 
 using namespace test;
 
-constexpr double dx = 1e-3;
-constexpr double w = 5e-5;
 const Region<2> everywhere{"", {-1.0, -1.0}, {1.0, 1.0}};
 
 /// A straight crack in an infinite elastic plane of plane strain modulus E', facet by facet of

@@ -12,6 +12,9 @@
 
 namespace perifrac::test {
 
+/// Facets of these tests [m]: their length, and how far they are open.
+inline constexpr double dx = 1e-3, w = 5e-5;
+
 /// Corners of a straight line of equal facets.
 inline std::vector<Vector<2>> straight_line(const Vector<2>& from, double angle, double facet,
                                             int facets) {

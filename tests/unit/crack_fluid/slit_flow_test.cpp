@@ -9,8 +9,6 @@ namespace {
 
 using namespace test;
 
-constexpr double dx = 1e-3;
-constexpr double w = 5e-5;
 constexpr int facets = 20;
 constexpr double high = 2e5, low = 0.5e5;
 

@@ -224,11 +224,9 @@ struct CrackingRun {
   }
 };
 
-constexpr std::array methods = {Method::forward_euler, Method::direct, Method::krylov};
-
 /// Bonds that break while pore flow runs are those that were broken when it began again.
 TEST(CrackedFlow, RestartsBitForBit) {
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     CrackingRun whole(method), restarted(method);
     whole.crack(1.2, 4);
     whole.flow.initialize(0.0);
@@ -249,7 +247,7 @@ TEST(CrackedFlow, RestartsBitForBit) {
 
 /// A window that is taken back mends what broke in it.
 TEST(CrackedFlow, RollsBackBitForBit) {
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     CrackingRun direct(method), twice(method);
     for (CrackingRun* run : {&direct, &twice}) {
       run->crack(1.2, 4);
@@ -270,7 +268,7 @@ TEST(CrackedFlow, RollsBackBitForBit) {
 
 /// What was broken on the way counts at once: both halves of a body keep what they have.
 TEST(CrackedFlow, FollowsBondsThatBreak) {
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     CrackingRun run(method);
     run.flow.initialize(0.0);
     run.flow.advance({0.0, 0.1});

@@ -14,7 +14,6 @@ namespace {
 using test::Method;
 using test::scalar;
 
-constexpr std::array methods = {Method::forward_euler, Method::direct, Method::krylov};
 constexpr std::array method_names = {"forward_euler", "direct", "krylov"};
 
 /// Pressures that are anything but uniform, put in through the state.
@@ -38,9 +37,9 @@ class RandomStart final : public StateVisitor {
 template <int D>
 void expect_mass_kept(const std::shared_ptr<const Body<D>>& body, const PoreBoundary<D>& boundary,
                       const std::string& what) {
-  for (std::size_t m = 0; m < methods.size(); ++m) {
+  for (std::size_t m = 0; m < test::methods.size(); ++m) {
     DarcyFlow<D> flow(body, test::darcy_system<D>(*body, boundary), {0.5},
-                      test::integrator_maker<D>(methods[m], 1e-5));
+                      test::integrator_maker<D>(test::methods[m], 1e-5));
     flow.initialize(0.0);
     RandomStart start(body->points().volume.size());
     flow.visit_state(start);
@@ -109,9 +108,9 @@ double error_of_drainage(int count, Method method) {
 }
 
 TEST(DarcyFlow, DrainsALayerAsTheSeriesSays) {
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    const double coarse = error_of_drainage(20, methods[m]);
-    const double fine = error_of_drainage(40, methods[m]);
+  for (std::size_t m = 0; m < test::methods.size(); ++m) {
+    const double coarse = error_of_drainage(20, test::methods[m]);
+    const double fine = error_of_drainage(40, test::methods[m]);
     RecordProperty(
         fmt::format("drained_layer_{}", method_names[m]),
         fmt::format("error {:.2e} {:.2e}, order {:.2f}", coarse, fine, std::log2(coarse / fine)));
@@ -128,7 +127,7 @@ void expect_warm_start(const std::array<int, D>& counts) {
   PoreBoundary<D> boundary(*body);
   boundary.pressure(0, 0.4);
   boundary.pressure(1, 0.4 - 0.2 * length);
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     DarcyFlow<D> flow(body, test::darcy_system<D>(*body, boundary), {0.4, {-0.2}},
                       test::integrator_maker<D>(method, 1e-5));
     flow.initialize(0.0);
@@ -174,7 +173,7 @@ TEST(DarcyFlow, AnswersAJumpOfDilatationUndrained) {
   const auto body = test::box_body<2>({8, 8}, 0.5);
   PoreBoundary<2> boundary(*body);
   boundary.pressure(1, 0.0);
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {1.0},
                       test::integrator_maker<2>(method, 1e-5));
     flow.initialize(0.0);
@@ -196,7 +195,7 @@ TEST(DarcyFlow, StepsOverNoKinkOfASchedule) {
   const auto body = test::box_body<2>({10, 6}, 0.5);
   PoreBoundary<2> boundary(*body);
   boundary.source(20, 0.05, Schedule::table({5.0, 5.005, 5.01}, {0.0, 1.0, 0.0}));
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     DarcyFlow<2> flow(body, test::darcy_system<2>(*body, boundary), {0.0},
                       test::integrator_maker<2>(method, 1e-5));
     flow.initialize(0.0);

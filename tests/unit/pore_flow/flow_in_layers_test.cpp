@@ -11,8 +11,6 @@ namespace {
 using test::Method;
 using test::scalar;
 
-constexpr std::array methods = {Method::forward_euler, Method::direct, Method::krylov};
-
 /// Errors against Terzaghi's series of a column that drains through a layer, with the drained face
 /// at the nominal plane and at the centres of the layer's first points.
 struct DrainageErrors {
@@ -53,7 +51,7 @@ DrainageErrors errors_of_drainage(int count, FlowScheme scheme, Method method) {
 
 TEST(FlowInLayers, DrainsAsFromTheCentresOfTheFirstPoints) {
   for (const FlowScheme scheme : {FlowScheme::conservative, FlowScheme::bond}) {
-    for (const Method method : methods) {
+    for (const Method method : test::methods) {
       const DrainageErrors coarse = errors_of_drainage(20, scheme, method);
       const DrainageErrors fine = errors_of_drainage(40, scheme, method);
       const double order = std::log2(coarse.nominal / fine.nominal);
@@ -82,7 +80,7 @@ void squeeze(DarcyFlow<2>& flow, double begin, double end) {
 }
 
 TEST(FlowInLayers, KeepMassAndPressureWhileTheyAreSqueezed) {
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     const auto body = test::body_with_layer_on_top<2>({8, 9}, 0.5);
     PoreBoundary<2> boundary(*body);
     boundary.pressure(3, 0.6);
@@ -160,7 +158,7 @@ TEST(FlowInLayers, HoldALinearPressureToTheFirstCentres) {
 }
 
 TEST(FlowInLayers, AreDryWhereTheyAreSealed) {
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     const auto body = test::body_with_layer_on_top<2>({8, 9}, 0.5);
     PoreBoundary<2> boundary(*body);
     boundary.pressure(2, 0.6);

@@ -16,7 +16,6 @@ using test::Method;
 using test::scalar;
 using test::some_rock;
 
-constexpr std::array methods = {Method::forward_euler, Method::direct, Method::krylov};
 constexpr std::array method_names = {"forward_euler", "direct", "krylov"};
 
 template <int D>
@@ -65,9 +64,10 @@ double lost_mass(Method method, bool open, int windows) {
 
 TEST(MassExchange, KeepsEveryDropWhileMassesJump) {
   const int windows = test::sanitized ? 500 : 10'000;
-  for (std::size_t m = 0; m < methods.size(); ++m) {
+  for (std::size_t m = 0; m < test::methods.size(); ++m) {
     for (const bool open : {false, true}) {
-      const double lost = lost_mass(methods[m], open, methods[m] == Method::krylov ? 500 : windows);
+      const double lost =
+          lost_mass(test::methods[m], open, test::methods[m] == Method::krylov ? 500 : windows);
       RecordProperty(fmt::format("lost_{}_{}", open ? "open" : "closed", method_names[m]),
                      fmt::format("{:.1e}", lost));
       EXPECT_LE(lost, 1e-13) << method_names[m] << (open ? " open" : " closed");
@@ -78,7 +78,7 @@ TEST(MassExchange, KeepsEveryDropWhileMassesJump) {
 /// The same at every point of a closed box: the pressure grows with the mass, uniformly.
 TEST(MassExchange, RaisesThePressureByWhatTheRockStores) {
   const auto body = test::box_body<3>({5, 4, 4}, 0.5);
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     DarcyFlow<3> flow = flow_of<3>(body, PoreBoundary<3>(*body), method, 1e-5, 0.25);
     flow.initialize(0.0);
     std::ranges::fill(test::port(flow, "exchanged_mass").value, 0.03);
@@ -103,7 +103,7 @@ TEST(MassExchange, RaisesThePressureByWhatTheRockStores) {
 TEST(MassExchange, IsASourceWhereItIsSteady) {
   const auto body = test::body_with_layer_on_top<2>({9, 8}, 0.5);
   const double rate = 0.05;
-  for (const Method method : methods) {
+  for (const Method method : test::methods) {
     PoreBoundary<2> boundary(*body);
     boundary.pressure(0, 0.1);
     boundary.pressure(3, 0.0);

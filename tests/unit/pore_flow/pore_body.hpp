@@ -89,6 +89,7 @@ inline double drained_column(double z, double time_factor) {
 }
 
 enum class Method { forward_euler, direct, krylov };
+inline constexpr std::array methods = {Method::forward_euler, Method::direct, Method::krylov};
 
 template <int D>
 DarcyIntegratorMaker<D> integrator_maker(Method method, double tolerance, double safety = 0.9) {

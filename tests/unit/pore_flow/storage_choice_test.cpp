@@ -9,7 +9,7 @@
 namespace perifrac {
 namespace {
 
-constexpr double alpha = 0.8, storage = 0.03;
+constexpr double biot = 0.8, storage = 0.03;
 
 const std::string scene_text = R"(
 dimension: 2
@@ -21,14 +21,14 @@ pore_flow:
 )";
 
 /// What the scene leaves open, for rock whose dilatation answers everywhere by this over what would
-/// make alpha^2 slope a quarter of the storage.
+/// make biot^2 slope a quarter of the storage.
 struct Choice {
   std::shared_ptr<const Body<2>> body = test::box_body<2>({8, 7}, 1.0);
   std::vector<double> value = std::vector<double>(56), rate = value, slope;
-  PoreMaterials materials{{{alpha, 0.2, 0.0, storage}}, std::vector<std::uint8_t>(56)};
+  PoreMaterials materials{{{biot, 0.2, 0.0, storage}}, std::vector<std::uint8_t>(56)};
   std::unique_ptr<PoreStorage> made;
 
-  explicit Choice(double part) : slope(56, part * 0.25 * storage / (alpha * alpha)) {
+  explicit Choice(double part) : slope(56, part * 0.25 * storage / (biot * biot)) {
     const Section scene = read_scene_text(scene_text);
     made = storage_choice<2>(scene.at("pore_flow"), body, materials)(slope);
   }

@@ -24,8 +24,8 @@ struct Errors {
 };
 
 template <int D>
-using Make = std::shared_ptr<ElasticOperator<D>> (*)(std::shared_ptr<const Family<D>>,
-                                                     MirrorCondition<D, D>);
+using MakeElastic = std::shared_ptr<ElasticOperator<D>> (*)(std::shared_ptr<const Family<D>>,
+                                                            MirrorCondition<D, D>);
 
 template <int D>
 std::shared_ptr<ElasticOperator<D>> linear_exact(std::shared_ptr<const Family<D>> family,
@@ -47,7 +47,7 @@ std::shared_ptr<ElasticOperator<D>> lps(std::shared_ptr<const Family<D>> family,
 /// The modulus between the top and the bottom of a body that its mirrored faces make infinite: the
 /// stress that the top bears where the component u = the height, over 1.
 template <int D>
-double modulus(const Body<D>& body, Make<D> make, int component) {
+double modulus(const Body<D>& body, MakeElastic<D> make, int component) {
   const FaceSet all = face_bit(2 * D) - 1;
   const auto family = body.family(all);
   MirrorCondition<D, D> mirror(*family);
@@ -67,7 +67,7 @@ double modulus(const Body<D>& body, Make<D> make, int component) {
 }
 
 template <int D>
-Errors errors(Make<D> make, double spacing, double ratio, InfluenceFunction influence) {
+Errors errors(MakeElastic<D> make, double spacing, double ratio, InfluenceFunction influence) {
   const auto body =
       test::box_body<D>(test::cube<D>(4), spacing, test::Cloud::lattice, ratio, influence);
   const auto [lambda, mu] = rock<D>;

@@ -82,7 +82,7 @@ TEST(SolidBoundary, EndsARampWhereAConstantLoadIs) {
 
 /// Change of elastic energy = external work, window by window, whatever moves and loads.
 template <int D>
-void expect_energy_balance(int count) {
+void expect_energy_balance_in_motion(int count) {
   Solid<D> solid(test::cube<D>(count));
   solid.boundary.fixed(0, {}, {0.01});
   solid.boundary.roller(2 * D - 2, 0.1, 0.0, Schedule::ramp(2.5));
@@ -107,8 +107,8 @@ void expect_energy_balance(int count) {
 }
 
 TEST(SolidBoundary, BalancesEnergyWhileItMoves) {
-  expect_energy_balance<2>(12);
-  expect_energy_balance<3>(8);
+  expect_energy_balance_in_motion<2>(12);
+  expect_energy_balance_in_motion<3>(8);
 }
 
 /// sigma_v = rho g depth, and the settlement of a column of elastic rock.

@@ -1,30 +1,24 @@
 #include "core/solvers/complementarity.hpp"
 
-#include <random>
-
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "tests/unit/solvers/random_matrix.hpp"
+
 namespace perifrac {
 namespace {
-
-Eigen::MatrixXd random_matrix(int rows, int columns, unsigned seed) {
-  std::mt19937 bits(seed);
-  std::uniform_real_distribution<double> value(-1.0, 1.0);
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return value(bits); });
-}
 
 /// What it is by definition, for matrices of all kinds of coupling: among them some for which
 /// exchanging all wrong places at once goes in circles.
 TEST(Complementarity, HoldsWhatWouldFallBelowZero) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const int n = 1 + static_cast<int>(seed % 40);
-    const Eigen::MatrixXd root = random_matrix(n, n, seed);
+    const Eigen::MatrixXd root = test::random_matrix(n, n, seed);
     // Positive definite, not symmetric: facets differ in length.
     const Eigen::MatrixXd m =
         (root * root.transpose() + 1e-3 * Eigen::MatrixXd::Identity(n, n)) *
-        (random_matrix(n, 1, seed + 1000).array() + 1.5).matrix().asDiagonal();
-    const Eigen::VectorXd q = random_matrix(n, 1, seed + 2000);
+        (test::random_matrix(n, 1, seed + 1000).array() + 1.5).matrix().asDiagonal();
+    const Eigen::VectorXd q = test::random_matrix(n, 1, seed + 2000);
     const Complementarity found = solve_complementarity(m, q, 1e-12);
     EXPECT_GE(found.x.minCoeff(), 0.0) << seed;
     EXPECT_GE(found.y.minCoeff(), -1e-12) << seed;
@@ -44,9 +38,9 @@ TEST(Complementarity, LeavesAloneWhatIsOpen) {
 /// The response is the slope of the solution, by differences.
 TEST(Complementarity, RespondsWithThePlacesHeld) {
   const int n = 12;
-  const Eigen::MatrixXd root = random_matrix(n, n, 7);
+  const Eigen::MatrixXd root = test::random_matrix(n, n, 7);
   const Eigen::MatrixXd m = root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
-  const Eigen::VectorXd q = random_matrix(n, 1, 8);
+  const Eigen::VectorXd q = test::random_matrix(n, 1, 8);
   const Complementarity found = solve_complementarity(m, q, 0.0);
   const Eigen::MatrixXd slope = response_with_held(m, found.held);
   const double step = 1e-6;

@@ -1,37 +1,31 @@
 #include "core/solvers/condensed_inverse.hpp"
 
-#include <random>
-
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
+
+#include "tests/unit/solvers/random_matrix.hpp"
 
 namespace perifrac {
 namespace {
 
 constexpr int size = 30;
 
-Eigen::MatrixXd random_matrix(int rows, int columns, unsigned seed) {
-  std::mt19937 bits(seed);
-  std::uniform_real_distribution<double> value(-1.0, 1.0);
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return value(bits); });
-}
-
 /// After several additions and changes, in whatever order they come: against the dense inverse.
 TEST(CondensedInverse, IsABlockOfTheInverseOfTheChangedMatrix) {
-  const Eigen::MatrixXd root = random_matrix(size, size, 1);
+  const Eigen::MatrixXd root = test::random_matrix(size, size, 1);
   Eigen::MatrixXd a = root * root.transpose() + 5.0 * Eigen::MatrixXd::Identity(size, size);
   const Eigen::SparseMatrix<double> start = a.sparseView();
   SparseCholesky factor;
   factor.factor(start);
   CondensedInverse inverse(factor, size);
-  const Eigen::VectorXd b = random_matrix(size, 1, 2);
+  const Eigen::VectorXd b = test::random_matrix(size, 1, 2);
   const Eigen::VectorXd x0 = Eigen::MatrixXd(start).llt().solve(b);
 
   const std::vector<std::vector<int>> steps = {{3, 17, 8}, {8, 0, 29}, {5}, {17, 5, 12, 3}};
   for (std::size_t step = 0; step < steps.size(); ++step) {
     inverse.add(steps[step]);
     const int count = static_cast<int>(steps[step].size());
-    const Eigen::MatrixXd half = random_matrix(count, count, 10 + step);
+    const Eigen::MatrixXd half = test::random_matrix(count, count, 10 + step);
     // A softer and a stiffer matrix in turn; positive definite either way.
     const Eigen::MatrixXd delta = (step % 2 == 0 ? -1.0 : 3.0) * half * half.transpose();
     std::vector<int> places;

@@ -1,26 +1,20 @@
 #include "core/solvers/frictional_contact.hpp"
 
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "core/solvers/complementarity.hpp"
+#include "tests/unit/solvers/random_matrix.hpp"
 
 namespace perifrac {
 namespace {
 
-Eigen::MatrixXd random_matrix(int rows, int columns, unsigned seed) {
-  std::mt19937 bits(seed);
-  std::uniform_real_distribution<double> value(-1.0, 1.0);
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return value(bits); });
-}
-
 /// Positive definite; `coupling` of the normal and tangential components of a pair with others.
 Eigen::MatrixXd compliance(int pairs, double coupling, unsigned seed) {
-  const Eigen::MatrixXd root = random_matrix(2 * pairs, 2 * pairs, seed);
+  const Eigen::MatrixXd root = test::random_matrix(2 * pairs, 2 * pairs, seed);
   return Eigen::MatrixXd::Identity(2 * pairs, 2 * pairs) +
          coupling / pairs * root * root.transpose();
 }
@@ -32,7 +26,7 @@ TEST(FrictionalContact, KeepsSignorinisAndCoulombsConditions) {
     const int n = 1 + static_cast<int>(seed % 30);
     const double coefficient = 0.3 * static_cast<double>(seed % 5);
     const Eigen::MatrixXd m = compliance(n, 2.0, seed);
-    const Eigen::VectorXd q = random_matrix(2 * n, 1, seed + 1000);
+    const Eigen::VectorXd q = test::random_matrix(2 * n, 1, seed + 1000);
     const auto [x, y] = solve_frictional_contact(m, q, coefficient, 1e-14);
     EXPECT_LE((q + m * x - y).cwiseAbs().maxCoeff(), 1e-12 * (1.0 + x.cwiseAbs().maxCoeff()));
     for (int i = 0; i < n; ++i) {
@@ -53,7 +47,7 @@ TEST(FrictionalContact, IsContactWithoutFriction) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const int n = 15;
     const Eigen::MatrixXd m = compliance(n, 2.0, seed);
-    const Eigen::VectorXd q = random_matrix(2 * n, 1, seed + 1000);
+    const Eigen::VectorXd q = test::random_matrix(2 * n, 1, seed + 1000);
     const auto [x, y] = solve_frictional_contact(m, q, 0.0, 1e-14);
     const Complementarity smooth = solve_complementarity(m.topLeftCorner(n, n), q.head(n), 1e-14);
     EXPECT_LE((x.head(n) - smooth.x).cwiseAbs().maxCoeff(), 1e-14);

@@ -75,10 +75,10 @@ class LineDiffusion : public OdeSystem {
   }
 
   /// 2 / |largest eigenvalue| of J.
-  double stable_step();
+  double stable_step() const;
 
-  /// y(t) from y(0): exponential of the matrix that carries (y, 1, t) along.
-  std::vector<double> exact(std::span<const double> y, double t);
+  /// y(t) from y(0), mode by mode.
+  std::vector<double> exact(std::span<const double> y, double t) const;
 
   std::vector<double> volume, storage, link;  // link[i] joins cell i to cell i - 1 or the outside
   double scale = 1.0;                         // that errors are measured against
