@@ -270,11 +270,12 @@ std::string with_lps(std::string solid) {
   return solid.replace(solid.find("material: {"), 11, "material: {type: lps, ");
 }
 
-const std::vector<std::vector<std::string>> flows = {{},
-                                                     {"pore_flow.integrator.type=explicit"},
-                                                     {"pore_flow.integrator.type=cvode"},
-                                                     {"pore_flow.operator=bond"},
-                                                     {"pore_flow.integrator.linear_solver=krylov"}};
+const std::vector<std::vector<std::string>> flow_sections = {
+    {},
+    {"pore_flow.integrator.type=explicit"},
+    {"pore_flow.integrator.type=cvode"},
+    {"pore_flow.operator=bond"},
+    {"pore_flow.integrator.linear_solver=krylov"}};
 
 /// The splits that the two can use.
 std::vector<std::string> splits_for(const std::string& solid, bool flow) {
@@ -305,7 +306,7 @@ void expect_to_run(const Section& scene, int modules, int links) {
 TEST(SwapMatrix, EveryCombinationRunsOrIsRefused) {
   for (const std::string& solid : {std::string(), rigid, quasi_static_2d, with_lps(quasi_static_2d),
                                    dynamic_2d, with_lps(dynamic_2d)}) {
-    for (const auto& flow : flows) {
+    for (const auto& flow : flow_sections) {
       if (solid.empty() && flow.empty()) continue;
       for (const char* split : {"automatic", "drained", "fixed_stress", "undrained"}) {
         SCOPED_TRACE(solid + (flow.empty() ? "no pore flow " : flow[0] + " ") + split);
@@ -365,7 +366,7 @@ TEST(SwapMatrix, CracksIn3DRunBesideTheirFluidInASolidWithoutInertia) {
 }
 
 TEST(SwapMatrix, StabilisedPoreFlowRunsInEveryFlow) {
-  for (const auto& flow : flows) {
+  for (const auto& flow : flow_sections) {
     std::vector<std::string> overrides = flow;
     overrides.push_back("pore_flow.undrained_stabilisation=0.25");
     if (flow.empty()) continue;

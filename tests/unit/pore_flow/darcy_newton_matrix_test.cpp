@@ -11,7 +11,7 @@ namespace {
 
 /// A system with everything that can stand in its matrix.
 template <int D>
-struct Setting {
+struct NewtonSetting {
   std::shared_ptr<const Body<D>> body = test::body_with_layer_on_top<D>(test::cube<D>(6), 0.5);
   std::vector<double> slope = test::random_values(body->points().volume.size(), 5);
   DarcySystem<D> system = make();
@@ -25,7 +25,7 @@ struct Setting {
     return test::darcy_system<D>(*body, boundary);
   }
 
-  Setting() {
+  NewtonSetting() {
     for (double& s : slope) s = 0.2 * (1.0 + 0.5 * s);  // per point
     const std::vector<double> none(slope.size(), 0.0);
     zero = none;
@@ -36,7 +36,7 @@ struct Setting {
 
 template <int D>
 void expect_inverse(typename DarcyNewtonMatrix<D>::Method method, bool exact) {
-  Setting<D> setting;
+  NewtonSetting<D> setting;
   DarcySystem<D>& system = setting.system;
   DarcyNewtonMatrix<D> matrix(system, method);
   EXPECT_EQ(matrix.exact(), exact);

@@ -14,18 +14,18 @@ namespace {
 
 using test::Cloud;
 
-constexpr double alpha = 0.8;
-constexpr double storage = 0.03;
+constexpr double biot_coefficient = 0.8;
+constexpr double point_storage = 0.03;
 constexpr double strength = 0.25;
 
 /// Storage on a box, and the slope of a dilatation that differs from point to point.
 template <int D>
-struct Setting {
+struct StabilisedSetting {
   std::shared_ptr<const Body<D>> body;
   std::vector<double> value, rate, slope;
   std::unique_ptr<PoreStorage> stored;
 
-  Setting(const std::array<int, D>& counts, Cloud cloud)
+  StabilisedSetting(const std::array<int, D>& counts, Cloud cloud)
       : body(test::box_body<D>(counts, 0.5, cloud)),
         value(test::random_values(points(), 2)),
         rate(test::random_values(points(), 3)),
@@ -38,7 +38,7 @@ struct Setting {
   std::size_t points() const { return body->points().volume.size(); }
 
   std::unique_ptr<PoreStorage> make() const {
-    PoreMaterials materials{{{alpha, 0.2, 0.0, storage}},
+    PoreMaterials materials{{{biot_coefficient, 0.2, 0.0, point_storage}},
                             std::vector<std::uint8_t>(points(), std::uint8_t{0})};
     return std::make_unique<StabilisedStorage<D>>(std::move(materials), body->family(0), strength,
                                                   body->spacing());
@@ -61,10 +61,10 @@ struct Setting {
 };
 
 template <int D>
-std::vector<Setting<D>> settings() {
+std::vector<StabilisedSetting<D>> settings() {
   std::array<int, D> counts;
   for (int a = 0; a < D; ++a) counts[a] = D == 2 ? 9 - a : 6 - a / 2;
-  std::vector<Setting<D>> all;
+  std::vector<StabilisedSetting<D>> all;
   for (const Cloud cloud : {Cloud::lattice, Cloud::jittered}) all.emplace_back(counts, cloud);
   return all;
 }
@@ -72,7 +72,7 @@ std::vector<Setting<D>> settings() {
 /// Mass is exact, energy is never negative, and linear pressures, at surfaces too, know nothing of
 /// it: the patch test.
 template <int D>
-void expect_roughness(const Setting<D>& setting) {
+void expect_roughness(const StabilisedSetting<D>& setting) {
   const Eigen::MatrixXd b = setting.between();
   const double top = b.cwiseAbs().maxCoeff();
   const auto n = static_cast<Index>(setting.points());
@@ -94,7 +94,7 @@ TEST(StabilisedStorage, IsMadeOfWhatLinearPressuresDoNotHave) {
 }
 
 TEST(StabilisedStorage, FindsThePressureThatItStores) {
-  for (Setting<2>& setting : settings<2>()) {
+  for (StabilisedSetting<2>& setting : settings<2>()) {
     const std::size_t n = setting.points();
     const Eigen::MatrixXd b = setting.between();
     const auto p = test::random_values(n, 1), dp = test::random_values(n, 6);
@@ -102,9 +102,9 @@ TEST(StabilisedStorage, FindsThePressureThatItStores) {
     const Eigen::VectorXd held = b * test::as_eigen(p), added = b * test::as_eigen(dp);
     std::vector<double> zeta(n), change(n), found(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const double own = storage + alpha * alpha * setting.slope[i];
+      const double own = point_storage + biot_coefficient * biot_coefficient * setting.slope[i];
       const double theta = setting.value[i] + setting.rate[i] * (t - 2.0);
-      zeta[i] = alpha * theta + own * p[i] + held[i] / setting.body->points().volume[i];
+      zeta[i] = biot_coefficient * theta + own * p[i] + held[i] / setting.body->points().volume[i];
       change[i] = own * dp[i] + added[i] / setting.body->points().volume[i];
     }
     setting.stored->pressure(t, zeta, found);
@@ -117,7 +117,7 @@ TEST(StabilisedStorage, FindsThePressureThatItStores) {
 
 /// Its energy is what forcing fluid in takes while the dilatation stands.
 TEST(StabilisedStorage, HasTheEnergyOfTheWorkDone) {
-  for (Setting<2>& setting : settings<2>()) {
+  for (StabilisedSetting<2>& setting : settings<2>()) {
     const auto p = test::random_values(setting.points(), 1);
     const Eigen::VectorXd held = setting.between() * test::as_eigen(p);
     const double work = 0.5 * test::as_eigen(p).dot(held);
@@ -136,7 +136,7 @@ std::vector<BrokenBond> cut_at(const Body<2>& body, double x) {
 }
 
 TEST(StabilisedStorage, KnowsNothingAcrossBrokenBonds) {
-  for (Setting<2>& setting : settings<2>()) {
+  for (StabilisedSetting<2>& setting : settings<2>()) {
     const Eigen::MatrixXd intact = setting.between();
     setting.stored->take_bonds(cut_at(*setting.body, 2.0));
     const Eigen::MatrixXd cut = setting.between();
@@ -174,7 +174,7 @@ struct Flow {
     auto flow = test::flow_operator<2>(*body, boundary, 0.7);
     const ScheduledVector pressures = boundary.face_pressures(flow.mirror());
     const ScheduledVector sources = boundary.sources(flow.gradient_matrix());
-    PoreMaterials materials{{{alpha, 0.2, 0.0, storage}},
+    PoreMaterials materials{{{biot_coefficient, 0.2, 0.0, point_storage}},
                             std::vector<std::uint8_t>(zero.size(), std::uint8_t{0})};
     return {make_flow(scheme, std::move(flow)),
             std::make_unique<StabilisedStorage<2>>(std::move(materials), body->family(0), strength,

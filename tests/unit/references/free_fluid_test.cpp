@@ -7,7 +7,7 @@
 namespace perifrac {
 namespace {
 
-FreeFluid soft(double tait_exponent) {
+FreeFluid soft_fluid(double tait_exponent) {
   return {.density = 1000.0,
           .bulk_modulus = 1e5,
           .tait_exponent = tait_exponent,
@@ -17,7 +17,7 @@ FreeFluid soft(double tait_exponent) {
 
 TEST(FreeFluid, AtRestBearsItsOwnWeight) {
   for (const double gamma : {1.0, 1.4, 7.0}) {
-    const FreeFluid fluid = soft(gamma);
+    const FreeFluid fluid = soft_fluid(gamma);
     const auto density = [&](double p) {
       return fluid.density * std::pow(1.0 + gamma * p / fluid.bulk_modulus, 1.0 / gamma);
     };
@@ -38,7 +38,7 @@ TEST(FreeFluid, AtRestBearsItsOwnWeight) {
 }
 
 TEST(FreeFluid, HardlyCompressedHasALinearPressure) {
-  FreeFluid fluid = soft(7.0);
+  FreeFluid fluid = soft_fluid(7.0);
   fluid.bulk_modulus = 2.2e9;
   EXPECT_NEAR(fluid.pressure_at_rest(10.0, 9.81), 98.1e3, 3.0);
   EXPECT_EQ(fluid.pressure_at_rest(0.0, 9.81), 0.0);
