@@ -32,7 +32,7 @@ template <class Deviation>
 double root_mean_square(std::size_t count, Deviation deviation) {
   double sum = 0.0;
   for (std::size_t i = 0; i < count; ++i) sum += deviation(i) * deviation(i);
-  return std::sqrt(sum / count);
+  return std::sqrt(sum / static_cast<double>(count));
 }
 
 }  // namespace

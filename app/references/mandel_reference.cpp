@@ -79,7 +79,7 @@ std::unique_ptr<Reference> make_mandel_reference(const Section& scene,
   const double width = scene.numbers("body.size")[0];
   constexpr std::array places = {"the middle", "a/4", "a/2", "3a/4"};
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const double at = 0.25 * k * width;
+    const double at = 0.25 * static_cast<double>(k) * width;
     reference->add(Reference::History{fmt::format("pore pressure at {}", places[k]), "Pa",
                                       value_at(simulation, pressure, place_on(row, points, 0, at)),
                                       [=](double t) { return solution->pressure(at, t); }});

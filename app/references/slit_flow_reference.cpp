@@ -84,9 +84,9 @@ std::unique_ptr<Reference> make_slit_flow_reference(const Section& scene,
   }
   const auto largest = [between](auto&& error_of) {
     return [=](double) {
-      double largest = 0.0;
-      for (std::size_t n = 0; n < between.size(); ++n) largest = std::max(largest, error_of(n));
-      return largest;
+      double error = 0.0;
+      for (std::size_t n = 0; n < between.size(); ++n) error = std::max(error, error_of(n));
+      return error;
     };
   };
 

@@ -87,7 +87,9 @@ Cost cost_of(const CouplingManager& manager, std::span<const Trial> trial) {
       cost.facet[k] += window.seconds[k] - cost.step[k] * taken[k];
     }
   }
-  for (double& seconds : cost.facet) seconds = facets > 0.0 ? std::max(0.0, seconds / facets) : 0.0;
+  for (double& cost_of_one : cost.facet) {
+    cost_of_one = facets > 0.0 ? std::max(0.0, cost_of_one / facets) : 0.0;
+  }
   return cost;
 }
 

@@ -25,7 +25,7 @@ void add_multiples(const Section& output, double end, std::vector<double>& times
   }
   const std::vector<double> written = times;
   // By multiplication, so that no rounding adds up.
-  for (long n = 1; n * interval <= end * (1.0 + rounding); ++n) {
+  for (double n = 1.0; n * interval <= end * (1.0 + rounding); ++n) {
     if (!has_near(written, n * interval)) times.push_back(n * interval);
   }
 }

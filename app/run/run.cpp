@@ -283,8 +283,8 @@ int run_scene(const RunRequest& request) {
         signal = advance_to_end(simulation, recorder, watch, outputs);
         if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
         if (const auto warning = filling_warning(scene, simulation)) log_warning(*warning);
-        const double end = simulation.manager->time();
-        if (const auto warning = seepage_warning(scene, end); warning && signal == 0) {
+        const double reached = simulation.manager->time();
+        if (const auto warning = seepage_warning(scene, reached); warning && signal == 0) {
           log_warning(*warning);
         }
         recorder.write_checkpoint(false);

@@ -186,10 +186,10 @@ PlaceWeights PlaceReader::weights_now(const PointSet& points) const {
 }
 
 void PlaceReader::follow(const PointSet& points) {
-  const std::uint64_t version = version_ ? version_() : 0;
-  if (has_read_ && version_ && version == known_) return;
+  const std::uint64_t now = version_ ? version_() : 0;
+  if (has_read_ && version_ && now == known_) return;
   weights_ = weights_now(points);
-  known_ = version;
+  known_ = now;
   has_read_ = true;
 }
 

@@ -13,6 +13,8 @@ inline std::uint64_t random_bits(std::uint64_t seed, std::uint64_t n) {
 }
 
 /// Of 64 random bits: uniform in (-1, 1), ends excluded.
-inline double uniform(std::uint64_t bits) { return ((bits >> 11) + 0.5) * 0x1p-52 - 1.0; }
+inline double uniform(std::uint64_t bits) {
+  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-52 - 1.0;
+}
 
 }  // namespace perifrac

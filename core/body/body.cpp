@@ -38,7 +38,7 @@ BondState<D>& Body<D>::claim_bond_state() const {
 
 template <int D>
 int Body<D>::opposite(int face) const {
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     const bool across = faces_[f].axis == faces_[face].axis && static_cast<int>(f) != face;
     if (across || faces_[f].curved()) return static_cast<int>(f);
   }
@@ -71,7 +71,7 @@ double Body<D>::thickness(int face, FaceSet without_layers) const {
 template <int D>
 std::vector<bool> Body<D>::in_layers(FaceSet faces) const {
   std::vector<bool> in(points_.size(), false);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (!contains(faces, f)) continue;
     for (const Index i : layers_[f]) in[i] = true;
   }
@@ -115,7 +115,7 @@ std::shared_ptr<const Family<D>> Body<D>::family(FaceSet mirrored, FaceSet witho
 
 template <int D>
 void Body<D>::check_mirrored_faces(FaceSet mirrored, FaceSet without_layers) const {
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (!contains(mirrored, f)) continue;
     if (!layers_[f].empty()) throw std::logic_error("a mirrored face has a layer");
     const double across = thickness(static_cast<int>(f), without_layers);

@@ -13,7 +13,7 @@ template <int D>
 std::vector<std::vector<Index>> points_behind(std::span<const Face> faces, FaceSet layered,
                                               const Points<D>& points) {
   std::vector<std::vector<Index>> layers(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces); ++f) {
     if (!contains(layered, f)) continue;
     const auto& [name, axis, direction, coordinate] = faces[f];
     for (Index i = 0; i < points.size(); ++i) {

@@ -19,7 +19,7 @@ template <int D>
 std::vector<Region<D>> with_images(std::span<const Region<D>> cutouts, std::span<const Face> faces,
                                    FaceSet mirrored) {
   std::vector<Region<D>> all(cutouts.begin(), cutouts.end());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces); ++f) {
     if (!contains(mirrored, f) || faces[f].curved()) continue;
     const std::size_t count = all.size();
     for (std::size_t k = 0; k < count; ++k) {

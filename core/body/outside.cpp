@@ -8,13 +8,13 @@ namespace perifrac {
 namespace {
 
 /// Of a spacing: a crack that begins on a face may be written with few digits.
-constexpr double rounding = 1e-2;
+constexpr double tolerance = 1e-2;
 
 }  // namespace
 
 template <int D>
 int face_before(const Body<D>& body, const Vector<D>& x) {
-  const double slack = rounding * body.spacing();
+  const double slack = tolerance * body.spacing();
   for (std::size_t f = 0; f < body.faces().size(); ++f) {
     const auto& [name, axis, direction, coordinate] = body.faces()[f];
     if (axis < 0) {

@@ -14,7 +14,7 @@ constexpr double edge_tolerance = 1e-7;
 
 /// A point of the facet's plane lies within its edges.
 template <int D>
-bool contains(const CrackFacet<D>& facet, const Vector<D>& x) {
+bool holds(const CrackFacet<D>& facet, const Vector<D>& x) {
   return std::ranges::all_of(place_within<D>(facet, x), [](double share) {
     return share >= -edge_tolerance && share <= 1.0 + edge_tolerance;
   });
@@ -37,7 +37,7 @@ class Blade {
   /// Of ends at these heights.
   bool cuts(const Vector<D>& x, double below, const Vector<D>& y, double above) const {
     if (below * above > 0.0) return false;
-    return contains<D>(facet_, x + below / (below - above) * (y - x));
+    return holds<D>(facet_, x + below / (below - above) * (y - x));
   }
 
  private:

@@ -42,8 +42,9 @@ void add_ghosts(Family<D>& family, const Face& face, int number, double horizon,
     const Index ghost = i - family.point_count;
     family.ghost_source.push_back(real ? i : family.ghost_source[ghost]);
     family.ghost_faces.push_back((real ? 0u : family.ghost_faces[ghost]) | face_bit(number));
-    family.ghost_axes.push_back((real ? 0u : family.ghost_axes[ghost]) ^
-                                (face.curved() ? 0u : 1u << face.axis));
+    const unsigned axes = real ? 0u : family.ghost_axes[ghost];
+    family.ghost_axes.push_back(
+        static_cast<std::uint8_t>(axes ^ (face.curved() ? 0u : 1u << face.axis)));
     family.curved = family.curved || face.curved();
   }
 }
@@ -84,8 +85,8 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
   family.point_count = points.size();
   family.position = points.position;
   family.volume = points.volume;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (contains(mirrored, f)) add_ghosts(family, faces[f], static_cast<int>(f), reach, bondless);
+  for (int f = 0; f < std::ssize(faces); ++f) {
+    if (contains(mirrored, f)) add_ghosts(family, faces[f], f, reach, bondless);
   }
 
   CellGrid<D> grid;

@@ -42,8 +42,8 @@ std::optional<Scatter<D>> read_scatter(const Section& section, const std::string
 }
 
 template <int D>
-FieldClasses<D>::FieldClasses(const RandomField<D>& field, const Points<D>& points, int levels)
-    : levels(levels), of_point(points.size()) {
+FieldClasses<D>::FieldClasses(const RandomField<D>& field, const Points<D>& points, int count)
+    : levels(count), of_point(points.size()) {
 #pragma omp parallel for schedule(static)
   for (Index i = 0; i < points.size(); ++i) {
     const double level = std::floor((field.at(points.at(i)) + 4.0) / 8.0 * levels);

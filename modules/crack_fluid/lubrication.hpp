@@ -20,13 +20,14 @@ namespace perifrac {
 struct CrackOpening {
   using Slope = Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>;
 
-  /// `slope`: count * count values, row by row.
-  CrackOpening(std::span<const double> value, std::span<const double> rate,
-               std::span<const double> slope, double end)
-      : value(value),
-        rate(rate),
-        slope(slope.data(), static_cast<Index>(value.size()), static_cast<Index>(value.size())),
-        end(end) {}
+  /// `compliance`: count * count values, row by row.
+  CrackOpening(std::span<const double> opening, std::span<const double> opening_rate,
+               std::span<const double> compliance, double window_end)
+      : value(opening),
+        rate(opening_rate),
+        slope(compliance.data(), static_cast<Index>(value.size()),
+              static_cast<Index>(value.size())),
+        end(window_end) {}
 
   std::span<const double> value;  ///< [m]
   std::span<const double> rate;   ///< [m/s]

@@ -66,7 +66,7 @@ void SemiLagrangianFluid<D>::make_total_ports() {
   };
   mass("free_fluid_mass", PortRole::mass_stored, [this] {
     double sum = 0.0;
-    for (const double mass : dynamics_->points().mass) sum += mass;
+    for (const double of_point : dynamics_->points().mass) sum += of_point;
     return sum;
   });
   if (openings.inlets) {

@@ -16,7 +16,8 @@ namespace {
 
 /// The first unknown that a free one moves.
 Index first_row(const Eigen::SparseMatrix<double>& free_unknowns, Eigen::Index column) {
-  return Eigen::SparseMatrix<double>::InnerIterator(free_unknowns, column).row();
+  return static_cast<Index>(
+      Eigen::SparseMatrix<double>::InnerIterator(free_unknowns, column).row());
 }
 
 }  // namespace
@@ -120,7 +121,7 @@ void FracturingSolid<D>::make_energy_ports() {
   energy("radiated_energy", energy_dissipated, [this] { return work_.radiated_energy(); });
   for (const auto& [face, unknown] : plates_) {
     ports_.total({face + "_plate_displacement", "m"}, whole_solid,
-                 [this, unknown] { return equilibrium_.unknowns()[unknown]; });
+                 [this, unknown = unknown] { return equilibrium_.unknowns()[unknown]; });
   }
   if (!friction_) return;
   energy("friction_dissipation", energy_dissipated, [this] { return friction_->dissipation(); });

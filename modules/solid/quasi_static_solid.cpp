@@ -15,7 +15,8 @@ namespace {
 
 /// The first unknown that a free one moves.
 Index first_row(const Eigen::SparseMatrix<double>& free_unknowns, Index column) {
-  return Eigen::SparseMatrix<double>::InnerIterator(free_unknowns, column).row();
+  return static_cast<Index>(
+      Eigen::SparseMatrix<double>::InnerIterator(free_unknowns, column).row());
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ void QuasiStaticSolid<D>::make_ports() {
                [this] { return external_work_; });
   for (const auto& [face, unknown] : plates_) {
     ports_.total({face + "_plate_displacement", "m"}, whole_solid,
-                 [this, unknown] { return unknowns_[unknown]; });
+                 [this, unknown = unknown] { return unknowns_[unknown]; });
   }
 }
 

@@ -64,7 +64,8 @@ class NestedFlow final : public GradientFlow<D, Law> {
     for (Index column = 0; column < D * points; ++column) {
       for (typename Eigen::SparseMatrix<double>::InnerIterator entry(flux_gradient, column); entry;
            ++entry) {
-        const Index block = entry.row() / points, i = entry.row() % points;
+        const auto row = static_cast<Index>(entry.row());
+        const Index block = row / points, i = row % points;
         if (block % (D + 1) == 0)
           triplets.emplace_back(i, column, family.volume[i] * entry.value());
       }

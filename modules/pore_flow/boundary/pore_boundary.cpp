@@ -33,7 +33,7 @@ void PoreBoundary<D>::source(Index point, double rate, Schedule schedule) {
 template <int D>
 FaceSet PoreBoundary<D>::faces_with(Condition condition, bool layered) const {
   FaceSet set = 0;
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (faces_[f].condition == condition && body_->layer(f).empty() != layered) set |= face_bit(f);
   }
   return set;
@@ -57,7 +57,7 @@ FaceSet PoreBoundary<D>::pressure_layers() const {
 template <int D>
 MirrorCondition<D, 1> PoreBoundary<D>::mirror_condition(const Family<D>& family) const {
   MirrorCondition<D, 1> mirror(family);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (contains(faces_with(Condition::pressure, false), f)) mirror.set_odd(f, 0);
   }
   return mirror;
@@ -68,7 +68,7 @@ std::vector<HeldPoint> PoreBoundary<D>::held_points(const MirrorCondition<D, 1>&
   constexpr int dry = -1, free = -2;
   std::vector<int> held(body_->points().size(), free);
   int face_value = mirror.face_value_count();
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     for (const Index i : body_->layer(f)) {
       if (contains(sealed_layers(), f)) held[i] = dry;
       if (contains(pressure_layers(), f) && held[i] == free) held[i] = face_value;
@@ -87,7 +87,7 @@ ScheduledVector PoreBoundary<D>::face_pressures(const MirrorCondition<D, 1>& mir
   const int count = mirror.face_value_count() + std::popcount(pressure_layers());
   int layer_value = mirror.face_value_count();
   ScheduledVector pressures(count);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     const int value = contains(pressure_layers(), f) ? layer_value++ : mirror.face_value(f, 0);
     if (value < 0) continue;
     pressures.add(faces_[f].schedule, faces_[f].value * Eigen::VectorXd::Unit(count, value));
@@ -116,7 +116,7 @@ template <int D>
 ScheduledVector PoreBoundary<D>::sources(const Eigen::SparseMatrix<double>& gradient) const {
   const Index points = body_->points().size();
   ScheduledVector rate(points);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (faces_[f].condition != Condition::flux) continue;
     const bool layered = !body_->layer(f).empty();
     rate.add(faces_[f].schedule,

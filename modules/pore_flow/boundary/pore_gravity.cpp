@@ -47,7 +47,7 @@ Eigen::VectorXd PoreGravity<D>::values(const MirrorCondition<D, 1>& mirror, Face
   int layer_value = mirror.face_value_count();
   Eigen::VectorXd result(points.size() + layer_value + std::popcount(layers));
   for (Index i = 0; i < points.size(); ++i) result[i] = at(points.at(i));
-  for (std::size_t f = 0; f < body_->faces().size(); ++f) {
+  for (int f = 0; f < std::ssize(body_->faces()); ++f) {
     const int value = contains(layers, f) ? layer_value++ : mirror.face_value(f, 0);
     if (value >= 0) result[points.size() + value] = at_face(f);
   }

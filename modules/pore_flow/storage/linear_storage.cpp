@@ -10,7 +10,7 @@ LinearStorage::LinearStorage(PoreMaterials materials) : PoreStorage(std::move(ma
 bool LinearStorage::set_dilatation(const DilatationInput& input) {
   dilatation_ = input;
   bool changed = false;
-  for (std::size_t i = 0; i < input.slope.size(); ++i) {
+  for (Index i = 0; i < std::ssize(input.slope); ++i) {
     const PoreMaterial& rock = materials().at(i);
     const double alpha = rock.biot_coefficient;
     const double storage = rock.storage + alpha * alpha * input.slope[i];

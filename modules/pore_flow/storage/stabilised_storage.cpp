@@ -74,7 +74,7 @@ StabilisedStorage<D>::StabilisedStorage(PoreMaterials materials,
 template <int D>
 bool StabilisedStorage<D>::set_dilatation(const DilatationInput& input) {
   if (!LinearStorage::set_dilatation(input)) return false;
-  for (std::size_t i = 0; i < input.slope.size(); ++i) {
+  for (Index i = 0; i < std::ssize(input.slope); ++i) {
     const double alpha = materials().at(i).biot_coefficient;
     answer_[i] = alpha * alpha * input.slope[i];
   }

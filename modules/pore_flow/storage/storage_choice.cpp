@@ -44,7 +44,7 @@ std::optional<NotCovered> not_covered(const Section& section, const Body<D>& bod
     return NotCovered{"operator 'nested' is for comparison as published",
                       "0, or operator conservative or bond"};
   }
-  for (std::size_t face = 0; face < body.faces().size(); ++face) {
+  for (int face = 0; face < std::ssize(body.faces()); ++face) {
     if (body.layer(face).empty()) continue;
     return NotCovered{fmt::format("a bonded layer behind face '{}'", body.faces()[face].name),
                       "0, or a body without layers"};

@@ -20,7 +20,7 @@ TaitStorage::TaitStorage(PoreMaterials materials, PoreFluid fluid)
 bool TaitStorage::set_dilatation(const DilatationInput& input) {
   dilatation_ = input;
   bool changed = false;
-  for (std::size_t i = 0; i < input.slope.size(); ++i) {
+  for (Index i = 0; i < std::ssize(input.slope); ++i) {
     const PoreMaterial& rock = materials().at(i);
     const double alpha = rock.biot_coefficient;
     const double answer = rock.grain_storage + alpha * alpha * input.slope[i];

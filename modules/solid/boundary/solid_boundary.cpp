@@ -70,7 +70,7 @@ void SolidBoundary<D>::gravity(double density, const Vector<D>& gravity) {
 template <int D>
 FaceSet SolidBoundary<D>::mirrored() const {
   FaceSet set = 0;
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (faces_[f].holds() && !has_layer(f)) set |= face_bit(f);
   }
   return set;
@@ -86,7 +86,7 @@ bool SolidBoundary<D>::holds(int face, int component) const {
 template <int D>
 MirrorCondition<D, D> SolidBoundary<D>::mirror_condition(const Family<D>& family) const {
   MirrorCondition<D, D> mirror(family);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     for (int a = 0; a < D && !has_layer(f); ++a) {
       if (holds(f, a)) mirror.set_odd(f, a);
     }
@@ -99,7 +99,7 @@ template <int D>
 std::vector<int> SolidBoundary<D>::layer_holders() const {
   const Index points = body_->points().size();
   std::vector<int> holders(D * points, -1);
-  const auto hold = [&](std::size_t f, int a) {
+  const auto hold = [&](int f, int a) {
     const auto& region = faces_[f].region;
     for (const Index i : body_->layer(f)) {
       if (region && !region->contains(body_->points().at(i))) continue;
@@ -108,7 +108,7 @@ std::vector<int> SolidBoundary<D>::layer_holders() const {
     }
   };
   for (const bool plates : {false, true}) {
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
+    for (int f = 0; f < std::ssize(faces_); ++f) {
       if (plates != (faces_[f].kind == Kind::rigid_plate)) continue;
       for (int a = 0; a < D; ++a) {
         if (holds(f, a)) hold(f, a);
@@ -137,10 +137,10 @@ std::vector<Index> SolidBoundary<D>::held(int face, int component,
 template <int D>
 auto SolidBoundary<D>::plates(const MirrorCondition<D, D>& mirror) const -> std::vector<Plate> {
   std::vector<Plate> plates;
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (faces_[f].kind == Kind::rigid_plate) plates.push_back({body_->faces()[f].name, 0});
   }
-  Index column = free_unknowns(mirror).cols() - plates.size();
+  Index column = static_cast<Index>(free_unknowns(mirror).cols() - std::ssize(plates));
   for (Plate& plate : plates) plate.column = column++;
   return plates;
 }
@@ -156,7 +156,7 @@ Eigen::SparseMatrix<double> SolidBoundary<D>::free_unknowns(
     const bool pinned = std::ranges::find(pinned_, u) != pinned_.end();
     if (holders[u] < 0 && !pinned) entries.emplace_back(u, column++, 1.0);
   }
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (faces_[f].kind != Kind::rigid_plate) continue;
     for (const Index u : held(f, body_->faces()[f].axis, mirror, holders)) {
       entries.emplace_back(u, column, 1.0);
@@ -173,7 +173,7 @@ ScheduledVector SolidBoundary<D>::prescribed(const MirrorCondition<D, D>& mirror
   const Index unknowns = D * body_->points().size() + mirror.face_value_count();
   const std::vector<int> holders = layer_holders();
   ScheduledVector sum(unknowns);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     const Condition& condition = faces_[f];
     if (!condition.prescribes()) continue;
     Eigen::VectorXd displacement = Eigen::VectorXd::Zero(unknowns);
@@ -259,7 +259,7 @@ ScheduledVector SolidBoundary<D>::loads(const MirrorCondition<D, D>& mirror,
     load.segment(a * points, points) = relief_[a] * cutout_load<D>(*body_, gradient, a);
   }
   if (relief_ != Vector<D>{}) sum.add({}, load);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces_); ++f) {
     if (faces_[f].loads()) sum.add(faces_[f].schedule, face_force(f, mirror, gradient));
   }
   return sum;

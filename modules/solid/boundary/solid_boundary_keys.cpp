@@ -162,7 +162,7 @@ void read_held_region(const Section& section, const Body<D>& body, const FaceCon
 void check_sphere_pressure(const Section& section, const FaceCondition& condition,
                            const std::vector<Face>& faces, FaceSet mirrored) {
   if (!faces[condition.face].curved() || condition.type != "pressure") return;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  for (int f = 0; f < std::ssize(faces); ++f) {
     if (faces[f].curved() || contains(mirrored, f)) continue;
     section.fail(condition.path, "pressure beside the free face '" + faces[f].name + "'",
                  "roller, fixed or rigid_plate on all plane faces of the ball");

@@ -48,7 +48,7 @@ CrackedBody<2>::Faces CrackFriction::faces(CrackedBody<2>& body, const Eigen::Ve
   follow(body);
   const std::vector<Vector<2>> apart = body.jumps_under(pressure);
   Eigen::VectorXd jump(2 * count);
-  for (Eigen::Index f = 0; f < count; ++f) {
+  for (Index f = 0; f < count; ++f) {
     jump[f] = apart[f][0];
     jump[count + f] = apart[f][1] + layer_[f] * body.relief(f)[1] - slip_[f];
   }
@@ -74,7 +74,7 @@ void CrackFriction::book(const CrackedBody<2>& body, const CrackedBody<2>::Faces
                          const Eigen::VectorXd& pressure) {
   limit_.resize(faces.slip.size(), 0.0);  // a new facet has borne nothing yet
   elastic_energy_ = 0.0;
-  for (std::size_t f = 0; f < faces.slip.size(); ++f) {
+  for (Index f = 0; f < std::ssize(faces.slip); ++f) {
     const double limit = coefficient_ * (faces.pressure[f] - pressure[f]);
     dissipation_ +=
         body.jumps()[f].area * 0.5 * (limit_[f] + limit) * std::abs(faces.slip[f] - slip_[f]);

@@ -34,7 +34,7 @@ void CrackFront::follow_facets() {
   for (std::size_t f = 0; f < cracked_.facets().size(); ++f) {
     const CrackFacet<3>& facet = cracked_.facets()[f];
     auto plane = std::ranges::find_if(
-        planes_, [&](const CrackPlane& plane) { return plane.cell_of(facet).has_value(); });
+        planes_, [&](const CrackPlane& known) { return known.cell_of(facet).has_value(); });
     if (plane == planes_.end()) plane = planes_.emplace(planes_.end(), facet, is_in_body);
     plane->add(facet, static_cast<Index>(f));
   }

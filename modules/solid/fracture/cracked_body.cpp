@@ -15,7 +15,7 @@ namespace perifrac {
 
 namespace {
 
-double dot(const std::vector<std::pair<int, double>>& mode, const Eigen::VectorXd& x) {
+double along(const std::vector<std::pair<int, double>>& mode, const Eigen::VectorXd& x) {
   double sum = 0.0;
   for (const auto& [place, coefficient] : mode) sum += coefficient * x[place];
   return sum;
@@ -258,7 +258,7 @@ void CrackedBody<D>::find_opening() {
   const auto count = static_cast<Eigen::Index>(modes_.size());
   const Eigen::VectorXd x = loaded_ + inverse_->block() * block_force(Eigen::VectorXd::Zero(count));
   opening_.resize(count);
-  for (Eigen::Index f = 0; f < count; ++f) opening_[f] = dot(modes_[f][0], x);
+  for (Eigen::Index f = 0; f < count; ++f) opening_[f] = along(modes_[f][0], x);
 }
 
 template <int D>
@@ -356,7 +356,7 @@ std::vector<Vector<D>> CrackedBody<D>::jumps_under(const Eigen::VectorXd& pressu
   std::vector<Vector<D>> jumps;
   for (const Mode& mode : modes_) {
     Vector<D>& jump = jumps.emplace_back();
-    for (int k = 0; k < D; ++k) jump[k] = dot(mode[k], block);
+    for (int k = 0; k < D; ++k) jump[k] = along(mode[k], block);
   }
   return jumps;
 }
@@ -373,7 +373,7 @@ typename CrackedBody<D>::Energies CrackedBody<D>::energies(const Eigen::VectorXd
   for (std::size_t f = 0; f < modes_.size(); ++f) {
     const Vector<D> load = this->relief(static_cast<Index>(f));
     double sum = 0.0;
-    for (int k = 0; k < D; ++k) sum += load[k] * dot(modes_[f][k], block);
+    for (int k = 0; k < D; ++k) sum += load[k] * along(modes_[f][k], block);
     energies.relief += jumps_[f].area * sum;
   }
   return energies;

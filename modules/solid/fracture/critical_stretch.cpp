@@ -125,7 +125,7 @@ double CriticalStretch<D>::left_to_limit(Index i, std::span<const double> u) con
       square += xi * xi;
     }
     const double left = (most * square - now) / std::sqrt(square);
-    const double counted = (j > i) & (weight[bond] != 0.0) ? left : whole;
+    const double counted = ((j > i) & (weight[bond] != 0.0)) ? left : whole;
     least = counted < least ? counted : least;
   }
   return least / (2.0 * (1.0 + limit_));

@@ -87,7 +87,8 @@ void add_rigid_motions(const Family<D>& family, std::span<const Index> points, I
   const Index n = family.point_count;
   Vector<D> mean{};
   for (int a = 0; a < D; ++a) {
-    for (const Index i : points) mean[a] += family.position[a][i] / std::ssize(points);
+    for (const Index i : points)
+      mean[a] += family.position[a][i] / static_cast<double>(points.size());
   }
   const auto add = [&](auto&& move) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(free_unknowns.rows());

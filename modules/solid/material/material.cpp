@@ -86,9 +86,9 @@ std::unique_ptr<BreakableElasticity<D>> make_linear_exact(std::shared_ptr<const 
                                                           LawByRegion<IsotropicElasticity<D>> law,
                                                           std::optional<Vector<D>> initial_stress,
                                                           bool turns) {
-  const auto make = [&](auto law) -> std::unique_ptr<BreakableElasticity<D>> {
-    using Law = decltype(law);
-    LinearExactOperator<D, Law> op(family, mirror, std::move(law));
+  const auto make = [&](auto any_law) -> std::unique_ptr<BreakableElasticity<D>> {
+    using Law = decltype(any_law);
+    LinearExactOperator<D, Law> op(family, mirror, std::move(any_law));
     if (turns) return std::make_unique<CorotationalElasticity<D, Law>>(std::move(op));
     return std::make_unique<LinearExactElasticity<D, Law>>(std::move(op), initial_stress);
   };

@@ -47,7 +47,8 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
     if (moved_.owner(k) == LumpedMass::plate_alone) plates_.add(k);
   }
   for (const auto& plate : boundary.plates(mirror)) {
-    plate_unknowns_.push_back(Eigen::SparseMatrix<double>::InnerIterator(free, plate.column).row());
+    plate_unknowns_.push_back(
+        static_cast<Index>(Eigen::SparseMatrix<double>::InnerIterator(free, plate.column).row()));
   }
   prescribed_.at(0.0, prescribed_now_);
   prescribes_ = !prescribed_.is_constant() || !prescribed_now_.isZero(0.0);

@@ -29,10 +29,10 @@ class LumpedMass {
         continue;
       }
       const Index y = static_cast<Index>(mass_.size());
-      first_moved_.push_back(unknown.row());
+      first_moved_.push_back(static_cast<Index>(unknown.row()));
       mass_.push_back(0.0);
       for (; unknown; ++unknown) {
-        const Index k = unknown.row();
+        const auto k = static_cast<Index>(unknown.row());
         owner_[k] = y;
         mass_[y] += mass_of(k);
         if (k != first_moved_[y]) also_moved_.emplace_back(y, k);
