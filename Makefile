@@ -17,7 +17,7 @@ help:
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 15 minutes)'
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
-	@echo 'make scenes     errors that all shipped scenes reach: docs/scenes.md (some half an hour, 5 GB)'
+	@echo 'make scenes     errors that all shipped scenes reach: docs/scenes.md (some twenty minutes, 5 GB)'
 	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
 	@echo 'make study-quick  error against wall time of explicit and implicit pore flow'
 	@echo 'make study  every study of configs/studies; writes the pictures of docs/studies.md anew'
