@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style tidy docs paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style tidy docs scenes paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -17,6 +17,7 @@ help:
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 15 minutes)'
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
+	@echo 'make scenes     errors that all shipped scenes reach: docs/scenes.md (some twenty minutes, 5 GB)'
 	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
 	@echo 'make study-quick  error against wall time of explicit and implicit pore flow'
 	@echo 'make study  every study of configs/studies; writes the pictures of docs/studies.md anew'
@@ -68,6 +69,10 @@ paper: perifrac
 
 docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md
+
+# Goes on where it was stopped, as studies do.
+scenes: perifrac
+	@/usr/bin/python3 docs/collect_scenes.py $(PERIFRAC) $(FRESH)
 
 # Studies go on where they were stopped. FRESH=--fresh runs everything again, as on another machine.
 study-quick: perifrac

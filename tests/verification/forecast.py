@@ -48,7 +48,9 @@ HEADER = ("| scene | foretold [s] | taken [s] | ratio | most in | windows | memo
 
 
 def page(lines):
-    return f"""# What `perifrac check` foretells
+    return f"""# Run times, foretold and taken
+
+How long the shipped scenes take and how much memory, and how well `perifrac check` foretells it.
 
 `perifrac check SCENE` runs the first windows of a scene for four seconds of processor time (`--trial SECONDS`; 0: not at all), or for twelve, where cracks that are to grow have not done so ten times yet or a tenth of the way is done, and says what the whole run takes. A window costs a module what it did on average in the latter half of the trial or, where the module has a stable step of its own, what a step did; a facet that a crack gains costs what it did and half a window more, and how many are to come is known from the [regime](fracture.md#regime) of the crack where the body is as good as infinite, elsewhere from a run of the same scene on points two to five times as far apart, which takes seconds at most. Why so: [decision 15](decisions/0015-run-times-are-tried.md).
 

@@ -6,7 +6,7 @@
 namespace perifrac {
 
 /// Fluid in the pores. Linear: its compressibility counts as storage and its density is constant.
-/// Tait (paper Eq 16): p = K_f / gamma [(rho / rho_0)^gamma - 1].
+/// Tait (the paper's section 2.2): p = K_f / gamma [(rho / rho_0)^gamma - 1].
 struct PoreFluid {
   double bulk_modulus;         ///< K_f, at zero pressure [Pa]
   double viscosity;            ///< [Pa s]

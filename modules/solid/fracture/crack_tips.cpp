@@ -12,7 +12,7 @@ namespace {
 
 /// A tip waits at the beginning of a facet that it would cross evenly meanwhile: what viscosity
 /// asks for is taken further on. Chosen between 0.1 and 0.38, the middle of the facet, by
-/// docs/decisions/0012-cracks-are-facets.md.
+/// docs/fracture.md.
 constexpr double viscous_offset = 0.25;
 
 /// Of what it takes: below this the opening says for certain that J is not enough.
