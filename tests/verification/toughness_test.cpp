@@ -130,9 +130,9 @@ double wander(Rock rock, const Loading& loading, double angle, int half_length, 
     const double turn =
         exact.with(centre, angle, half_length + 0.5 * step, loading, [&](const auto& crack) {
           const Eigen::VectorXd u = plate.solve(crack);
-          return kink_angle(
+          return kink_angle(modes_of(
               EnergyRelease(*plate.cracked, 1.0)
-                  .at(tip, {u.data(), static_cast<std::size_t>(u.size())}, plate.pressure));
+                  .at(tip, {u.data(), static_cast<std::size_t>(u.size())}, plate.pressure)));
         });
     const double c = std::cos(turn), s = std::sin(turn);
     tip.direction = {c * tip.direction[0] - s * tip.direction[1],

@@ -23,6 +23,9 @@ constexpr double worth_asking = 0.9;
 /// tips go on, within `near` of the criterion.
 constexpr double guess_error = 1.5, telling_change = 0.15, near = 0.005;
 
+/// Beyond this a crack has turned so far that even loads say nothing of its tip [rad].
+constexpr double bent = 0.35;
+
 /// A turn below this is rounding [rad].
 constexpr double straight = 1e-6;
 
@@ -55,10 +58,10 @@ void CrackTips::take_ends(std::span<const CrackFacet<2>> facets, std::size_t fir
       if (joined) continue;
       const double sign = end == 1 ? 1.0 : -1.0;
       const Vector<2>& along = cracked_.jumps()[f].tangents[0];
-      Tip tip{{place, sign * along, static_cast<Index>(f), before},
-              t,
-              true,
-              body_.nearest_point(place)};
+      Tip tip{.at = {place, sign * along, static_cast<Index>(f), before},
+              .since = t,
+              .grows = true,
+              .nearest = body_.nearest_point(place)};
       tip.grows = cracked_.is_intact_along(next_facet(tip.at, 0.0));
       if (tip.grows) tips_.push_back(tip);
     }
@@ -76,17 +79,26 @@ double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
   return fracture_energy_.at(middle<2>(facet));
 }
 
-double CrackTips::readiness(Tip& tip, const CrackState<2>& state) const {
+double CrackTips::readiness(Tip& tip, const CrackState<2>& state,
+                            std::span<const Vector<2>> jumps) const {
+  if (is_followed(tip, state) && tip.even.opening == 0.0) ask_even_loads(tip);
   // A step of a whole facet under fluid of fixed volume takes the energy release down on its way:
   // what counts is the mean of its beginning and end.
   const double needed =
       state.has_fluid() ? 2.0 / (1.0 + tip.intensity_ratio * tip.intensity_ratio) : 1.0;
   const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(),
                        needed * energy_to_cut(next_facet(tip.at, 0.0))};
-  const bool is_followed =
-      state.has_fluid() && tip.at.before != no_facet && state.viscosity[tip.at.facet] > 0.0;
-  if (!is_followed) return dry_readiness(tip, tip_law, state, 0.0);
-  return std::max(followed_readiness(tip, tip_law, state), lagging_readiness(tip, tip_law, state));
+  if (!is_followed(tip, state)) {
+    tip.modes.reset();
+    return dry_readiness(tip, tip_law, state, 0.0);
+  }
+  tip.modes = followed_modes(tip, tip_law, state, jumps);
+  return std::max(kink_intensity(*tip.modes), lagging_readiness(tip, tip_law, state));
+}
+
+/// Viscous fluid is at the tip.
+bool CrackTips::is_followed(const Tip& tip, const CrackState<2>& state) const {
+  return state.has_fluid() && tip.at.before != no_facet && state.viscosity[tip.at.facet] > 0.0;
 }
 
 /// From K_I, without what fluid does beyond its pressure. J asks for the displacements, which are
@@ -106,21 +118,65 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
                          state.pressure, state.pore_stress, state.inertia, state.shear);
   // A tip that is closed may go on where its faces slide under friction.
   const bool opens = (load.opening > 0.0 || !state.shear.empty()) && load.energy_release > 0.0;
-  tip.asked = opens ? std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
+  const TipModes modes = modes_of(load);
+  const double straight_on = std::hypot(modes.opening, modes.sliding);
+  const double turned = straight_on > 0.0 ? kink_intensity(modes) / straight_on : 1.0;
+  tip.asked = opens ? turned * std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
   tip.asked_opening = opens ? opening : 0.0;
   return tip.asked;
 }
 
-/// From the opening at the last facet but one, for fluid that stays up with the tip.
-double CrackTips::followed_readiness(const Tip& tip, const TipLaw& tip_law,
-                                     const CrackState<2>& state) const {
+/// For fluid that stays up with the tip: K_I from the opening at the last facet but one, K_II from
+/// how far the faces behind the tip slide, which viscosity has no part in.
+TipModes CrackTips::followed_modes(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
+                                   std::span<const Vector<2>> jumps) const {
   const CrackTip& at = tip.at;
   const double speed = body_.spacing() / std::max(state.t - tip.since, 1e-300);
   const TipFluid fluid{state.viscosity[at.facet],
                        state.leak_off.empty() ? 0.0 : state.leak_off[at.facet]};
   const double s = behind(at);
-  return (state.opening[at.before] - opening_by_layers(at, s, tip_law)) /
-         tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
+  const double opening =
+      (state.opening[at.before] / tip.even.opening - opening_by_layers(at, s, tip_law)) /
+      tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
+  const TipJump jump = energy_release_.jump(at, jumps);
+  return {opening, jump.sliding / (tip.even.sliding * dry_jump(tip, jump, tip_law))};
+}
+
+/// What faces do under an even pressure and an even shear, beside what K_I and K_II of that J do by
+/// the law: how the crack runs across the lattice, which bonds its last facets cut and where its
+/// other end is says itself there.
+void CrackTips::ask_even_loads(Tip& tip) const {
+  tip.even = {1.0, 1.0, 0.0};
+  if (!energy_release_.is_straight(tip.at, bent)) return;
+  const std::vector<Index> named = energy_release_.looks_at(tip.at);
+  std::vector<double> unknowns(cracked_.elastic().size(), 0.0);
+  const auto under = [&](const Vector<2>& traction) -> std::optional<TipLoad> {
+    if (!cracked_.find_answer(traction, named, unknowns)) return {};
+    return energy_release_.under(tip.at, unknowns, traction);
+  };
+  // Of any toughness: what is asked are ratios.
+  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(), 1.0};
+  const auto intensity = [&](const TipLoad& load) {
+    return std::sqrt(std::max(0.0, load.energy_release));
+  };
+  const auto pressed = under({1.0, 0.0});
+  if (!pressed) return;
+  const double opened = cracked_.jump(tip.at.before, unknowns)[0];
+  const auto sheared = under({0.0, 1.0});
+  tip.even.intensity = intensity(*pressed) / cracked_.volume_under_even_pressure();
+  if (tip.intensity_before > 0.0) {
+    tip.intensity_ratio = std::min(1.0, tip.even.intensity / tip.intensity_before);
+  }
+  const double dry = tip_law.opening(within_crack(tip, behind(tip.at)), 0.0, {}, 1.0);
+  tip.even.opening = opened / (dry * intensity(*pressed));
+  tip.even.sliding =
+      std::abs(sheared->sliding) / (dry_jump(tip, *sheared, tip_law) * intensity(*sheared));
+}
+
+/// What the law says where the mean jump behind a tip is taken, at its toughness [m].
+double CrackTips::dry_jump(const Tip& tip, const TipJump& jump, const TipLaw& tip_law) const {
+  const double s = jump.root_of_distance * jump.root_of_distance;
+  return tip_law.opening(within_crack(tip, s), 0.0, {}, 1.0);
 }
 
 /// Fluid holds a tip back by the pressure that it loses on its way there, and it cannot lose more
@@ -179,10 +235,17 @@ double CrackTips::within_crack(const Tip& tip, double s) const {
 }
 
 double CrackTips::find_readiness(const CrackState<2>& state) {
+  const auto may_go = [&](const Tip& tip) {
+    return tip.grows && state.t >= tip.since + state.pause;
+  };
+  std::vector<Vector<2>> jumps;
+  if (std::ranges::any_of(tips_,
+                          [&](const Tip& tip) { return may_go(tip) && is_followed(tip, state); })) {
+    jumps = state.jumps();
+  }
   double most = 0.0;
   for (Tip& tip : tips_) {
-    const bool may_go = tip.grows && state.t >= tip.since + state.pause;
-    tip.readiness = may_go ? readiness(tip, state) : 0.0;
+    tip.readiness = may_go(tip) ? readiness(tip, state, jumps) : 0.0;
     most = std::max(most, tip.readiness);
   }
   return most;
@@ -191,19 +254,19 @@ double CrackTips::find_readiness(const CrackState<2>& state) {
 double CrackTips::grow(const CrackState<2>& state) {
   // Where to is asked before the first facet makes the displacements old.
   const std::vector<Vector<2>> jumps = state.jumps();
+  const auto goes_on = [](const Tip& tip) { return tip.grows && tip.readiness >= ready; };
   std::vector<double> turns;
   for (const Tip& tip : tips_) {
     double turn = 0.0;
-    if (tip.grows && tip.readiness >= ready) {
-      turn = kink_angle(energy_release_.jump(tip.at, jumps));
+    if (goes_on(tip)) {
+      turn = kink_angle(tip.modes ? *tip.modes : modes_of(energy_release_.jump(tip.at, jumps)));
     }
     turns.push_back(std::abs(turn) < straight ? 0.0 : turn);
   }
   double energy = 0.0;
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     Tip& tip = tips_[k];
-    const bool goes_on = tip.grows && tip.readiness >= ready;
-    tip.spent = goes_on ? advance(tip, turns[k], state.t) : 0.0;
+    tip.spent = goes_on(tip) ? advance(tip, turns[k], state.t) : 0.0;
     tip.released = tip.readiness * tip.readiness * tip.spent;
     energy += tip.spent;
   }
@@ -236,9 +299,13 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
             tip.at.facet};
   tip.since = t;
   tip.asked = tip.asked_opening = 0.0;
+  tip.intensity_before = tip.even.intensity;
+  tip.even = {};
   tip.nearest = body_.nearest_point(tip.at.place);
-  tip.intensity_ratio =
-      known ? std::min(1.0, cracked_.intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
+  if (std::abs(turn) < bent) {
+    tip.intensity_ratio =
+        known ? std::min(1.0, cracked_.intensity_at_fixed_volume(tip.at.before) / before) : 1.0;
+  }
   tip.grows = !joined && cracked_.is_intact_along(next_facet(tip.at, 0.0));
   return jump.area * energy_to_cut(facet);
 }
@@ -274,7 +341,11 @@ void CrackTips::visit_state(StateVisitor& visitor) {
       FieldOfEach("grows", [](Tip& tip) -> bool& { return tip.grows; }),
       FieldOfEach("intensity_ratio", [](Tip& tip) -> double& { return tip.intensity_ratio; }),
       FieldOfEach("asked", [](Tip& tip) -> double& { return tip.asked; }),
-      FieldOfEach("asked_opening", [](Tip& tip) -> double& { return tip.asked_opening; }));
+      FieldOfEach("asked_opening", [](Tip& tip) -> double& { return tip.asked_opening; }),
+      FieldOfEach("intensity_before", [](Tip& tip) -> double& { return tip.intensity_before; }),
+      FieldOfEach("even_opening", [](Tip& tip) -> double& { return tip.even.opening; }),
+      FieldOfEach("even_sliding", [](Tip& tip) -> double& { return tip.even.sliding; }),
+      FieldOfEach("even_intensity", [](Tip& tip) -> double& { return tip.even.intensity; }));
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     Tip& tip = tips_[k];
     const bool is_known = k < before.size() && before[k].at.place == tip.at.place;

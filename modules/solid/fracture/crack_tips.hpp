@@ -39,6 +39,11 @@ class CrackTips {
   void visit_state(StateVisitor& visitor);
 
  private:
+  /// How the faces behind a tip open and slide under even loads, over the law of what K_I and K_II
+  /// there are then; 0: not asked yet. And K_I at fixed volume, up to a factor that stays.
+  struct EvenLoads {
+    double opening = 0.0, sliding = 0.0, intensity = 0.0;
+  };
   struct Tip {
     CrackTip at{};
     double since = 0.0;  ///< when it came there [s]
@@ -49,18 +54,24 @@ class CrackTips {
     /// What J said last, in the same unit, and the opening of the last facet then [m].
     double asked = 0.0, asked_opening = 0.0;
     double readiness = 0.0;
+    std::optional<TipModes> modes = {};  ///< of a tip that fluid follows, over the toughness
+    EvenLoads even = {};
+    double intensity_before = 0.0;  ///< as even.intensity, before the last step; 0: not known
     /// The last facet's energy, 0 if it is not of the last growth, and what J would have made of it
     /// at its beginning [J/m].
     double spent = 0.0, released = 0.0;
   };
 
   double energy_to_cut(const CrackFacet<2>& facet) const;
-  double readiness(Tip& tip, const CrackState<2>& state) const;
+  bool is_followed(const Tip& tip, const CrackState<2>& state) const;
+  double readiness(Tip& tip, const CrackState<2>& state, std::span<const Vector<2>> jumps) const;
   double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                        double lost) const;
-  double followed_readiness(const Tip& tip, const TipLaw& tip_law,
-                            const CrackState<2>& state) const;
+  TipModes followed_modes(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
+                          std::span<const Vector<2>> jumps) const;
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
+  double dry_jump(const Tip& tip, const TipJump& jump, const TipLaw& tip_law) const;
+  void ask_even_loads(Tip& tip) const;
   double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
   double behind(const CrackTip& at) const;
   double within_crack(const Tip& tip, double s) const;

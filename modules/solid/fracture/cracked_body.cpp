@@ -279,10 +279,46 @@ typename CrackedBody<D>::Faces CrackedBody<D>::faces(const Eigen::VectorXd& pres
 /// changes as it does K_I.
 template <int D>
 double CrackedBody<D>::intensity_at_fixed_volume(Index facet) const {
+  return compliance_.row(facet).sum() / volume_under_even_pressure();
+}
+
+template <int D>
+double CrackedBody<D>::volume_under_even_pressure() const {
   const Eigen::VectorXd opening = compliance_.rowwise().sum();
   double volume = 0.0;
   for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].area * opening[f];
-  return opening[facet] / volume;
+  return volume;
+}
+
+template <int D>
+bool CrackedBody<D>::find_answer(const Vector<D>& traction, std::span<const Index> named,
+                                 std::span<double> all) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
+    for (int k = 0; k < D; ++k) {
+      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * traction[k] * c;
+    }
+  }
+  const Eigen::VectorXd moved = solve_named(force, inverse_->block() * force, named);
+  Eigen::Index next = 0;
+  for (const Index unknown : named) {
+    const auto [free, by] = free_of_[unknown];
+    all[unknown] = free < 0 ? 0.0 : by * moved[next++];
+  }
+  return true;
+}
+
+template <int D>
+Eigen::VectorXd CrackedBody<D>::solve_named(const Eigen::VectorXd& force,
+                                            const Eigen::VectorXd& block,
+                                            std::span<const Index> named) const {
+  std::vector<int> wanted;
+  for (const Index unknown : named) {
+    if (free_of_[unknown].first >= 0) wanted.push_back(free_of_[unknown].first);
+  }
+  Eigen::VectorXd moved(std::ssize(wanted));
+  factor_.solve_part(inverse_->unknowns(), block_force_on_first_body(force, block), wanted, moved);
+  return moved;
 }
 
 template <int D>
@@ -336,12 +372,7 @@ void CrackedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<co
                                    std::span<double> all, std::span<const double> shear) const {
   const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
-  std::vector<int> wanted;
-  for (const Index unknown : named) {
-    if (free_of_[unknown].first >= 0) wanted.push_back(free_of_[unknown].first);
-  }
-  Eigen::VectorXd moved(std::ssize(wanted));
-  factor_.solve_part(inverse_->unknowns(), block_force_on_first_body(force, block), wanted, moved);
+  const Eigen::VectorXd moved = solve_named(force, block, named);
   Eigen::Index next = 0;
   for (const Index unknown : named) {
     const auto [free, by] = free_of_[unknown];

@@ -61,6 +61,9 @@ class CrackedBody final : public CutBody<D> {
   /// Mean jumps along one axis of the facets' frames (0: normal) by tractions along another [m/Pa].
   Eigen::MatrixXd compliance(int jump, int traction) const;
   double intensity_at_fixed_volume(Index facet) const override;
+  double volume_under_even_pressure() const override;
+  bool find_answer(const Vector<D>& traction, std::span<const Index> named,
+                   std::span<double> all) const override;
 
   // Of a pressure on the faces and, unless it is empty, a shear along their (first) tangent:
 
@@ -118,6 +121,8 @@ class CrackedBody final : public CutBody<D> {
                       bool relief = true) const;
   Eigen::VectorXd block_force(const Eigen::VectorXd& pressure,
                               std::span<const double> shear = {}) const;
+  Eigen::VectorXd solve_named(const Eigen::VectorXd& force, const Eigen::VectorXd& block,
+                              std::span<const Index> named) const;
   Eigen::VectorXd block_force_on_first_body(const Eigen::VectorXd& force,
                                             const Eigen::VectorXd& block) const;
   Eigen::VectorXd force_on_first_body(const Eigen::VectorXd& force,

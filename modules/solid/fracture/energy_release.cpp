@@ -77,11 +77,28 @@ EnergyRelease::EnergyRelease(CutBody<2>& body, double spacing)
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
                           const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
                           const PointInertia<2>& inertia, std::span<const double> shear) const {
+  const std::vector<Vector<2>> jumps = jumps_in(unknowns);
+  const auto load = [&](Index f) -> Vector<2> {
+    const Vector<2> relief = body_.relief(f);
+    return {pressure[f] + relief[0], shear.empty() ? relief[1] : relief[1] + shear[f]};
+  };
+  return {jump(tip, jumps),
+          of_points(tip, unknowns, pore_stress, inertia) + of_faces(tip, jumps, load)};
+}
+
+TipLoad EnergyRelease::under(const CrackTip& tip, std::span<const double> unknowns,
+                             const Vector<2>& traction) const {
+  const std::vector<Vector<2>> jumps = jumps_in(unknowns);
+  return {jump(tip, jumps),
+          of_points(tip, unknowns, {}, {}) + of_faces(tip, jumps, [&](Index) { return traction; })};
+}
+
+std::vector<Vector<2>> EnergyRelease::jumps_in(std::span<const double> unknowns) const {
   std::vector<Vector<2>> jumps;
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
   }
-  return {jump(tip, jumps), domain_integral(tip, unknowns, pressure, pore_stress, inertia, shear)};
+  return jumps;
 }
 
 /// Near a boundary the ring is drawn in, so as to lie within the body [m].
@@ -125,6 +142,17 @@ std::vector<Index> EnergyRelease::looks_at(const CrackTip& tip) const {
   return unknowns;
 }
 
+bool EnergyRelease::is_straight(const CrackTip& tip, double angle) const {
+  const Cutoff ring{tip.place, spacing_, radius(tip)};
+  for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
+    const CrackFacet<2>& facet = body_.facets()[f];
+    if (!ring.reaches(facet[0]) && !ring.reaches(facet[1])) continue;
+    if (std::abs(cross(body_.jumps()[f].tangents[0], tip.direction)) > std::sin(angle))
+      return false;
+  }
+  return true;
+}
+
 TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
   TipJump mean{0.0, 0.0};
   int count = 0;
@@ -141,11 +169,13 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
     const double sign = cross(tip.direction, face.normal) > 0.0 ? 1.0 : -1.0;
     mean.opening += sign * cross(tip.direction, d);
     mean.sliding += sign * dot(tip.direction, d);
+    mean.root_of_distance += std::sqrt(behind);
     ++count;
   }
   if (count > 0) {
     mean.opening /= count;
     mean.sliding /= count;
+    mean.root_of_distance /= count;
   }
   return mean;
 }
@@ -166,11 +196,9 @@ Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
   return sum / count;
 }
 
-double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const double> unknowns,
-                                      const Eigen::VectorXd& pressure,
-                                      std::span<const double> pore_stress,
-                                      const PointInertia<2>& inertia,
-                                      std::span<const double> shear) const {
+double EnergyRelease::of_points(const CrackTip& tip, std::span<const double> unknowns,
+                                std::span<const double> pore_stress,
+                                const PointInertia<2>& inertia) const {
   const Family<2>& family = body_.family();
   const Cutoff cutoff{tip.place, spacing_, radius(tip)};
   const DeformedMaterial<2> deformed = body_.elastic().deform(unknowns);
@@ -192,32 +220,42 @@ double EnergyRelease::domain_integral(const CrackTip& tip, std::span<const doubl
     sum +=
         family.volume[i] * dot(grad_u * d, stress * grad_q) - deformed.energy(i) * dot(d, grad_q);
   }
-  std::vector<Vector<2>> jumps;
-  for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
-    jumps.push_back(body_.jump(static_cast<Index>(f), unknowns));
-  }
+  return sum;
+}
+
+/// `load`: what a facet's faces carry along its normal and tangent [Pa].
+double EnergyRelease::of_faces(const CrackTip& tip, std::span<const Vector<2>> jumps,
+                               const std::function<Vector<2>(Index)>& load) const {
+  const Cutoff cutoff{tip.place, spacing_, radius(tip)};
+  double sum = 0.0;
   for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
     const std::array q = {cutoff.at(facet[0]), cutoff.at(facet[1])};
     if (q[0] == 0.0 && q[1] == 0.0) continue;
-    const double ahead = dot(body_.jumps()[f].tangents[0], d);
-    const Vector<2> relief = body_.relief(static_cast<Index>(f));
-    const Vector<2> load = {pressure[f] + relief[0],
-                            shear.empty() ? relief[1] : relief[1] + shear[f]};
+    const double ahead = dot(body_.jumps()[f].tangents[0], tip.direction);
     const Vector<2> begin = jump_at(facet[0], tip, jumps) - jumps[f];
     const Vector<2> end = jump_at(facet[1], tip, jumps) - jumps[f];
-    sum += ahead * dot(load, q[0] * begin - q[1] * end);
+    sum += ahead * dot(load(static_cast<Index>(f)), q[0] * begin - q[1] * end);
   }
   return sum;
 }
 
-double kink_angle(const TipJump& jump) {
-  if (jump.sliding == 0.0) return 0.0;
-  if (!(jump.opening > 0.0)) return jump.sliding > 0.0 ? -largest_kink : largest_kink;
-  const double ratio = mode_ratio * jump.sliding / jump.opening;
+TipModes modes_of(const TipJump& jump) {
+  return {std::max(0.0, jump.opening), mode_ratio * jump.sliding};
+}
+
+double kink_angle(const TipModes& modes) {
+  if (modes.sliding == 0.0) return 0.0;
+  if (!(modes.opening > 0.0)) return modes.sliding > 0.0 ? -largest_kink : largest_kink;
+  const double ratio = modes.sliding / modes.opening;
   const double angle =
       2.0 * std::atan((1.0 - std::sqrt(1.0 + 8.0 * ratio * ratio)) / (4.0 * ratio));
   return std::clamp(angle, -largest_kink, largest_kink);
+}
+
+double kink_intensity(const TipModes& modes) {
+  const double half = 0.5 * kink_angle(modes), c = std::cos(half);
+  return c * c * (c * std::max(0.0, modes.opening) - 3.0 * std::sin(half) * modes.sliding);
 }
 
 }  // namespace perifrac

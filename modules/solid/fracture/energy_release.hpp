@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,10 +19,17 @@ struct CrackTip {
   Index before;         ///< the one behind that; no_facet: none
 };
 
-/// Mean jumps of the faces one to three spacings behind a tip, in its frame.
+/// Mean jumps of the faces one to four spacings behind a tip, in its frame.
 struct TipJump {
-  double opening;  ///< [m]
-  double sliding;  ///< positive turns the crack to its right [m]
+  double opening;                 ///< [m]
+  double sliding;                 ///< positive turns the crack to its right [m]
+  double root_of_distance = 0.0;  ///< from the tip, the mean of its root [m^0.5]
+};
+
+/// Stress intensities of the modes at a tip, in a common unit.
+struct TipModes {
+  double opening;  ///< K_I
+  double sliding;  ///< K_II, positive turns the crack to its right
 };
 
 /// What a crack has at a tip, per length of its front.
@@ -52,6 +60,12 @@ class EnergyRelease {
   TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
              std::span<const double> pore_stress = {}, const PointInertia<2>& inertia = {},
              std::span<const double> shear = {}) const;
+  /// Of the same traction on all faces, along normal and tangent [Pa], and nothing else.
+  TipLoad under(const CrackTip& tip, std::span<const double> unknowns,
+                const Vector<2>& traction) const;
+  /// The cracks near the tip run as it does, within `angle` [rad]: else J, which is of a straight
+  /// crack, is not quite that of its tip.
+  bool is_straight(const CrackTip& tip, double angle) const;
   /// The unknowns that at() depends on, but for `inertia`.
   std::vector<Index> looks_at(const CrackTip& tip) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
@@ -62,17 +76,26 @@ class EnergyRelease {
   std::vector<Index> points_around(const Vector<2>& centre, double radius) const;
   Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
                     std::span<const Vector<2>> jumps) const;
-  double domain_integral(const CrackTip& tip, std::span<const double> unknowns,
-                         const Eigen::VectorXd& pressure, std::span<const double> pore_stress,
-                         const PointInertia<2>& inertia, std::span<const double> shear) const;
+  std::vector<Vector<2>> jumps_in(std::span<const double> unknowns) const;
+  double of_points(const CrackTip& tip, std::span<const double> unknowns,
+                   std::span<const double> pore_stress, const PointInertia<2>& inertia) const;
+  double of_faces(const CrackTip& tip, std::span<const Vector<2>> jumps,
+                  const std::function<Vector<2>(Index)>& load) const;
 
   CutBody<2>& body_;
   double spacing_;
   std::vector<Index> by_x_;  ///< points
 };
 
+/// As far as their ratio goes: of a tip on a lattice, whose faces slide further than they open.
+TipModes modes_of(const TipJump& jump);
+
 /// The angle by which a crack turns, to the left positive, in the direction of largest hoop stress
-/// (Erdogan & Sih 1963) for K_II / K_I from the jumps near the tip; at most 70 degrees.
-double kink_angle(const TipJump& jump);
+/// (Erdogan & Sih 1963); at most 70 degrees.
+double kink_angle(const TipModes& modes);
+
+/// K_I of the crack that has turned so, in the unit of the modes: the intensity of the hoop stress
+/// there. It is what toughness is compared with; a closed tip has no K_I.
+double kink_intensity(const TipModes& modes);
 
 }  // namespace perifrac
