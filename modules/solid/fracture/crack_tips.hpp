@@ -58,6 +58,7 @@ class CrackTips {
   double readiness(Tip& tip, const CrackState<2>& state) const;
   double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                        double lost) const;
+  bool is_closed(const CrackTip& at, const CrackState<2>& state) const;
   double followed_readiness(const Tip& tip, const TipLaw& tip_law,
                             const CrackState<2>& state) const;
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
