@@ -106,6 +106,20 @@ class ShippedFracture(unittest.TestCase):
         self.assertAlmostEqual(run.last("inlet_notch_pressure"), 1.538e6, delta=0.04e6)
         self.assertGreater(run.last("inlet_notch_pressure"), 1.5e6)  # the stress that closes both
 
+    def test_two_fractures(self):
+        """The natural fracture stops the upper one, stays closed and dry, and as long as it was."""
+        run = self.run_scene("two_fractures", {}, 1.6e-3)
+        self.assertAlmostEqual(run.last("crack_length"), 194.0, delta=8.1)  # two steps
+        natural = run.last("crack_length") - run.last("wetted_length")
+        self.assertAlmostEqual(natural, (20**2 + 36**2) ** 0.5, delta=0.05)
+        for inlet, net in (("lower", 0.316e6), ("upper", 0.352e6)):
+            pressure = [row[f"inlet_{inlet}_pressure"] - 40e6 for row in run.rows]
+            self.assertAlmostEqual(pressure[-1], net, delta=0.04e6)
+            self.assertGreater(max(pressure[-100:]), pressure[-1])  # it falls while fluid leaks off
+        parts = run.last("crack_volume") + run.last("leak_off_volume")
+        compressed = 1.0 + run.last("mean_crack_pressure") / 2.2e9
+        self.assertAlmostEqual(parts + run.last("crack_volume") * (compressed - 1.0), 0.20005, delta=2e-4)
+
     def test_hf_leakoff_pores(self):
         run = self.run_scene("hf_leakoff_pores", {"body.spacing": "5 mm", "time.end": "50 ms"}, 0.0063)
         self.assertAlmostEqual(run.last("crack_length"), 0.064, delta=0.0051)  # a step
