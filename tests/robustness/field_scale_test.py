@@ -68,12 +68,13 @@ class FieldScale(RunTest):
                     coarse, fine = (self.run_variant(text, stress, f"{name} {stress} {longest}",
                                                      coupling__window__largest=f"{longest} s") for longest in (5, 1))
                     self.assert_alike(coarse, fine, 0.01)
-                    self.assertLess(max(coarse["energy_error"], fine["energy_error"]), 5e-3)
+                    # Steps of growth leave the same energy open, at any depth: 0.074 MPa of what is pumped in.
+                    self.assertLess(max(coarse["energy_error"], fine["energy_error"]) * min(stress), 0.11)
                     self.run_variant(SMOOTH.sub("", text), stress, f"{name} {stress} smooth")
 
     @unittest.skipIf(TIMES == 0, "some minutes")
     def test_spacings(self):
-        """304 m are a whole number of 8 m."""
+        """304 m are a whole number of 8 m. What of a natural fracture is wet depends on whether one gets there."""
         for name, text in SCENES.items():
             high = text.replace("300 m", "304 m")
             for stress in [(10, 10), (45, 40)]:
@@ -81,10 +82,11 @@ class FieldScale(RunTest):
                     runs = [self.run_variant(high, stress, f"{name} {stress} at {spacing}",
                                              body__spacing=f"{spacing} m") for spacing in (2, 4, 8)]
                     for run in runs:
-                        self.assert_alike(runs[0], run, 0.2)
+                        self.assert_alike(runs[1], run, 0.2, ("crack_length", "crack_volume", "mean_crack_pressure"))
 
-    def assert_alike(self, one, other, tolerance):
-        for column in ("crack_length", "wetted_length", "crack_volume", "mean_crack_pressure"):
+    def assert_alike(self, one, other, tolerance,
+                     columns=("crack_length", "wetted_length", "crack_volume", "mean_crack_pressure", "net")):
+        for column in columns:
             self.assertAlmostEqual(one[column], other[column], delta=tolerance * abs(one[column]), msg=column)
 
 

@@ -9,6 +9,7 @@ mutants of tests/mutants are caught here and in unit tests.
 import csv
 import glob
 import json
+import math
 import os
 import re
 import subprocess
@@ -119,6 +120,19 @@ class ShippedFracture(unittest.TestCase):
         parts = run.last("crack_volume") + run.last("leak_off_volume")
         compressed = 1.0 + run.last("mean_crack_pressure") / 2.2e9
         self.assertAlmostEqual(parts + run.last("crack_volume") * (compressed - 1.0), 0.20005, delta=2e-4)
+
+    def test_hydro_shear(self):
+        """Slides from where friction bears no more than the shear, 15 MPa - 5 MPa / 0.6, and by what it does not bear:
+        2 pi (tau - f (sigma - p)) a^2 / E' in all, 1.08 of it on this lattice as without fluid."""
+        run = Run(os.path.join(HERE, "hydro_shear.yaml"), {"time.end": "12 s", "coupling.window.largest": "0.5 s"})
+        self.assertLess(abs(run.ledger("energy_error")), 1e-4)
+        for row in run.rows:
+            beyond = 0.6 * row["mean_crack_pressure"] - 4e6
+            exact = 2.0 * math.pi * beyond * 20.0**2 / (25e9 / (1.0 - 0.25**2))
+            if beyond < -1e4:
+                self.assertEqual(row["crack_slip_area"], 0.0)
+            elif beyond > 1e5:
+                self.assertAlmostEqual(row["crack_slip_area"] / exact, 1.081, delta=0.004)
 
     def test_hf_leakoff_pores(self):
         run = self.run_scene("hf_leakoff_pores", {"body.spacing": "5 mm", "time.end": "50 ms"}, 0.0063)
