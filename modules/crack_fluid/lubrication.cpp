@@ -28,6 +28,7 @@ Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph)
 void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v) {
   by_pressure_.clear();
   by_aperture_.clear();
+  flow_by_aperture_.clear();
   const Index count = graph_.facet_count();
   for (Index f = 0; f < count; ++f) {
     pressure_[f] = liquid_.pressure(v[f]);
@@ -153,8 +154,8 @@ void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint,
         if (m == a) by_conductance += conductance[b] / sum;
         if (m == b) by_conductance += conductance[a] / sum;
         const double slope = dt * density * fall * by_conductance * growth[m];
-        by_aperture_.emplace_back(from, joint[m].facet, slope);
-        by_aperture_.emplace_back(from, partner[m], slope);
+        flow_by_aperture_.emplace_back(from, joint[m].facet, slope);
+        flow_by_aperture_.emplace_back(from, partner[m], slope);
       }
     }
   }
@@ -178,12 +179,16 @@ void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) 
   }
 }
 
-Eigen::MatrixXd Lubrication::jacobian(const Eigen::VectorXd& v) const {
+Eigen::MatrixXd Lubrication::jacobian(const Eigen::VectorXd& v, Conductances conductances) const {
   const Index count = graph_.facet_count();
   Eigen::SparseMatrix<double, Eigen::RowMajor> by_pressure(count, count);
   Eigen::SparseMatrix<double, Eigen::RowMajor> by_aperture(count, count);
+  std::vector<Eigen::Triplet<double>> of_apertures = by_aperture_;
+  if (conductances == Conductances::follow) {
+    of_apertures.insert(of_apertures.end(), flow_by_aperture_.begin(), flow_by_aperture_.end());
+  }
   by_pressure.setFromTriplets(by_pressure_.begin(), by_pressure_.end());
-  by_aperture.setFromTriplets(by_aperture_.begin(), by_aperture_.end());
+  by_aperture.setFromTriplets(of_apertures.begin(), of_apertures.end());
   Eigen::VectorXd is_open(count);
   for (Index f = 0; f < count; ++f) {
     is_open[f] = opening_[f] > liquid_.residual_aperture ? 1.0 : 0.0;

@@ -88,7 +88,11 @@ class Lubrication {
   const Eigen::VectorXd& outflow() const { return outflow_; }
   bool is_full(Index f) const { return fill_[f] >= 1.0; }
   bool is_beside_full(Index f) const;
-  Eigen::MatrixXd jacobian(const Eigen::VectorXd& v) const;
+  /// Of the residual by v. With conductances held, what is left is what a monotone operator has,
+  /// the more mass and flow the higher the pressures.
+  enum class Conductances { follow, held };
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& v,
+                           Conductances conductances = Conductances::follow) const;
 
   /// Calls use(a, b, flux) for every pair of branches that meet, flux [kg/(m s)] from a to b.
   template <class Use>
@@ -128,7 +132,8 @@ class Lubrication {
   LeakedFluid leaked_;                               ///< its by_pressure is part of by_pressure_
   Eigen::VectorXd by_fill_;                          ///< of the residual, diagonal
   std::vector<Eigen::Triplet<double>> by_pressure_;  ///< at given apertures
-  std::vector<Eigen::Triplet<double>> by_aperture_;
+  std::vector<Eigen::Triplet<double>> by_aperture_;  ///< of the mass that is stored
+  std::vector<Eigen::Triplet<double>> flow_by_aperture_;
   /// Facets with row weight (v - target + stiffness inflow).
   struct Held {
     Index facet;

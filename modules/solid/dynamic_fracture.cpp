@@ -118,7 +118,7 @@ double DynamicFracture::conclude(const TimeWindow& window) {
 
 CrackState<2> DynamicFracture::state_of_cracks() {
   return crack_state<2>(
-      time_, fluid_, cracks_.opening(), cracks_.pressure(), {}, system_->acting_pore_stress(),
+      time_, fluid_, cracks_.opening(), cracks_.pressure(), {}, {}, system_->acting_pore_stress(),
       [this](const UnknownNames&) -> std::span<const double> { return system_->unknowns(); },
       [this] { return cracks_.jumps_at(system_->unknowns()); },
       [this](Index i) { return inertia(i); }, cracks_.release());

@@ -9,6 +9,7 @@ mutants of tests/mutants are caught here and in unit tests.
 import csv
 import glob
 import json
+import math
 import os
 import re
 import subprocess
@@ -105,6 +106,33 @@ class ShippedFracture(unittest.TestCase):
         self.assertAlmostEqual(run.last("wetted_length"), run.last("crack_length"), delta=0.0026)
         self.assertAlmostEqual(run.last("inlet_notch_pressure"), 1.538e6, delta=0.04e6)
         self.assertGreater(run.last("inlet_notch_pressure"), 1.5e6)  # the stress that closes both
+
+    def test_two_fractures(self):
+        """The natural fracture stops the upper one, stays closed and dry, and as long as it was."""
+        run = self.run_scene("two_fractures", {}, 1.6e-3)
+        self.assertAlmostEqual(run.last("crack_length"), 194.0, delta=8.1)  # two steps
+        natural = run.last("crack_length") - run.last("wetted_length")
+        self.assertAlmostEqual(natural, (20**2 + 36**2) ** 0.5, delta=0.05)
+        for inlet, net in (("lower", 0.316e6), ("upper", 0.352e6)):
+            pressure = [row[f"inlet_{inlet}_pressure"] - 40e6 for row in run.rows]
+            self.assertAlmostEqual(pressure[-1], net, delta=0.04e6)
+            self.assertGreater(max(pressure[-100:]), pressure[-1])  # it falls while fluid leaks off
+        parts = run.last("crack_volume") + run.last("leak_off_volume")
+        compressed = 1.0 + run.last("mean_crack_pressure") / 2.2e9
+        self.assertAlmostEqual(parts + run.last("crack_volume") * (compressed - 1.0), 0.20005, delta=2e-4)
+
+    def test_hydro_shear(self):
+        """Slides from where friction bears no more than the shear, 15 MPa - 5 MPa / 0.6, and by what it does not bear:
+        2 pi (tau - f (sigma - p)) a^2 / E' in all, 1.08 of it on this lattice as without fluid."""
+        run = Run(os.path.join(HERE, "hydro_shear.yaml"), {"time.end": "12 s", "coupling.window.largest": "0.5 s"})
+        self.assertLess(abs(run.ledger("energy_error")), 1e-4)
+        for row in run.rows:
+            beyond = 0.6 * row["mean_crack_pressure"] - 4e6
+            exact = 2.0 * math.pi * beyond * 20.0**2 / (25e9 / (1.0 - 0.25**2))
+            if beyond < -1e4:
+                self.assertEqual(row["crack_slip_area"], 0.0)
+            elif beyond > 1e5:
+                self.assertAlmostEqual(row["crack_slip_area"] / exact, 1.081, delta=0.004)
 
     def test_hf_leakoff_pores(self):
         run = self.run_scene("hf_leakoff_pores", {"body.spacing": "5 mm", "time.end": "50 ms"}, 0.0063)

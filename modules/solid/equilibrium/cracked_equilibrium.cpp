@@ -64,7 +64,11 @@ Eigen::VectorXd CrackedEquilibrium<D>::pressure_in_cracks() {
 template <int D>
 Eigen::VectorXd CrackedEquilibrium<D>::free_opening() {
   take_load();
-  return cracked_.free_opening(pressure_in_cracks());
+  Eigen::VectorXd opening = cracked_.free_opening(pressure_in_cracks());
+  if constexpr (D == 2) {
+    if (friction_ != nullptr) opening += friction_->opening_by(cracked_, faces_.shear);
+  }
+  return opening;
 }
 
 template <int D>
@@ -135,8 +139,8 @@ std::span<double> CrackedEquilibrium<D>::effective_stress() {
 template <int D>
 CrackState<D> CrackedEquilibrium<D>::state() {
   return crack_state<D>(
-      t_, fluid_, faces_.opening, faces_.pressure, faces_.shear, load_.added_pore_stress(),
-      [this](const UnknownNames& named) { return unknowns(named); },
+      t_, fluid_, faces_.opening, faces_.pressure, faces_.shear, faces_.slip,
+      load_.added_pore_stress(), [this](const UnknownNames& named) { return unknowns(named); },
       [this] { return cracked_.jumps_under(faces_.pressure, faces_.shear); }, {}, 0.0);
 }
 

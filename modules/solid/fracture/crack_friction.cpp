@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
 #include "core/solvers/frictional_contact.hpp"
 
@@ -12,8 +13,10 @@ namespace perifrac {
 void CrackFriction::start(const CrackedBody<2>& body) {
   slip_.clear();
   limit_.clear();
+  borne_.clear();
   for (Index f = 0; f < static_cast<Index>(body.facets().size()); ++f) {
     limit_.push_back(coefficient_ * std::max(0.0, -body.relief(f)[0]));
+    borne_.push_back(std::min(std::abs(body.relief(f)[1]), limit_.back()));
   }
   dissipation_ = elastic_energy_ = 0.0;
   version_.reset();
@@ -69,24 +72,37 @@ CrackedBody<2>::Faces CrackFriction::faces(CrackedBody<2>& body, const Eigen::Ve
   return faces;
 }
 
-/// While faces slide the shear is at its limit, which goes evenly from what it was to what it is.
+Eigen::VectorXd CrackFriction::opening_by(CrackedBody<2>& body, std::span<const double> shear) {
+  follow(body);
+  const auto count = static_cast<Eigen::Index>(body.jumps().size());
+  const auto borne = static_cast<Eigen::Index>(shear.size());
+  return compliance_.block(0, count, count, borne) * view(shear);
+}
+
+/// While faces slide the shear is at its limit, which goes evenly from what it was to what it is;
+/// where it falls, as fluid takes over what presses them together, not before it is down to what
+/// they bear.
 void CrackFriction::book(const CrackedBody<2>& body, const CrackedBody<2>::Faces& faces,
                          const Eigen::VectorXd& pressure) {
   limit_.resize(faces.slip.size(), 0.0);  // a new facet has borne nothing yet
+  borne_.resize(faces.slip.size(), 0.0);
   elastic_energy_ = 0.0;
   for (Index f = 0; f < std::ssize(faces.slip); ++f) {
     const double limit = coefficient_ * (faces.pressure[f] - pressure[f]);
+    const double first_limit = std::min(limit_[f], std::max(limit, borne_[f]));
     dissipation_ +=
-        body.jumps()[f].area * 0.5 * (limit_[f] + limit) * std::abs(faces.slip[f] - slip_[f]);
-    const double shear = faces.shear[f], first = body.relief(f)[1];
-    elastic_energy_ += body.jumps()[f].area * 0.5 * layer_[f] * (shear * shear - first * first);
+        body.jumps()[f].area * 0.5 * (first_limit + limit) * std::abs(faces.slip[f] - slip_[f]);
+    const double shear = faces.shear[f], at_rest = body.relief(f)[1];
+    elastic_energy_ += body.jumps()[f].area * 0.5 * layer_[f] * (shear * shear - at_rest * at_rest);
     slip_[f] = faces.slip[f];
     limit_[f] = limit;
+    borne_[f] = std::abs(shear);
   }
 }
 
 void CrackFriction::visit_state(StateVisitor& visitor) {
   visitor.visit("friction_limit", limit_);
+  visitor.visit("friction_borne", borne_);
   visitor.visit("crack_slip", slip_);
   visitor.visit("friction_dissipation", dissipation_);
   visitor.visit("friction_elastic_energy", elastic_energy_);

@@ -31,6 +31,8 @@ class CrackFriction {
   /// NumericalError, with the time t [s], where no state of the faces is found that is in
   /// equilibrium.
   CrackedBody<2>::Faces faces(CrackedBody<2>& body, const Eigen::VectorXd& pressure, double t);
+  /// How wide a shear on the faces opens all facets; those that it leaves out bear none [m].
+  Eigen::VectorXd opening_by(CrackedBody<2>& body, std::span<const double> shear);
   /// Takes them for what they are at its end.
   void book(const CrackedBody<2>& body, const CrackedBody<2>::Faces& faces,
             const Eigen::VectorXd& pressure);
@@ -47,6 +49,7 @@ class CrackFriction {
   /// By facet, at the end of the last window; a facet that was cut since has not slipped.
   std::vector<double> slip_;   ///< [m]
   std::vector<double> limit_;  ///< what friction could bear [Pa]
+  std::vector<double> borne_;  ///< what it did, its size [Pa]
   double dissipation_ = 0.0, elastic_energy_ = 0.0;
 
   void follow(CrackedBody<2>& body);

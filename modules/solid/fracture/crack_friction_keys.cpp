@@ -9,11 +9,13 @@ constexpr const char* name = "crack_friction";
 }  // namespace
 
 Key crack_friction_key() {
-  return {.path = name,
-          .range = "[0, inf)",
-          .meaning =
-              "quasi_static, 2D, cracks and rock without fluid: Coulomb's coefficient of friction "
-              "between faces that touch; left out, they bear no shear."};
+  return {
+      .path = name,
+      .range = "[0, inf)",
+      .meaning =
+          "quasi_static, 2D, rock without pore fluid: Coulomb's coefficient of friction between "
+          "faces that touch, of what presses them together beyond a fluid in the crack; left "
+          "out, they bear no shear."};
 }
 
 std::unique_ptr<CrackFriction> read_crack_friction(const Section& section) {

@@ -37,6 +37,7 @@ struct CrackState {
   std::function<std::vector<Vector<D>>()> jumps;
   PointInertia<D> inertia{};
   std::span<const double> shear{};  ///< of friction on every facet [Pa]; empty: there is none
+  std::span<const double> slip{};   ///< likewise [m]
   double pause = 0.0;               ///< a tip stays where it came to for at least so long [s]
 
   bool has_fluid() const { return !viscosity.empty(); }
@@ -47,7 +48,7 @@ struct CrackState {
 template <int D>
 CrackState<D> crack_state(
     double t, const FluidInCracks& fluid, const Eigen::VectorXd& opening,
-    const Eigen::VectorXd& pressure, std::span<const double> shear,
+    const Eigen::VectorXd& pressure, std::span<const double> shear, std::span<const double> slip,
     std::span<const double> pore_stress,
     std::function<std::span<const double>(const UnknownNames& named)> unknowns,
     std::function<std::vector<Vector<D>>()> jumps, PointInertia<D> inertia, double pause) {
@@ -61,6 +62,7 @@ CrackState<D> crack_state(
           std::move(jumps),
           std::move(inertia),
           shear,
+          slip,
           pause};
 }
 

@@ -1,6 +1,7 @@
 #include "modules/solid/fracture/crack_tips.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/small_vector.hpp"
@@ -117,13 +118,25 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
       energy_release_.at(tip.at, state.unknowns([&] { return energy_release_.looks_at(tip.at); }),
                          state.pressure, state.pore_stress, state.inertia, state.shear);
   // A tip that is closed may go on where its faces slide under friction.
-  const bool opens = (load.opening > 0.0 || !state.shear.empty()) && load.energy_release > 0.0;
+  const bool may_go = (load.opening > 0.0 || !state.shear.empty()) && !is_closed(tip.at, state);
+  const bool opens = may_go && load.energy_release > 0.0;
   const TipModes modes = modes_of(load);
   const double straight_on = std::hypot(modes.opening, modes.sliding);
   const double turned = straight_on > 0.0 ? kink_intensity(modes) / straight_on : 1.0;
   tip.asked = opens ? turned * std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
   tip.asked_opening = opens ? opening : 0.0;
   return tip.asked;
+}
+
+/// Dry faces that touch and have not slid under friction: what is there of a jump is rounding, of
+/// either sign, and J that of whatever else its ring holds.
+bool CrackTips::is_closed(const CrackTip& at, const CrackState<2>& state) const {
+  return std::ranges::all_of(std::array{at.facet, at.before}, [&](Index facet) {
+    if (facet == no_facet) return true;
+    const bool is_wet = state.has_fluid() && state.viscosity[facet] > 0.0;
+    const bool has_slid = !state.slip.empty() && state.slip[facet] != 0.0;
+    return !is_wet && !has_slid && state.opening[facet] <= 0.0;
+  });
 }
 
 /// For fluid that stays up with the tip: K_I from the opening at the last facet but one, K_II from

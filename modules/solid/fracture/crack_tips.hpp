@@ -67,6 +67,7 @@ class CrackTips {
   double readiness(Tip& tip, const CrackState<2>& state, std::span<const Vector<2>> jumps) const;
   double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                        double lost) const;
+  bool is_closed(const CrackTip& at, const CrackState<2>& state) const;
   TipModes followed_modes(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                           std::span<const Vector<2>> jumps) const;
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
