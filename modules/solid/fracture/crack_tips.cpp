@@ -148,8 +148,10 @@ TipModes CrackTips::followed_modes(Tip& tip, const TipLaw& tip_law, const CrackS
   const TipFluid fluid{state.viscosity[at.facet],
                        state.leak_off.empty() ? 0.0 : state.leak_off[at.facet]};
   const double s = behind(at);
+  const double net = state.pressure[at.before] + cracked_.relief(at.before)[0];
+  const double faces_apart = state.opening[at.before] + pressed_by(at.before) * net;
   const double opening =
-      (state.opening[at.before] / tip.even.opening - opening_by_layers(at, s, tip_law)) /
+      (faces_apart / tip.even.opening - opening_by_layers(at, s, tip_law)) /
       tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
   const TipJump jump = energy_release_.jump(at, jumps);
   return {opening, jump.sliding / (tip.even.sliding * dry_jump(tip, jump, tip_law))};
@@ -181,9 +183,17 @@ void CrackTips::ask_even_loads(Tip& tip) const {
     tip.intensity_ratio = std::min(1.0, tip.even.intensity / tip.intensity_before);
   }
   const double dry = tip_law.opening(within_crack(tip, behind(tip.at)), 0.0, {}, 1.0);
-  tip.even.opening = opened / (dry * intensity(*pressed));
+  tip.even.opening = (opened + pressed_by(tip.at.before)) / (dry * intensity(*pressed));
   tip.even.sliding =
       std::abs(sheared->sliding) / (dry_jump(tip, *sheared, tip_law) * intensity(*sheared));
+}
+
+/// Openings are taken over a spacing of rock, which a pressure in the crack presses together by so
+/// much [m/Pa]: no part of how far the faces are apart.
+double CrackTips::pressed_by(Index facet) const {
+  const Index point = body_.nearest_point(middle<2>(cracked_.facets()[facet]));
+  const IsotropicElasticity<2>& law = cracked_.elastic().law(point);
+  return body_.spacing() / (law.lame_lambda + 2.0 * law.shear_modulus);
 }
 
 /// What the law says where the mean jump behind a tip is taken, at its toughness [m].

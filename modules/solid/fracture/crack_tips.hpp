@@ -73,6 +73,7 @@ class CrackTips {
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
   double dry_jump(const Tip& tip, const TipJump& jump, const TipLaw& tip_law) const;
   void ask_even_loads(Tip& tip) const;
+  double pressed_by(Index facet) const;
   double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
   double behind(const CrackTip& at) const;
   double within_crack(const Tip& tip, double s) const;
