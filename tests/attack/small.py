@@ -55,6 +55,7 @@ SMALL = {
                "crack_fluid.inlets[0].at": [0.0, 0.0, 0.008], "time.end": 0.01},
     "shut_in": {**wing(0.2, 0.0025, 0.02, 0.08)},
     "sliding_crack": {"body.spacing": 0.004},
+    "two_fractures": {"time.end": 60.0},
 }
 
 

@@ -14,26 +14,26 @@ namespace {
 
 using namespace test;
 
-constexpr double dx = 4.0, modulus = 26.7e9;
-constexpr int along = 17, across = 9;
-constexpr CrackLiquid slick{.density = 1000.0,
-                            .viscosity = 1e-2,
-                            .bulk_modulus = 2.2e9,
-                            .vapour_pressure = 0.0,
-                            .residual_aperture = 2e-6};
+constexpr double facet_size = 4.0, rock_modulus = 26.7e9;
+constexpr int line_facets = 17, arm_facets = 9;
+constexpr CrackLiquid slickwater{.density = 1000.0,
+                                 .viscosity = 1e-2,
+                                 .bulk_modulus = 2.2e9,
+                                 .vapour_pressure = 0.0,
+                                 .residual_aperture = 2e-6};
 
 /// A line of facets that another one crosses at 60 degrees, so that four meet in a corner.
 std::vector<CrackFacet<2>> crossing() {
   std::vector<CrackFacet<2>> facets;
-  const auto line = straight_line({0.0, 0.0}, 0.0, dx, along);
-  for (int k = 0; k < along; ++k) facets.push_back({line[k], line[k + 1]});
+  const auto line = straight_line({0.0, 0.0}, 0.0, facet_size, line_facets);
+  for (int k = 0; k < line_facets; ++k) facets.push_back({line[k], line[k + 1]});
   const Vector<2> corner = line[11];
   const auto arm = [&](double angle, int count) {
-    const auto corners = straight_line(corner, angle, dx, count);
+    const auto corners = straight_line(corner, angle, facet_size, count);
     for (int k = 0; k < count; ++k) facets.push_back({corners[k], corners[k + 1]});
   };
   arm(std::numbers::pi / 3.0, 5);
-  arm(std::numbers::pi * 4.0 / 3.0, across - 5);
+  arm(std::numbers::pi * 4.0 / 3.0, arm_facets - 5);
   return facets;
 }
 
@@ -45,10 +45,12 @@ Eigen::MatrixXd compliance_of(const std::vector<CrackFacet<2>>& facets) {
     for (Eigen::Index j = 0; j < count; ++j) {
       const Vector<2> apart = middle<2>(facets[i]) - middle<2>(facets[j]);
       const double square = apart[0] * apart[0] + apart[1] * apart[1];
-      const bool same_line = (i < along) == (j < along);
-      stiffness(i, j) = -modulus * dx / (4.0 * std::numbers::pi * (square - 0.25 * dx * dx));
+      const bool same_line = (i < line_facets) == (j < line_facets);
+      stiffness(i, j) = -rock_modulus * facet_size /
+                        (4.0 * std::numbers::pi * (square - 0.25 * facet_size * facet_size));
       if (!same_line) {
-        stiffness(i, j) = -0.1 * modulus * dx / (4.0 * std::numbers::pi * (square + dx * dx));
+        stiffness(i, j) = -0.1 * rock_modulus * facet_size /
+                          (4.0 * std::numbers::pi * (square + facet_size * facet_size));
       }
     }
   }
@@ -59,7 +61,7 @@ Eigen::MatrixXd compliance_of(const std::vector<CrackFacet<2>>& facets) {
 struct RandomStep {
   std::mt19937 random;
   Eigen::MatrixXd compliance = compliance_of(crossing());
-  Lubrication lubrication{slick, CrackGraph(crossing())};
+  Lubrication lubrication{slickwater, CrackGraph(crossing())};
   Eigen::Matrix<double, -1, -1, Eigen::RowMajor> slope = compliance;
   Eigen::VectorXd closed_by, v;
   std::vector<double> value, rate, mass;
@@ -84,15 +86,15 @@ struct RandomStep {
     const Eigen::Index count = slope.rows();
     closed_by.resize(count);
     const double other = stress * between(1.0, 1.3);
-    for (Eigen::Index f = 0; f < count; ++f) closed_by[f] = f < along ? stress : other;
+    for (Eigen::Index f = 0; f < count; ++f) closed_by[f] = f < line_facets ? stress : other;
     v.resize(count);
     const double level = between(0.0, 1.05) * stress + between(0.0, 1e6);
-    const int first = static_cast<int>(between(0.0, along));
-    const int last = static_cast<int>(between(first, along));
+    const int first = static_cast<int>(between(0.0, line_facets));
+    const int last = static_cast<int>(between(first, line_facets));
     for (Eigen::Index f = 0; f < count; ++f) {
-      const bool wet = f < along ? (f >= first && f <= last) : chance(0.5);
-      v[f] = wet ? level * between(0.9, 1.0) : slick.empty();
-      if (chance(0.1)) v[f] = -slick.bulk_modulus * between(0.0, 1.0);
+      const bool wet = f < line_facets ? (f >= first && f <= last) : chance(0.5);
+      v[f] = wet ? level * between(0.9, 1.0) : slickwater.empty();
+      if (chance(0.1)) v[f] = -slickwater.bulk_modulus * between(0.0, 1.0);
     }
     set_opening();
     mass.assign(count, 0.0);
@@ -123,7 +125,8 @@ TEST(LubricationNewton, ConvergesFromStatesThatPhysicsAllows) {
       const double inflow = random.chance(0.3) ? 0.0 : 0.5 * length;
       random.inflows.push_back({8, inflow, inflow, 0.0});
     }
-    const NewtonReport report = solve(random.lubrication, slick, random.step(length), random.v);
+    const NewtonReport report =
+        solve(random.lubrication, slickwater, random.step(length), random.v);
     if (!report.converged) ++failed;
     iterations += report.iterations;
   }
