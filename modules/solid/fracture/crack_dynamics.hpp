@@ -36,9 +36,9 @@ class CrackDynamics final : public CutBody<2>, public BodyFracture {
 
   bool cut(const CrackFacet<2>& facet) override;
   double intensity_at_fixed_volume(Index facet) const override;
-  double volume_under_even_pressure() const override { return 1.0; }
-  bool find_answer(const Vector<2>&, std::span<const Index>, std::span<double>) const override {
-    return false;
+  std::optional<double> find_answer(std::span<const Index>, const Vector<2>&,
+                                    std::span<const Index>, std::span<double>) const override {
+    return {};
   }
   /// After the last cut of a step: how openings answer to pressure.
   void find_answers();

@@ -153,21 +153,29 @@ TipModes CrackTips::followed_modes(Tip& tip, const TipLaw& tip_law, const CrackS
   const double opening =
       (faces_apart / tip.even.opening - opening_by_layers(at, s, tip_law)) /
       tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
+  // The ratio is that of the faces as far behind as a facet resolves, of fluid that is viscous too.
   const TipJump jump = energy_release_.jump(at, jumps);
-  return {opening, jump.sliding / (tip.even.sliding * dry_jump(tip, jump, tip_law))};
+  const double apart = jump.opening + pressed_by(at.before) * net;
+  if (!(apart > 0.0)) return {opening, 0.0};
+  const double sliding =
+      tip.even.sliding > 0.0 ? jump.sliding / tip.even.sliding : modes_of(jump).sliding;
+  return {opening, opening * sliding / apart};
 }
 
 /// What faces do under an even pressure and an even shear, beside what K_I and K_II of that J do by
 /// the law: how the crack runs across the lattice, which bonds its last facets cut and where its
 /// other end is says itself there.
 void CrackTips::ask_even_loads(Tip& tip) const {
-  tip.even = {1.0, 1.0, 0.0};
+  tip.even = {.opening = 1.0};
   if (!energy_release_.is_straight(tip.at, bent)) return;
   const std::vector<Index> named = energy_release_.looks_at(tip.at);
   std::vector<double> unknowns(cracked_.elastic().size(), 0.0);
+  const std::vector<Index> faces = crack_of(tip.at);
+  std::optional<double> volume;
   const auto under = [&](const Vector<2>& traction) -> std::optional<TipLoad> {
-    if (!cracked_.find_answer(traction, named, unknowns)) return {};
-    return energy_release_.under(tip.at, unknowns, traction);
+    volume = cracked_.find_answer(faces, traction, named, unknowns);
+    if (!volume) return {};
+    return energy_release_.under(tip.at, unknowns, faces, traction);
   };
   // Of any toughness: what is asked are ratios.
   const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(), 1.0};
@@ -176,16 +184,35 @@ void CrackTips::ask_even_loads(Tip& tip) const {
   };
   const auto pressed = under({1.0, 0.0});
   if (!pressed) return;
+  tip.even.intensity = intensity(*pressed) / *volume;
   const double opened = cracked_.jump(tip.at.before, unknowns)[0];
   const auto sheared = under({0.0, 1.0});
-  tip.even.intensity = intensity(*pressed) / cracked_.volume_under_even_pressure();
   if (tip.intensity_before > 0.0) {
     tip.intensity_ratio = std::min(1.0, tip.even.intensity / tip.intensity_before);
   }
   const double dry = tip_law.opening(within_crack(tip, behind(tip.at)), 0.0, {}, 1.0);
   tip.even.opening = (opened + pressed_by(tip.at.before)) / (dry * intensity(*pressed));
-  tip.even.sliding =
-      std::abs(sheared->sliding) / (dry_jump(tip, *sheared, tip_law) * intensity(*sheared));
+  const double apart = pressed->opening + pressed_by(tip.at.before);
+  tip.even.sliding = std::abs(sheared->sliding) / intensity(*sheared) * intensity(*pressed) / apart;
+}
+
+/// The facets that hang together with the tip's.
+std::vector<Index> CrackTips::crack_of(const CrackTip& tip) const {
+  const std::span<const CrackFacet<2>> facets = cracked_.facets();
+  std::vector<Index> crack = {tip.facet};
+  std::vector<bool> taken(facets.size(), false);
+  taken[tip.facet] = true;
+  for (std::size_t next = 0; next < crack.size(); ++next) {
+    const CrackFacet<2>& from = facets[crack[next]];
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+      const bool joined = facets[f][0] == from[0] || facets[f][0] == from[1] ||
+                          facets[f][1] == from[0] || facets[f][1] == from[1];
+      if (taken[f] || !joined) continue;
+      taken[f] = true;
+      crack.push_back(static_cast<Index>(f));
+    }
+  }
+  return crack;
 }
 
 /// Openings are taken over a spacing of rock, which a pressure in the crack presses together by so
@@ -194,12 +221,6 @@ double CrackTips::pressed_by(Index facet) const {
   const Index point = body_.nearest_point(middle<2>(cracked_.facets()[facet]));
   const IsotropicElasticity<2>& law = cracked_.elastic().law(point);
   return body_.spacing() / (law.lame_lambda + 2.0 * law.shear_modulus);
-}
-
-/// What the law says where the mean jump behind a tip is taken, at its toughness [m].
-double CrackTips::dry_jump(const Tip& tip, const TipJump& jump, const TipLaw& tip_law) const {
-  const double s = jump.root_of_distance * jump.root_of_distance;
-  return tip_law.opening(within_crack(tip, s), 0.0, {}, 1.0);
 }
 
 /// Fluid holds a tip back by the pressure that it loses on its way there, and it cannot lose more

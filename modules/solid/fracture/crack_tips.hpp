@@ -39,8 +39,9 @@ class CrackTips {
   void visit_state(StateVisitor& visitor);
 
  private:
-  /// How the faces behind a tip open and slide under even loads, over the law of what K_I and K_II
-  /// there are then; 0: not asked yet. And K_I at fixed volume, up to a factor that stays.
+  /// Of even loads on the crack's faces: how far they open behind the tip, over the law of the K_I
+  /// there is then; how far they slide for a K_II, over how far they open for a K_I; and K_I at
+  /// fixed volume, up to a factor that stays. 0: not known.
   struct EvenLoads {
     double opening = 0.0, sliding = 0.0, intensity = 0.0;
   };
@@ -71,8 +72,8 @@ class CrackTips {
   TipModes followed_modes(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                           std::span<const Vector<2>> jumps) const;
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
-  double dry_jump(const Tip& tip, const TipJump& jump, const TipLaw& tip_law) const;
   void ask_even_loads(Tip& tip) const;
+  std::vector<Index> crack_of(const CrackTip& tip) const;
   double pressed_by(Index facet) const;
   double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
   double behind(const CrackTip& at) const;

@@ -279,33 +279,33 @@ typename CrackedBody<D>::Faces CrackedBody<D>::faces(const Eigen::VectorXd& pres
 /// changes as it does K_I.
 template <int D>
 double CrackedBody<D>::intensity_at_fixed_volume(Index facet) const {
-  return compliance_.row(facet).sum() / volume_under_even_pressure();
-}
-
-template <int D>
-double CrackedBody<D>::volume_under_even_pressure() const {
   const Eigen::VectorXd opening = compliance_.rowwise().sum();
   double volume = 0.0;
   for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].area * opening[f];
-  return volume;
+  return opening[facet] / volume;
 }
 
 template <int D>
-bool CrackedBody<D>::find_answer(const Vector<D>& traction, std::span<const Index> named,
-                                 std::span<double> all) const {
+std::optional<double> CrackedBody<D>::find_answer(std::span<const Index> faces,
+                                                  const Vector<D>& traction,
+                                                  std::span<const Index> named,
+                                                  std::span<double> all) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
-  for (std::size_t f = 0; f < modes_.size(); ++f) {
+  for (const Index f : faces) {
     for (int k = 0; k < D; ++k) {
       for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * traction[k] * c;
     }
   }
-  const Eigen::VectorXd moved = solve_named(force, inverse_->block() * force, named);
+  const Eigen::VectorXd block = inverse_->block() * force;
+  const Eigen::VectorXd moved = solve_named(force, block, named);
   Eigen::Index next = 0;
   for (const Index unknown : named) {
     const auto [free, by] = free_of_[unknown];
     all[unknown] = free < 0 ? 0.0 : by * moved[next++];
   }
-  return true;
+  double volume = 0.0;
+  for (const Index f : faces) volume += jumps_[f].area * along(modes_[f][0], block);
+  return volume;
 }
 
 template <int D>

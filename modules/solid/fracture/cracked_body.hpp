@@ -61,9 +61,9 @@ class CrackedBody final : public CutBody<D> {
   /// Mean jumps along one axis of the facets' frames (0: normal) by tractions along another [m/Pa].
   Eigen::MatrixXd compliance(int jump, int traction) const;
   double intensity_at_fixed_volume(Index facet) const override;
-  double volume_under_even_pressure() const override;
-  bool find_answer(const Vector<D>& traction, std::span<const Index> named,
-                   std::span<double> all) const override;
+  std::optional<double> find_answer(std::span<const Index> faces, const Vector<D>& traction,
+                                    std::span<const Index> named,
+                                    std::span<double> all) const override;
 
   // Of a pressure on the faces and, unless it is empty, a shear along their (first) tangent:
 

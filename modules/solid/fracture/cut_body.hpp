@@ -37,12 +37,12 @@ class CutBody {
   /// volume.
   virtual double intensity_at_fixed_volume(Index facet) const = 0;
 
-  /// Of all facets under the same pressure, up to a factor that stays.
-  virtual double volume_under_even_pressure() const = 0;
-  /// What the same traction on all faces, along normal and tangents [Pa], and nothing else does to
-  /// the unknowns named; the others of `all` are left. False where no equilibrium says it.
-  virtual bool find_answer(const Vector<D>& traction, std::span<const Index> named,
-                           std::span<double> all) const = 0;
+  /// What the same traction on the faces named, along normal and tangents [Pa], and nothing else
+  /// does to the unknowns named; the others of `all` are left. Returns the volume that opens there
+  /// [m^3], in 2D per metre; nothing where no equilibrium says it.
+  virtual std::optional<double> find_answer(std::span<const Index> faces, const Vector<D>& traction,
+                                            std::span<const Index> named,
+                                            std::span<double> all) const = 0;
 
   std::span<const FaceJump<D>> jumps() const { return jumps_; }
   /// Normal and tangential stress that facet f is relieved of [Pa].

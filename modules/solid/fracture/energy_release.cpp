@@ -87,10 +87,12 @@ TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
 }
 
 TipLoad EnergyRelease::under(const CrackTip& tip, std::span<const double> unknowns,
-                             const Vector<2>& traction) const {
+                             std::span<const Index> faces, const Vector<2>& traction) const {
   const std::vector<Vector<2>> jumps = jumps_in(unknowns);
-  return {jump(tip, jumps),
-          of_points(tip, unknowns, {}, {}) + of_faces(tip, jumps, [&](Index) { return traction; })};
+  const auto load = [&](Index f) {
+    return std::ranges::find(faces, f) != faces.end() ? traction : Vector<2>{};
+  };
+  return {jump(tip, jumps), of_points(tip, unknowns, {}, {}) + of_faces(tip, jumps, load)};
 }
 
 std::vector<Vector<2>> EnergyRelease::jumps_in(std::span<const double> unknowns) const {
@@ -169,13 +171,11 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
     const double sign = cross(tip.direction, face.normal) > 0.0 ? 1.0 : -1.0;
     mean.opening += sign * cross(tip.direction, d);
     mean.sliding += sign * dot(tip.direction, d);
-    mean.root_of_distance += std::sqrt(behind);
     ++count;
   }
   if (count > 0) {
     mean.opening /= count;
     mean.sliding /= count;
-    mean.root_of_distance /= count;
   }
   return mean;
 }

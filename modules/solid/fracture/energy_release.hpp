@@ -60,8 +60,8 @@ class EnergyRelease {
   TipLoad at(const CrackTip& tip, std::span<const double> unknowns, const Eigen::VectorXd& pressure,
              std::span<const double> pore_stress = {}, const PointInertia<2>& inertia = {},
              std::span<const double> shear = {}) const;
-  /// Of the same traction on all faces, along normal and tangent [Pa], and nothing else.
-  TipLoad under(const CrackTip& tip, std::span<const double> unknowns,
+  /// Of the same traction on the faces named, along normal and tangent [Pa], and nothing else.
+  TipLoad under(const CrackTip& tip, std::span<const double> unknowns, std::span<const Index> faces,
                 const Vector<2>& traction) const;
   /// The cracks near the tip run as it does, within `angle` [rad]: else J, which is of a straight
   /// crack, is not quite that of its tip.

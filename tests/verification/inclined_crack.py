@@ -1,0 +1,76 @@
+#!/usr/bin/python3
+"""Cracks that fluid drives across the rows of points, between stresses that shear them.
+
+Usage: inclined_crack.py PERIFRAC
+"""
+import csv
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PERIFRAC = os.path.abspath(sys.argv.pop(1))
+TOUGHNESS, HALF_LENGTH = 0.6535e6, 0.25  # Pa m^0.5, m
+
+
+def run(keys):
+    """history.csv as columns by name."""
+    settings = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([PERIFRAC, "run", os.path.join(HERE, "inclined_crack.yaml"), "--no-report", "--threads", "1",
+                        "--output", folder, *settings], check=True, capture_output=True)
+        with open(os.path.join(folder, "history.csv"), encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    return {name.split(" [")[0]: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+
+
+def hoop_intensity(opening, sliding):
+    """K_I of the crack that turns to the largest hoop stress (Erdogan & Sih 1963), found by trying angles."""
+    angles = (math.radians(0.1 * k) for k in range(-1800, 1801))
+    return max(math.cos(a / 2) * (opening * math.cos(a / 2) ** 2 - 1.5 * sliding * math.sin(a)) for a in angles)
+
+
+def pressure_of_first_growth(normal, shear):
+    """In the crack in an infinite body under these stresses across and along it [Pa]."""
+    low, high = normal, normal + TOUGHNESS / math.sqrt(math.pi * HALF_LENGTH)
+    root = math.sqrt(math.pi * HALF_LENGTH)
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        grows = hoop_intensity((middle - normal) * root, shear * root) > TOUGHNESS
+        low, high = (low, middle) if grows else (middle, high)
+    return low
+
+
+class InclinedCrack(unittest.TestCase):
+    def test_begins_to_grow_where_hoop_stress_says(self):
+        history = run({})
+        length, pressure = history["crack_length"], history["inlet_well_pressure"]
+        grown = [p for p, before, after in zip(pressure[1:], length, length[1:]) if after > before]
+        exact = pressure_of_first_growth(5.5e6, 0.5e6)
+        print(f"\nfirst growth at {grown[0] / 1e6:.4f} MPa, largest hoop stress {exact / 1e6:.4f} MPa")
+        self.assertAlmostEqual(grown[0] / exact, 1.0, delta=0.003)
+        self.assertAlmostEqual(length[-1], 2.0 * (HALF_LENGTH + 0.05), delta=1e-3, msg="both wings, a facet each")
+
+    def test_asks_for_one_pressure_at_any_angle(self):
+        means = {}
+        for angle in (0.0, 26.565, 45.0):
+            x, y = 100.0 * math.cos(math.radians(angle)), 100.0 * math.sin(math.radians(angle))
+            history = run({"body.spacing": "20 mm", "solid.confining_stress": "[5 MPa, 5 MPa]",
+                           "cracks[0].path": f"[{1000 - x} mm, {1000 - y} mm, {1000 + x} mm, {1000 + y} mm]",
+                           "crack_fluid.inlets[0].rate": "5.22e-7 m^2/s",  # K_m = 4.2
+                           "time.end": "24 s", "coupling.window.largest": "0.5 s", "output.interval": "24 s"})
+            columns = (history[name] for name in ("time", "crack_length", "inlet_well_pressure"))
+            time, length, pressure = columns
+            spans = [(b - a, 0.5 * (p + q) - 5e6)
+                     for a, b, at, p, q in zip(time, time[1:], length[1:], pressure, pressure[1:]) if at > 0.22]
+            means[angle] = sum(dt * p for dt, p in spans) / sum(dt for dt, _ in spans)
+            print(f"\n{angle} degrees: mean net pressure {means[angle] / 1e6:.4f} MPa, length {length[-1]:.3f} m")
+        for angle, mean in means.items():
+            self.assertAlmostEqual(mean / means[0.0], 1.0, delta=0.02, msg=angle)
+
+
+if __name__ == "__main__":
+    unittest.main()
