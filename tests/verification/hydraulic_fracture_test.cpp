@@ -315,7 +315,8 @@ TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
   // Contact is found with the fluid: a pass does, and one more where the crack has grown.
   EXPECT_LE(run.summary["counts"]["most_passes"], 3);
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.035) << "by each of four steps 0.8 %, until a facet has filled";
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.035)
+      << "by each of four steps 0.8 %, until a facet has filled";
 }
 
 /// A wing that grows to the right face of a narrow body, whose halves are held by rollers.

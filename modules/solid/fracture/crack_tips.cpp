@@ -140,7 +140,7 @@ bool CrackTips::is_closed(const CrackTip& at, const CrackState<2>& state) const 
 }
 
 /// For fluid that stays up with the tip: K_I from the opening at the last facet but one, K_II from
-/// how far the faces behind the tip slide, which viscosity has no part in.
+/// how far the faces slide beside how far they open.
 TipModes CrackTips::followed_modes(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                                    std::span<const Vector<2>> jumps) const {
   const CrackTip& at = tip.at;
@@ -148,17 +148,18 @@ TipModes CrackTips::followed_modes(Tip& tip, const TipLaw& tip_law, const CrackS
   const TipFluid fluid{state.viscosity[at.facet],
                        state.leak_off.empty() ? 0.0 : state.leak_off[at.facet]};
   const double s = behind(at);
+  const bool is_known = tip.even.sliding > 0.0;
   const double net = state.pressure[at.before] + cracked_.relief(at.before)[0];
-  const double faces_apart = state.opening[at.before] + pressed_by(at.before) * net;
+  const double pressed = is_known ? pressed_by(at.before) * net : 0.0;
   const double opening =
-      (faces_apart / tip.even.opening - opening_by_layers(at, s, tip_law)) /
+      ((state.opening[at.before] + pressed) / tip.even.opening -
+       opening_by_layers(at, s, tip_law)) /
       tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
   // The ratio is that of the faces as far behind as a facet resolves, of fluid that is viscous too.
   const TipJump jump = energy_release_.jump(at, jumps);
-  const double apart = jump.opening + pressed_by(at.before) * net;
+  const double apart = jump.opening + pressed;
   if (!(apart > 0.0)) return {opening, 0.0};
-  const double sliding =
-      tip.even.sliding > 0.0 ? jump.sliding / tip.even.sliding : modes_of(jump).sliding;
+  const double sliding = is_known ? jump.sliding / tip.even.sliding : modes_of(jump).sliding;
   return {opening, opening * sliding / apart};
 }
 
@@ -184,16 +185,20 @@ void CrackTips::ask_even_loads(Tip& tip) const {
   };
   const auto pressed = under({1.0, 0.0});
   if (!pressed) return;
-  tip.even.intensity = intensity(*pressed) / *volume;
-  const double opened = cracked_.jump(tip.at.before, unknowns)[0];
+  const double opened = cracked_.jump(tip.at.before, unknowns)[0] + pressed_by(tip.at.before);
+  const double volume_opened = *volume;
   const auto sheared = under({0.0, 1.0});
+  const double mode_one = intensity(*pressed), mode_two = intensity(*sheared);
+  const double apart = pressed->opening + pressed_by(tip.at.before);
+  const double slid = std::abs(sheared->sliding);
+  if (!(std::min({mode_one, mode_two, opened, apart, slid, volume_opened}) > 0.0)) return;
+  tip.even.intensity = mode_one / volume_opened;
   if (tip.intensity_before > 0.0) {
     tip.intensity_ratio = std::min(1.0, tip.even.intensity / tip.intensity_before);
   }
   const double dry = tip_law.opening(within_crack(tip, behind(tip.at)), 0.0, {}, 1.0);
-  tip.even.opening = (opened + pressed_by(tip.at.before)) / (dry * intensity(*pressed));
-  const double apart = pressed->opening + pressed_by(tip.at.before);
-  tip.even.sliding = std::abs(sheared->sliding) / intensity(*sheared) * intensity(*pressed) / apart;
+  tip.even.opening = opened / (dry * mode_one);
+  tip.even.sliding = slid / mode_two * mode_one / apart;
 }
 
 /// The facets that hang together with the tip's.
