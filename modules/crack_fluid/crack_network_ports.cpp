@@ -108,10 +108,14 @@ void CrackNetwork<D>::make_inlet_ports() {
   const auto mean = [this](const std::string& name, const char* unit, std::size_t inlet,
                            std::function<double(Index)> value_of) {
     ports_.total({name, unit}, whole_crack, [this, inlet, value_of] {
-      const auto facets = inlets_.facets(inlet);
-      double sum = 0.0;
-      for (const Index f : facets) sum += value_of(f);
-      return facets.empty() ? 0.0 : sum / static_cast<double>(facets.size());
+      // A facet that was cut at the end of the window has not been let in to yet.
+      double sum = 0.0, wet = 0.0;
+      for (const Index f : inlets_.facets(inlet)) {
+        if (facets_.mass[f] <= 0.0) continue;
+        sum += value_of(f);
+        wet += 1.0;
+      }
+      return wet > 0.0 ? sum / wet : 0.0;
     });
   };
   for (std::size_t k = 0; k < inlets_.all().size(); ++k) {
