@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "modules/solid/equilibrium/stiffness_solver.hpp"
 
 namespace perifrac {
 
@@ -71,11 +72,24 @@ double lattice_points(const Section& scene) {
 /// How a sparse factor in 3D fills up with the number of points.
 double fill(double points) { return std::cbrt(std::max(1.0, points / 1e4)); }
 
+/// The solid's equilibrium will be solved for by multigrid (stiffness_solver.cpp), as far as the
+/// scene says so.
+bool takes_multigrid(const Section& scene, double points) {
+  const std::string solver = scene.word("solid.linear_solver.type");
+  const bool has_cracks = scene.has("damage") || scene.count("cracks") > 0;
+  const bool is_lattice = scene.number("body.jitter") == 0.0;
+  return solver != "direct" && !has_cracks && is_lattice &&
+         (solver == "multigrid" || points >= points_worth_multigrid(scene.integer("dimension")));
+}
+
 /// Of the solid, for a point, of a horizon of 2.5 spacings.
 double solid_bytes(const Section& scene, double points) {
   const bool plane = scene.integer("dimension") == 2;
   const std::string type = scene.word("solid.type");
   if (type == "rigid") return 0.0;
+  if (type == "quasi_static" && takes_multigrid(scene, points)) {
+    return (plane ? 2.0 : 5.0) * kilobyte;
+  }
   if (type == "dynamic") return (plane ? 5.0 : 20.0) * kilobyte;
   return (plane ? 20.0 : 230.0 * fill(points)) * kilobyte;
 }

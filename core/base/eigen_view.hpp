@@ -12,6 +12,10 @@ inline Eigen::Map<const Eigen::VectorXd> view(std::span<const double> values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
+inline Eigen::Map<Eigen::VectorXd> view(std::span<double> values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
 inline Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }

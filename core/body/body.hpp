@@ -29,6 +29,7 @@ class Body {
   const std::vector<Face>& faces() const { return faces_; }
   double spacing() const { return spacing_; }  ///< [m]
   double horizon() const { return horizon_; }  ///< [m]
+  InfluenceFunction influence() const { return influence_; }
   const PointSet& point_set() const { return point_set_; }
   const std::vector<Region<D>>& regions() const { return regions_; }
   void set_regions(std::vector<Region<D>> regions) { regions_ = std::move(regions); }

@@ -59,6 +59,27 @@ void MirrorCondition<D, R>::fill(std::vector<double>& nodes, const double* face_
 }
 
 template <int D, int R>
+void MirrorCondition<D, R>::collect(std::span<const double> nodes,
+                                    std::span<double> unknowns) const {
+  const Index points = family_->point_count;
+  const Index count = family_->node_count();
+  const std::span<double> faces = unknowns.subspan(static_cast<std::size_t>(R) * points);
+  std::ranges::fill(faces, 0.0);
+  for (int r = 0; r < R; ++r) {
+    const double* const from = nodes.data() + static_cast<std::size_t>(r) * count;
+    double* const to = unknowns.data() + static_cast<std::size_t>(r) * points;
+    std::copy(from, from + points, to);
+    for (Index g = 0; g < family_->ghost_count(); ++g) {
+      const Image of = image(family_->ghost_faces[g], r);
+      to[family_->ghost_source[g]] += of.sign * from[points + g];
+      for (int k = 0; k < of.term_count; ++k) {
+        faces[of.terms[k].face_value] += of.terms[k].coefficient * from[points + g];
+      }
+    }
+  }
+}
+
+template <int D, int R>
 void MirrorCondition<D, R>::fill_conjugate(std::vector<double>& nodes) const {
   const Index count = family_->node_count();
   for (Index g = 0; g < family_->ghost_count(); ++g) {

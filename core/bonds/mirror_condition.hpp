@@ -47,6 +47,9 @@ class MirrorCondition {
   /// Writes the ghosts' values after the real points' in `nodes` (R blocks of node_count).
   void fill(std::vector<double>& nodes, const double* face_values) const;
 
+  /// The transpose of spread(): of forces on the nodes, what pulls at each unknown.
+  void collect(std::span<const double> nodes, std::span<double> unknowns) const;
+
   /// Writes ghosts of a flux state A (R * D blocks of node_count) conjugate to the field, which
   /// there is where no ghost is curved.
   void fill_conjugate(std::vector<double>& nodes) const;

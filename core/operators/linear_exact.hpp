@@ -250,6 +250,11 @@ class LinearExactOperator {
     return a;
   }
 
+  /// ForceOfStress on its bonds.
+  Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const {
+    return perifrac::force_of_stress(*family_, moments_, mirror_, stress);
+  }
+
   /// The matrix that takes an unknown vector to its gradient, rows as in gradient().
   Eigen::SparseMatrix<double> gradient_matrix() const {
     return perifrac::gradient_matrix(*family_, moments_, mirror_);

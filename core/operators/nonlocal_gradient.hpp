@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <span>
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include "core/base/small_vector.hpp"
@@ -54,6 +56,15 @@ template <int D, int R>
 Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
                                             const FamilyMoments<D>& moments,
                                             const MirrorCondition<D, R>& mirror);
+
+/// Takes R * D blocks of points, stresses times volumes, to the forces that balance them on every
+/// unknown, face values last [N]: the transpose of the gradient.
+using ForceOfStress = std::function<Eigen::VectorXd(const Eigen::VectorXd& stress)>;
+
+/// ForceOfStress on a family; a point without stress costs nothing.
+template <int D, int R>
+Eigen::VectorXd force_of_stress(const Family<D>& family, const FamilyMoments<D>& moments,
+                                const MirrorCondition<D, R>& mirror, const Eigen::VectorXd& stress);
 
 /// The matrix of sum_i V_i 1/2 s_i sum_j w_ij |u_j - u_i|^2, with s_i per point. Its whole diagonal
 /// is stored, zeros of points without bonds too, for a storage to be added in place.

@@ -136,8 +136,10 @@ void FracturingSolid<D>::make_energy_ports() {
 
 template <int D>
 std::string FracturingSolid<D>::free_motion() {
-  return rigid_motion_without_energy<D>(body_->points(), cracked_.free_stiffness(),
-                                        cracked_.free_unknowns(), plates_.size());
+  const Eigen::SparseMatrix<double>& stiffness = cracked_.free_stiffness();
+  return rigid_motion_without_energy<D>(
+      body_->points(), [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return stiffness * u; },
+      cracked_.free_unknowns(), static_cast<Eigen::Index>(plates_.size()));
 }
 
 /// Of the point that this one of what is solved for moves.

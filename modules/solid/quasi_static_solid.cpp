@@ -2,10 +2,10 @@
 
 #include <limits>
 
-#include <Eigen/Dense>
-
 #include "core/base/eigen_view.hpp"
+#include "core/base/errors.hpp"
 #include "core/profile/profile.hpp"
+#include "core/solvers/multigrid.hpp"
 #include "modules/solid/boundary/rigid_motion.hpp"
 #include "modules/solid/whole_solid.hpp"
 
@@ -24,36 +24,44 @@ Index first_row(const Eigen::SparseMatrix<double>& free_unknowns, Index column) 
 template <int D>
 QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
                                       std::shared_ptr<ElasticOperator<D>> elastic,
-                                      const SolidBoundary<D>& boundary)
+                                      const SolidBoundary<D>& boundary, const SolverChoice& choice)
     : body_(std::move(body)), elastic_(std::move(elastic)) {
   const ProfileScope profiled("assembly");
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
-  stiffness_ = elastic_->assemble();
-  dilatation_of_ = elastic_->dilatation_matrix();
-  free_unknowns_ = boundary.free_unknowns(mirror);
+  const Eigen::SparseMatrix<double> free_unknowns = boundary.free_unknowns(mirror);
+  solver_ = make_stiffness_solver<D>(*body_, elastic_, boundary, free_unknowns, choice);
   for (const auto& [face, column] : boundary.plates(mirror)) {
-    plates_.emplace_back(face, first_row(free_unknowns_, column));
+    plates_.emplace_back(face, first_row(free_unknowns, column));
+  }
+  std::vector<bool> is_free(free_unknowns.rows(), false);
+  for (Eigen::Index k = 0; k < free_unknowns.nonZeros(); ++k) {
+    is_free[free_unknowns.innerIndexPtr()[k]] = true;
+  }
+  for (Index k = 0; k < elastic_->size(); ++k) {
+    if (!is_free[k]) held_.push_back(k);
   }
   prescribed_ = boundary.prescribed(mirror);
-  const Eigen::SparseMatrix<double> equations = free_unknowns_.transpose();
-  load_ = ScheduledVector(equations.rows());
-  load_.add(equations, boundary.loads(mirror, elastic_->gradient_matrix()));
-  load_.add(-equations * stiffness_, prescribed_);
+  load_ = boundary.loads(
+      mirror, [this](const Eigen::VectorXd& stress) { return elastic_->force_of_stress(stress); });
   for (Index i = 0; i < body_->points().size(); ++i) {
     slope_.push_back(elastic_->pore_sign() / elastic_->drained_bulk_modulus(i));
   }
+  free_motion_ = find_free_motion(free_unknowns);
   make_ports();
 }
 
 template <int D>
-Eigen::SparseMatrix<double> QuasiStaticSolid<D>::free_stiffness() const {
-  return free_unknowns_.transpose() * stiffness_ * free_unknowns_;
-}
-
-template <int D>
-std::string QuasiStaticSolid<D>::free_motion() const {
-  return rigid_motion_without_energy<D>(body_->points(), free_stiffness(), free_unknowns_,
-                                        plates_.size());
+std::string QuasiStaticSolid<D>::find_free_motion(
+    const Eigen::SparseMatrix<double>& free_unknowns) const {
+  std::vector<double> unknowns(elastic_->size()), force(elastic_->size());
+  return rigid_motion_without_energy<D>(
+      body_->points(),
+      [&](const Eigen::VectorXd& free) -> Eigen::VectorXd {
+        view(unknowns) = free_unknowns * free;
+        elastic_->apply_stiffness(unknowns, force);
+        return free_unknowns.transpose() * view(force);
+      },
+      free_unknowns, static_cast<Eigen::Index>(plates_.size()));
 }
 
 template <int D>
@@ -101,9 +109,9 @@ void QuasiStaticSolid<D>::find_effective_stress(std::vector<double>& stress) con
 
 template <int D>
 void QuasiStaticSolid<D>::initialize(double) {
-  factor_.factor(free_stiffness());
-  unknowns_.assign(stiffness_.rows(), 0.0);
-  force_.assign(stiffness_.rows(), 0.0);
+  solver_->prepare();
+  unknowns_.assign(elastic_->size(), 0.0);
+  force_.assign(elastic_->size(), 0.0);
   external_work_ = 0.0;
   derive_from_unknowns();
 }
@@ -115,35 +123,51 @@ double QuasiStaticSolid<D>::stable_time_step() const {
 
 template <int D>
 double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
-  const Eigen::VectorXd pore = pore_force();
-  Eigen::VectorXd load(free_unknowns_.cols()), solution(free_unknowns_.cols());
-  load_.at(window.end, load);
-  interface_.begin(window);
-  if (interface_.is_linked()) load += free_unknowns_.transpose() * interface_force();
-  factor_.solve(load + free_unknowns_.transpose() * pore, solution);
-
   const Eigen::VectorXd before = view(unknowns_);
   const Eigen::VectorXd force_before = view(force_);
-  Eigen::VectorXd prescribed(before.size());
-  prescribed_.at(window.end, prescribed);
-  view(unknowns_) = prescribed + free_unknowns_ * solution;
-  view(force_) = stiffness_ * view(unknowns_) - pore;
-  external_work_ += 0.5 * (force_before + view(force_)).dot(view(unknowns_) - before);
+  const Eigen::VectorXd pore = pore_force();
+  Eigen::VectorXd load = pore;
+  load += load_.at(window.end);
+  interface_.begin(window);
+  if (interface_.is_linked()) load.head(D * slope_.size()) += view(interface_.force());
+  prescribe(window.end);
+  Eigen::VectorXd unknowns = view(unknowns_);
+  try {
+    solver_->solve(load, view(inner_force_), unknowns);
+  } catch (const NotConverged& error) {
+    throw NumericalError("displacement", "the whole body", window.end, error.what());
+  }
+  view(unknowns_) = unknowns;
+
   external_work_ -= work_at_rest();
   derive_from_unknowns();
   external_work_ += work_at_rest();
+  view(force_) = view(inner_force_) - pore;
+  external_work_ += 0.5 * (force_before + view(force_)).dot(view(unknowns_) - before);
   return window.end;
 }
 
-/// What the pore stress beyond that at rest does to all unknowns: the transpose of what makes
-/// dilatation of them.
+/// Displacements of time t, before the rest has answered them.
+template <int D>
+void QuasiStaticSolid<D>::prescribe(double t) {
+  const Eigen::VectorXd prescribed = prescribed_.at(t);
+  bool moved = false;
+  for (const Index k : held_) {
+    moved = moved || unknowns_[k] != prescribed[k];
+    unknowns_[k] = prescribed[k];
+  }
+  if (moved) elastic_->apply_stiffness(unknowns_, inner_force_);
+}
+
+/// What the pore stress beyond that at rest does to all unknowns [N].
 template <int D>
 Eigen::VectorXd QuasiStaticSolid<D>::pore_force() const {
-  if (pore_stress_.empty()) return Eigen::VectorXd::Zero(stiffness_.rows());
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(elastic_->size());
+  if (pore_stress_.empty()) return force;
   Eigen::VectorXd stress = view(pore_stress_);
   if (!pore_stress_at_rest_.empty()) stress -= view(pore_stress_at_rest_);
-  return elastic_->pore_sign() * dilatation_of_.transpose() *
-         view(body_->points().volume).cwiseProduct(stress);
+  elastic_->add_pore_force(view(std::as_const(stress)), view(force));
+  return force;
 }
 
 /// What bears the pore stress at rest from outside has done since the start, as the pores swelled.
@@ -156,17 +180,11 @@ double QuasiStaticSolid<D>::work_at_rest() const {
 }
 
 template <int D>
-Eigen::VectorXd QuasiStaticSolid<D>::interface_force() const {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(stiffness_.rows());
-  force.head(interface_.force().size()) = view(interface_.force());
-  return force;
-}
-
-template <int D>
 void QuasiStaticSolid<D>::derive_from_unknowns() {
-  dilatation_.resize(body_->points().volume.size());
-  view(dilatation_) = dilatation_of_ * view(unknowns_);
-  elastic_energy_ = 0.5 * view(unknowns_).dot(stiffness_ * view(unknowns_));
+  dilatation_.resize(slope_.size());
+  inner_force_.resize(unknowns_.size());
+  elastic_->apply_stiffness(unknowns_, inner_force_, dilatation_);
+  elastic_energy_ = 0.5 * view(unknowns_).dot(view(inner_force_));
 }
 
 template <int D>

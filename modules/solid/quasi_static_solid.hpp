@@ -6,21 +6,19 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 
 #include "core/body/body.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/module/port_table.hpp"
-#include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/boundary/interface_force.hpp"
 #include "modules/solid/boundary/solid_boundary.hpp"
+#include "modules/solid/equilibrium/stiffness_solver.hpp"
 #include "modules/solid/material/elastic_operator.hpp"
 
 namespace perifrac {
 
-/// A linear elastic solid in equilibrium at the end of every window: its stiffness is factored once
-/// and each window costs one back-substitution. Loads and prescribed displacements are those of the
-/// window's end. Small strain.
+/// A linear elastic solid in equilibrium at the end of every window, solved for by
+/// StiffnessSolver. Loads and prescribed displacements are those of the window's end. Small strain.
 ///
 /// Ports: in `pore_stress` [Pa], `interface_impulse` [N s] on the points; out `displacement` [m],
 /// `dilatation` with its slope d(dilatation)/d(pore_stress), `effective_stress` [Pa] (D * D
@@ -32,12 +30,13 @@ class QuasiStaticSolid final : public PhysicsModule {
  public:
   /// `elastic` has the boundary's mirror condition. Its initial stress does not move the body, as
   /// what lies behind the faces bears it; energy and work are counted from there.
+  /// Throws BodyError where `choice` asks for what the body cannot have.
   QuasiStaticSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<ElasticOperator<D>> elastic,
-                   const SolidBoundary<D>& boundary);
+                   const SolidBoundary<D>& boundary, const SolverChoice& choice = {});
 
   /// A motion of the whole body that nothing resists, in words; empty where there is none. Such a
   /// body has no equilibrium: do not initialize it.
-  std::string free_motion() const;
+  const std::string& free_motion() const { return free_motion_; }
 
   std::span<const Port> ports() const override { return ports_.list(); }
   PortView port(PortId id) override { return ports_.view(id); }
@@ -58,26 +57,26 @@ class QuasiStaticSolid final : public PhysicsModule {
  private:
   void make_ports();
   void find_effective_stress(std::vector<double>& stress) const;
-  Eigen::SparseMatrix<double> free_stiffness() const;
+  std::string find_free_motion(const Eigen::SparseMatrix<double>& free_unknowns) const;
   Eigen::VectorXd pore_force() const;
   double work_at_rest() const;
-  Eigen::VectorXd interface_force() const;
+  void prescribe(double t);
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
   PortTable ports_;
   std::vector<std::pair<std::string, Index>> plates_;  ///< face, and an unknown that it moves
-  Eigen::SparseMatrix<double> stiffness_;              ///< of all unknowns, face values included
-  Eigen::SparseMatrix<double> dilatation_of_;          ///< takes all unknowns to point dilatations
-  Eigen::SparseMatrix<double> free_unknowns_;          ///< takes those solved for to all unknowns
-  SparseCholesky factor_;                              ///< of the stiffness of those solved for
+  std::string free_motion_;
+  std::unique_ptr<StiffnessSolver<D>> solver_;
+  std::vector<Index> held_;        ///< unknowns that are prescribed
   ScheduledVector prescribed_{0};  ///< displacements that are prescribed, 0 elsewhere [m]
-  ScheduledVector load_{0};        ///< of those solved for, what the prescribed ones do added [N]
+  ScheduledVector load_{0};        ///< on every unknown, reactions left out [N]
 
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   std::vector<double> force_;     ///< external force on every unknown, reactions included [N]
   double external_work_ = 0.0;
+  std::vector<double> inner_force_;  ///< the stiffness times the unknowns [N]
 
   std::vector<double> pore_stress_;          ///< input; empty until it is connected
   std::vector<double> pore_stress_at_rest_;  ///< empty: none

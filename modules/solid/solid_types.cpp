@@ -9,6 +9,7 @@
 #include "modules/solid/boundary/solid_boundary_keys.hpp"
 #include "modules/solid/dynamic_fracture.hpp"
 #include "modules/solid/dynamic_solid.hpp"
+#include "modules/solid/equilibrium/stiffness_solver.hpp"
 #include "modules/solid/fracture/crack_friction_keys.hpp"
 #include "modules/solid/fracture/damage_keys.hpp"
 #include "modules/solid/fracture/short_seeds.hpp"
@@ -142,7 +143,8 @@ std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
   if (has_cracks(section)) return make_fracturing(section, body);
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
-  auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary);
+  auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary,
+                                                     read_solver_choice(section));
   solid->set_pore_stress_at_rest(read_pore_stress_at_rest<D>(section, *body));
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,
@@ -224,6 +226,7 @@ KeyTable elastic_keys() {
                   .fallback = "0 1/s",
                   .meaning = "dynamic: rate at which a free velocity decays."});
   keys.push_back(crack_friction_key());
+  for (Key& key : linear_solver_keys()) keys.push_back(std::move(key));
   keys.push_back({.path = "integrator.safety",
                   .range = "(0, 1)",
                   .fallback = "0.9",
@@ -252,7 +255,7 @@ KeyTable rigid_keys() {
 ModuleType quasi_static_solid_type() {
   return {.section = "solid",
           .name = "quasi_static",
-          .meaning = "Elastic solid in equilibrium at every window's end; one factorisation.",
+          .meaning = "Elastic solid in equilibrium at every window's end.",
           .keys = elastic_keys(),
           .make = [](const Section& section, const AnyBody& any) {
             return std::visit([&](const auto& body) { return make_quasi_static(section, body); },

@@ -113,7 +113,7 @@ bool PoreBoundary<D>::has_sources() const {
 }
 
 template <int D>
-ScheduledVector PoreBoundary<D>::sources(const Eigen::SparseMatrix<double>& gradient) const {
+ScheduledVector PoreBoundary<D>::sources(const ForceOfStress& force_of) const {
   const Index points = body_->points().size();
   ScheduledVector rate(points);
   for (int f = 0; f < std::ssize(faces_); ++f) {
@@ -121,7 +121,7 @@ ScheduledVector PoreBoundary<D>::sources(const Eigen::SparseMatrix<double>& grad
     const bool layered = !body_->layer(f).empty();
     rate.add(faces_[f].schedule,
              faces_[f].value * (layered ? area_in_layer(f)
-                                        : face_load<D, 1>(*body_, gradient, mirrored(), f, 0)));
+                                        : face_load<D, 1>(*body_, force_of, mirrored(), f, 0)));
   }
   for (const auto& [point, value, schedule] : sources_) {
     rate.add(schedule, value * Eigen::VectorXd::Unit(points, point));

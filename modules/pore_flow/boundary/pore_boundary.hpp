@@ -7,6 +7,7 @@
 #include "core/bonds/mirror_condition.hpp"
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
+#include "core/operators/nonlocal_gradient.hpp"
 #include "core/time/scheduled_vector.hpp"
 #include "modules/pore_flow/boundary/held_point.hpp"
 
@@ -39,8 +40,9 @@ class PoreBoundary {
   std::vector<HeldPoint> held_points(const MirrorCondition<D, 1>& mirror) const;
   /// Prescribed pressures, by face value, then of pressure_layers() [Pa].
   ScheduledVector face_pressures(const MirrorCondition<D, 1>& mirror) const;
-  /// Volume per time that inflow and sources bring to every point [m^3/s, per metre in 2D].
-  ScheduledVector sources(const Eigen::SparseMatrix<double>& gradient) const;
+  /// Volume per time that inflow and sources bring to every point [m^3/s, per metre in 2D];
+  /// `force_of`: the operator's force_of_stress().
+  ScheduledVector sources(const ForceOfStress& force_of) const;
   bool has_sources() const;
 
  private:

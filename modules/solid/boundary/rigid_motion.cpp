@@ -1,6 +1,7 @@
 #include "modules/solid/boundary/rigid_motion.hpp"
 
 #include <array>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -32,23 +33,33 @@ Eigen::VectorXd rotation(const Points<D>& points, Eigen::Index unknowns, int a, 
   return motion;
 }
 
+/// The mean of a stiffness' diagonal: about its energy of a vector of random signs.
+double typical_stiffness(const StiffnessTimes& stiffness, Eigen::Index size) {
+  Eigen::VectorXd signs(size);
+  std::minstd_rand bits;
+  for (double& sign : signs) sign = bits() % 2 == 0 ? 1.0 : -1.0;
+  return signs.dot(stiffness(signs)) / static_cast<double>(size);
+}
+
 /// Lets the plates go along with a motion as far as that costs nothing: their own best answer.
-void answer_of_plates(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index plates,
+void answer_of_plates(const StiffnessTimes& stiffness, Eigen::Index plates,
                       Eigen::VectorXd& motion) {
   if (plates == 0) return;
-  const Eigen::MatrixXd rows = stiffness.rightCols(plates);
+  Eigen::MatrixXd rows(motion.size(), plates);
+  for (Eigen::Index k = 0; k < plates; ++k) {
+    rows.col(k) = stiffness(Eigen::VectorXd::Unit(motion.size(), motion.size() - plates + k));
+  }
   motion.tail(plates) = rows.bottomRows(plates).ldlt().solve(-(rows.transpose() * motion));
 }
 
 }  // namespace
 
 template <int D>
-std::string rigid_motion_without_energy(const Points<D>& points,
-                                        const Eigen::SparseMatrix<double>& stiffness,
+std::string rigid_motion_without_energy(const Points<D>& points, const StiffnessTimes& stiffness,
                                         const Eigen::SparseMatrix<double>& free_unknowns,
                                         Eigen::Index plates) {
   const Eigen::Index all = free_unknowns.rows();
-  Eigen::MatrixXd motions(stiffness.rows(), D * (D + 1) / 2);
+  Eigen::MatrixXd motions(free_unknowns.cols(), D * (D + 1) / 2);
   std::vector<std::string> names;
   int column = 0;
   const auto add = [&](const Eigen::VectorXd& motion_of_all, bool plates_follow) {
@@ -68,9 +79,12 @@ std::string rigid_motion_without_energy(const Points<D>& points,
           fmt::format("it can turn in the plane of {} and {}", axis_names[a], axis_names[b]));
     }
   }
-  const Eigen::MatrixXd energy = motions.transpose() * (stiffness * motions);
+  Eigen::MatrixXd energy(motions.cols(), motions.cols());
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+    energy.col(k) = motions.transpose() * stiffness(motions.col(k));
+  }
   const SymmetricSpectrum spectrum = symmetric_spectrum(energy);
-  const double typical = stiffness.diagonal().mean();
+  const double typical = typical_stiffness(stiffness, free_unknowns.cols());
   // Held by one face, a motion costs about 1 / (points across) of a bond's stiffness; free, only
   // rounding is left.
   if (spectrum.values[0] > 1e-11 * typical) return {};
@@ -79,12 +93,10 @@ std::string rigid_motion_without_energy(const Points<D>& points,
   return names[worst];
 }
 
-template std::string rigid_motion_without_energy<2>(const Points<2>&,
-                                                    const Eigen::SparseMatrix<double>&,
+template std::string rigid_motion_without_energy<2>(const Points<2>&, const StiffnessTimes&,
                                                     const Eigen::SparseMatrix<double>&,
                                                     Eigen::Index);
-template std::string rigid_motion_without_energy<3>(const Points<3>&,
-                                                    const Eigen::SparseMatrix<double>&,
+template std::string rigid_motion_without_energy<3>(const Points<3>&, const StiffnessTimes&,
                                                     const Eigen::SparseMatrix<double>&,
                                                     Eigen::Index);
 

@@ -11,7 +11,9 @@ CrackedLoad<D>::CrackedLoad(std::shared_ptr<const Body<D>> body,
     : body_(std::move(body)),
       elastic_(std::move(elastic)),
       prescribed_(boundary.prescribed(mirror)),
-      load_(boundary.loads(mirror, elastic_->gradient_matrix())),
+      load_(boundary.loads(
+          mirror,
+          [this](const Eigen::VectorXd& stress) { return elastic_->force_of_stress(stress); })),
       prescribes_(!prescribed_.is_constant() || prescribed_.at(0.0).any()),
       is_steady_by_itself_(load_.is_constant() && !prescribes_) {}
 

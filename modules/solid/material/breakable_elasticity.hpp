@@ -5,7 +5,6 @@
 
 #include "core/operators/point_stiffness.hpp"
 #include "modules/solid/material/elastic_operator.hpp"
-#include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
 
@@ -55,9 +54,6 @@ class BreakableElasticity : public ElasticOperator<D> {
   /// Bonds of these points broke: their weights are 0 in the family now.
   virtual void update(std::span<const Index> points) = 0;
 
-  /// The elastic constants at a point.
-  virtual const IsotropicElasticity<D>& law(Index i) const = 0;
-
  protected:
   friend class DeformedMaterial<D>;
 
@@ -65,7 +61,7 @@ class BreakableElasticity : public ElasticOperator<D> {
   virtual void take(std::span<const double> u) = 0;
   virtual Tensor<D, D> gradient_at(Index i) const = 0;
   virtual Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const {
-    return law(i).stress(gradient);
+    return this->law(i).stress(gradient);
   }
   virtual double point_energy(Index i, std::span<const double> u) const = 0;
 };

@@ -6,6 +6,7 @@
 #include <Eigen/SparseCore>
 
 #include "core/base/points.hpp"
+#include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
 
@@ -51,6 +52,13 @@ class ElasticOperator {
     apply(u, pore, force, dilatation);
   }
 
+  /// The stiffness times u: apply_small() without pore stress and initial stress.
+  virtual void apply_stiffness(std::span<const double> u, std::span<double> force,
+                               std::span<double> dilatation = {}) = 0;
+
+  /// Adds the force of a pore stress [Pa] on every unknown [N].
+  virtual void add_pore_force(std::span<const double> pore_stress, std::span<double> force) = 0;
+
   /// E(u) without pore stress and initial stress [J, per metre in 2D]; `force` is that of apply()
   /// without them.
   virtual double energy(std::span<const double> u, std::span<const double> force) {
@@ -71,16 +79,14 @@ class ElasticOperator {
   /// positive: D * D blocks of points [Pa].
   virtual void stress(std::span<const double> u, std::span<double> stress) = 0;
 
-  /// The stiffness: apply_small without pore stress and initial stress as a matrix.
+  /// The stiffness as a matrix.
   virtual Eigen::SparseMatrix<double> assemble() const = 0;
 
-  /// Takes displacements to point dilatations; volume-weighted, its transpose makes force of pore
-  /// stress.
-  virtual Eigen::SparseMatrix<double> dilatation_matrix() const = 0;
+  /// What makes loads of tractions.
+  virtual Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const = 0;
 
-  /// Takes displacements to D * D blocks of point gradients; its transpose makes loads of
-  /// tractions.
-  virtual Eigen::SparseMatrix<double> gradient_matrix() const = 0;
+  /// The elastic constants at a point.
+  virtual const IsotropicElasticity<D>& law(Index i) const = 0;
 
   /// Stiffness of a point against a change of volume at fixed mean stress [Pa].
   virtual double drained_bulk_modulus(Index i) const = 0;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/eigen_view.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/operators/linear_exact.hpp"
 #include "modules/solid/material/bond_energy.hpp"
@@ -26,8 +27,7 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
              std::span<double> dilatation) override {
     if (pore.value.empty() && dilatation.empty() && !initial_stress_) {
-      operator_.apply(u, force);
-      for (const ThinPoint& thin : thin_points_) add_force(thin.stiffness, u, force);
+      LinearExactElasticity::apply_stiffness(u, force);
       return;
     }
     with_pore_stress(pore, [&](auto pore_stress) {
@@ -37,6 +37,41 @@ class LinearExactElasticity : public BreakableElasticity<D> {
         apply_with(u, force, dilatation, pore_stress, [](auto&) {});
       }
     });
+  }
+
+  void apply_stiffness(std::span<const double> u, std::span<double> force,
+                       std::span<double> dilatation = {}) override {
+    if (!dilatation.empty() && !operator_.family().curved) {
+      apply_with(
+          u, force, dilatation, [](Index, double) { return 0.0; }, [](auto&) {});
+      return;
+    }
+    operator_.apply(u, force);
+    for (const ThinPoint& thin : thin_points_) add_force(thin.stiffness, u, force);
+    if (dilatation.empty()) return;
+    operator_.look_at(u);
+    for_each_point(operator_.family().point_count,
+                   [&](Index i) { dilatation[i] = trace(operator_.gradient_at(i)); });
+  }
+
+  void add_pore_force(std::span<const double> pore_stress, std::span<double> force) override {
+    if (operator_.family().curved) {
+      const Index points = operator_.family().point_count;
+      Eigen::VectorXd stress = Eigen::VectorXd::Zero(D * D * points);
+      for (Index i = 0; i < points; ++i) {
+        for (int a = 0; a < D; ++a) {
+          stress[(a * D + a) * points + i] = operator_.family().volume[i] * pore_stress[i];
+        }
+      }
+      view(force) += force_of_stress(stress);
+      return;
+    }
+    const std::vector<double> rest(size(), 0.0);
+    std::vector<double> inner(size());
+    operator_.apply(rest, inner, [&](Index i, const Tensor<D, D>&, Tensor<D, D>& stress) {
+      add_to_diagonal(stress, -pore_stress[i]);
+    });
+    view(force) -= view(inner);
   }
 
   void stress(std::span<const double> u, std::span<double> stress) override {
@@ -69,18 +104,8 @@ class LinearExactElasticity : public BreakableElasticity<D> {
     return matrix;
   }
 
-  Eigen::SparseMatrix<double> dilatation_matrix() const override {
-    const Index points = operator_.family().point_count;
-    Eigen::SparseMatrix<double> trace(points, D * D * points);
-    trace.reserve(Eigen::VectorXi::Ones(D * D * points));
-    for (int a = 0; a < D; ++a) {
-      for (Index i = 0; i < points; ++i) trace.insert(i, (a * D + a) * points + i) = 1.0;
-    }
-    return trace * gradient_matrix();
-  }
-
-  Eigen::SparseMatrix<double> gradient_matrix() const override {
-    return operator_.gradient_matrix();
+  Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const override {
+    return operator_.force_of_stress(stress);
   }
 
   double drained_bulk_modulus(Index i) const override { return law(i).drained_bulk_modulus(); }

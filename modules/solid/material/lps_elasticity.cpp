@@ -88,23 +88,45 @@ void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
   assert(static_cast<Index>(u.size()) == size() && u.size() == force.size());
   mirror_.spread(u, field_);
   with_pore_stress(pore, [&](auto pore_stress) { store_state(dilatation, pore_stress); });
-  const Index points = family_->point_count;
-  const auto write_forces = [&]<bool initially_stressed>() {
-    for_each_point(points, [&](Index i) {
-      const Vector<D> f = bond_forces<initially_stressed>(i);
-      set_at(force, points, i, -f);
-    });
-  };
-  if (initial_state_.empty()) {
-    write_forces.template operator()<false>();
+  if (initial_stress_) {
+    find_forces<true>(force);
   } else {
-    write_forces.template operator()<true>();
+    find_forces<false>(force);
   }
+}
+
+template <int D>
+void LpsElasticity<D>::apply_stiffness(std::span<const double> u, std::span<double> force,
+                                       std::span<double> dilatation) {
+  mirror_.spread(u, field_);
+  store_state(dilatation, [](Index, double) { return 0.0; });
+  find_forces<false>(force);
+}
+
+template <int D>
+void LpsElasticity<D>::add_pore_force(std::span<const double> pore_stress,
+                                      std::span<double> force) {
+  const std::vector<double> rest(size(), 0.0);
+  std::vector<double> inner(size());
+  mirror_.spread(rest, field_);
+  store_state({}, [&](Index i, double) { return pore_stress[i]; });
+  find_forces<false>(inner);
+  for (std::size_t k = 0; k < inner.size(); ++k) force[k] -= inner[k];
+}
+
+template <int D>
+template <bool initially_stressed>
+void LpsElasticity<D>::find_forces(std::span<double> force) const {
+  const Index points = family_->point_count;
+  for_each_point(points, [&](Index i) {
+    const Vector<D> f = bond_forces<initially_stressed>(i);
+    set_at(force, points, i, -f);
+  });
   for_each_point(static_cast<Index>(face_points_.size()), [&](Index k) {
     const Index i = face_points_[k];
     add_at(force, points, i, -image_forces(i));
   });
-  add_face_reactions(force.subspan(static_cast<std::size_t>(D) * points));
+  add_face_reactions<initially_stressed>(force.subspan(static_cast<std::size_t>(D) * points));
 }
 
 template <int D>
@@ -199,6 +221,7 @@ Vector<D> LpsElasticity<D>::image_forces(Index i) const {
 /// dE/dU of the face values: the part of real points' bonds in the ghosts at their ends. Serial, so
 /// that the order of the sum is fixed.
 template <int D>
+template <bool initially_stressed>
 void LpsElasticity<D>::add_face_reactions(std::span<double> reaction) const {
   std::ranges::fill(reaction, 0.0);
   if (reaction.empty()) return;
@@ -215,7 +238,7 @@ void LpsElasticity<D>::add_face_reactions(std::span<double> reaction) const {
         const auto image = mirror_.image(family_->ghost_faces[j - points], r);
         if (image.term_count == 0) continue;
         double force = pull * xi[r];
-        for (int b = 0; b < D && initial_stress_; ++b) {
+        for (int b = 0; b < D && initially_stressed; ++b) {
           force += initial_state_[(r * D + b) * nodes + i] * xi[b];
         }
         force *= family_->volume[i] * family_->weight[bond];
@@ -359,8 +382,8 @@ Eigen::SparseMatrix<double> LpsElasticity<D>::assemble() const {
 }
 
 template <int D>
-Eigen::SparseMatrix<double> LpsElasticity<D>::gradient_matrix() const {
-  return perifrac::gradient_matrix(*family_, moments_, mirror_);
+Eigen::VectorXd LpsElasticity<D>::force_of_stress(const Eigen::VectorXd& stress) const {
+  return perifrac::force_of_stress(*family_, moments_, mirror_, stress);
 }
 
 template class LpsElasticity<2>;

@@ -31,10 +31,14 @@ class LpsElasticity final : public BreakableElasticity<D> {
   Index size() const override;
   void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
              std::span<double> dilatation) override;
+  void apply_stiffness(std::span<const double> u, std::span<double> force,
+                       std::span<double> dilatation = {}) override;
+  void add_pore_force(std::span<const double> pore_stress, std::span<double> force) override;
   void stress(std::span<const double> u, std::span<double> stress) override;
   Eigen::SparseMatrix<double> assemble() const override;
-  Eigen::SparseMatrix<double> dilatation_matrix() const override;
-  Eigen::SparseMatrix<double> gradient_matrix() const override;
+  /// Takes displacements to point dilatations.
+  Eigen::SparseMatrix<double> dilatation_matrix() const;
+  Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const override;
   double drained_bulk_modulus(Index i) const override { return law_.at(i).drained_bulk_modulus(); }
   double pore_sign() const override { return pore_sign_; }
 
@@ -57,8 +61,11 @@ class LpsElasticity final : public BreakableElasticity<D> {
   template <class PoreStressAt>
   void store_state(std::span<double> dilatation, PoreStressAt&& pore_stress);
   template <bool initially_stressed>
+  void find_forces(std::span<double> force) const;
+  template <bool initially_stressed>
   Vector<D> bond_forces(Index i) const;
   Vector<D> image_forces(Index i) const;
+  template <bool initially_stressed>
   void add_face_reactions(std::span<double> reaction) const;
   Vector<D> bond_vector(Index i, Index j) const;
   Vector<D> difference(Index i, Index j) const;

@@ -41,7 +41,8 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
       scratch_(body.points().size()) {
   const auto mirror = boundary.mirror_condition(*body.family(boundary.mirrored()));
   prescribed_ = boundary.prescribed(mirror);
-  loads_ = boundary.loads(mirror, elastic_->gradient_matrix());
+  loads_ = boundary.loads(
+      mirror, [this](const Eigen::VectorXd& stress) { return elastic_->force_of_stress(stress); });
   const Eigen::SparseMatrix<double> free = boundary.free_unknowns(mirror);
   for (Index k = 0; k < moved_.unknowns(); ++k) {
     if (moved_.owner(k) == LumpedMass::plate_alone) plates_.add(k);

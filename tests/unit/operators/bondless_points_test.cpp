@@ -111,9 +111,9 @@ TEST(BondlessPoints, DoNotExcuseAFlatFamily) {
 double load_above_a_layer(int count, FaceSet without_layers) {
   const auto body = test::layered_body<2>({8, count}, 1.0, 0b0100);
   const auto family = body->family(0, without_layers);
-  const auto gradient =
-      gradient_matrix(*family, family_moments(*family), MirrorCondition<2, 1>(*family));
-  return face_load<2, 1>(*body, gradient, 0, 3, 0, without_layers).sum();
+  const ForceOfStress force_of = test::force_by(
+      gradient_matrix(*family, family_moments(*family), MirrorCondition<2, 1>(*family)));
+  return face_load<2, 1>(*body, force_of, 0, 3, 0, without_layers).sum();
 }
 
 // Four horizons of 2.5 spacings: the layer's three rows count where they have bonds.
@@ -129,7 +129,7 @@ TEST(FaceLoadBesideALayer, GoesOnAlongTheLayer) {
   const auto body = test::layered_body<2>({11, 9}, 1.0, 0b1000);
   const auto family = body->family(0);
   LinearExactOperator<2, AnyLaw<2, 2>> op(family, MirrorCondition<2, 2>(*family), {});
-  EXPECT_NEAR((face_load<2, 2>(*body, op.gradient_matrix(), 0, 0, 1).sum()), 12.0, 1e-12);
+  EXPECT_NEAR((face_load<2, 2>(*body, test::force_of(op), 0, 0, 1).sum()), 12.0, 1e-12);
 }
 
 }  // namespace

@@ -15,22 +15,23 @@ namespace {
 using test::AnyLaw;
 
 template <int D, int R>
-Eigen::SparseMatrix<double> free_gradient(const Body<D>& body) {
+ForceOfStress free_force(const Body<D>& body) {
   const auto family = body.family(0);
-  return gradient_matrix(*family, family_moments(*family), MirrorCondition<D, R>(*family));
+  return test::force_by(
+      gradient_matrix(*family, family_moments(*family), MirrorCondition<D, R>(*family)));
 }
 
 template <int D, int R>
 void expect_load_of_the_face_alone(const std::array<int, D>& counts, double spacing) {
   const auto body = test::box_body<D>(counts, spacing);
-  const auto gradient = free_gradient<D, R>(*body);
+  const ForceOfStress force_of = free_force<D, R>(*body);
   const Points<D>& points = body->points();
   for (int face = 0; face < 2 * D; ++face) {
     const Face& plane = body->faces()[face];
     double area = 1.0;
     for (int a = 0; a < D; ++a) area *= a == plane.axis ? 1.0 : counts[a] * spacing;
     for (int r = 0; r < R; ++r) {
-      const Eigen::VectorXd load = face_load<D, R>(*body, gradient, 0, face, r);
+      const Eigen::VectorXd load = face_load<D, R>(*body, force_of, 0, face, r);
       EXPECT_NEAR(load.sum(), area, 1e-12 * area) << plane.name;
       for (Index i = 0; i < points.size(); ++i) {
         const double depth = std::abs(plane.coordinate - points.position[plane.axis][i]);
@@ -57,7 +58,7 @@ void expect_balance(const std::array<int, D>& counts) {
   const auto body = test::box_body<D>(counts, spacing);
   const auto family = body->family(0);
   LinearExactOperator<D, AnyLaw<R, D>> op(family, MirrorCondition<D, R>(*family), {});
-  const auto gradient = op.gradient_matrix();
+  const ForceOfStress force_of = test::force_of(op);
   const Index points = body->points().size();
   Tensor<R, D> slope;
   for (int k = 0; k < R * D; ++k) slope[k] = 0.3 * k - 0.8;
@@ -71,7 +72,7 @@ void expect_balance(const std::array<int, D>& counts) {
       }
       for (int face : {2 * b, 2 * b + 1}) {
         load.segment(r * points, points) += body->faces()[face].direction * stress[r * D + b] *
-                                            face_load<D, R>(*body, gradient, 0, face, r);
+                                            face_load<D, R>(*body, force_of, 0, face, r);
       }
     }
   }
@@ -102,16 +103,16 @@ std::shared_ptr<Body<2>> cut_body(const Region<2>& box) {
 /// Loads on faces and walls of a hole balance uniform stress.
 TEST(CutoutLoad, BalancesUniformStressWithTheFaces) {
   const auto body = cut_body({"hole", {12.0, 11.0}, {17.0, 14.0}});
-  const auto gradient = free_gradient<2, 2>(*body);
+  const ForceOfStress force_of = free_force<2, 2>(*body);
   const Index points = body->points().size();
   for (int axis = 0; axis < 2; ++axis) {
-    Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
+    Eigen::VectorXd stress = Eigen::VectorXd::Zero(4 * points);
     stress.segment(3 * axis * points, points).setOnes();
-    const Eigen::VectorXd all = gradient.transpose() * stress;
-    const Eigen::VectorXd walls = cutout_load<2>(*body, gradient, axis);
+    const Eigen::VectorXd all = force_of(stress);
+    const Eigen::VectorXd walls = cutout_load<2>(*body, force_of, axis);
     Eigen::VectorXd sum = walls;
     for (const int side : {-1, 1}) {
-      sum += side * face_load<2, 2>(*body, gradient, 0, 2 * axis + (side > 0 ? 1 : 0), axis);
+      sum += side * face_load<2, 2>(*body, force_of, 0, 2 * axis + (side > 0 ? 1 : 0), axis);
     }
     EXPECT_LT(test::largest(sum - all.segment(axis * points, points)), 1e-12);
     EXPECT_NEAR(walls.sum(), 0.0, 1e-12);
@@ -121,12 +122,12 @@ TEST(CutoutLoad, BalancesUniformStressWithTheFaces) {
 /// Of a notch the floor and the sides, not the face that it opens through.
 TEST(CutoutLoad, LeavesTheFaceBesideANotchAlone) {
   const auto body = cut_body({"notch", {12.0, 13.0}, {17.0, 30.0}});
-  const auto gradient = free_gradient<2, 2>(*body);
-  EXPECT_NEAR(cutout_load<2>(*body, gradient, 1).sum(), 5.0, 1e-12);
-  EXPECT_NEAR(cutout_load<2>(*body, gradient, 0).sum(), 0.0, 1e-12);
+  const ForceOfStress force_of = free_force<2, 2>(*body);
+  EXPECT_NEAR(cutout_load<2>(*body, force_of, 1).sum(), 5.0, 1e-12);
+  EXPECT_NEAR(cutout_load<2>(*body, force_of, 0).sum(), 0.0, 1e-12);
   EXPECT_THROW(
       cutout_load<2>(*cut_body({"notch", {12.0, 20.0}, {17.0, 30.0}}),
-                     free_gradient<2, 2>(*cut_body({"notch", {12.0, 20.0}, {17.0, 30.0}})), 1),
+                     free_force<2, 2>(*cut_body({"notch", {12.0, 20.0}, {17.0, 30.0}})), 1),
       BodyError);
 }
 
@@ -135,17 +136,17 @@ double load_above_a_sealed_face(int count) {
   const auto body = test::box_body<2>({8, count}, 1.0);
   const FaceSet mirrored = 0b0111;
   const auto family = body->family(mirrored);
-  const auto gradient =
-      gradient_matrix(*family, family_moments(*family), MirrorCondition<2, 1>(*family));
-  return face_load<2, 1>(*body, gradient, mirrored, 3, 0).sum();
+  const ForceOfStress force_of = test::force_by(
+      gradient_matrix(*family, family_moments(*family), MirrorCondition<2, 1>(*family)));
+  return face_load<2, 1>(*body, force_of, mirrored, 3, 0).sum();
 }
 
 TEST(FaceLoad, RefusesABodyThatIsTooThin) {
   const auto body = test::box_body<2>({20, 9}, 1.0);
-  const auto gradient = free_gradient<2, 2>(*body);
-  EXPECT_NO_THROW((face_load<2, 2>(*body, gradient, 0, 0, 0)));
+  const ForceOfStress force_of = free_force<2, 2>(*body);
+  EXPECT_NO_THROW((face_load<2, 2>(*body, force_of, 0, 0, 0)));
   try {
-    face_load<2, 2>(*body, gradient, 0, 3, 1);
+    face_load<2, 2>(*body, force_of, 0, 3, 1);
     FAIL() << "accepted";
   } catch (const BodyError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("9 m between faces 'top' and 'bottom'"));

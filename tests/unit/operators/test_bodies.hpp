@@ -12,6 +12,7 @@
 #include "core/body/body.hpp"
 #include "core/body/bonded_layer.hpp"
 #include "core/geometry/lattice.hpp"
+#include "core/operators/nonlocal_gradient.hpp"
 
 namespace perifrac::test {
 
@@ -50,6 +51,19 @@ std::shared_ptr<const Body<D>> box_body(const std::array<int, D>& counts, double
   return std::make_shared<const Body<D>>(box_points<D>(counts, spacing, cloud),
                                          box_faces<D>(counts, spacing), spacing,
                                          horizon_ratio * spacing, influence);
+}
+
+/// Of an operator or a material.
+template <class Operator>
+ForceOfStress force_of(const Operator& op) {
+  return [&op](const Eigen::VectorXd& stress) { return op.force_of_stress(stress); };
+}
+
+/// From a matrix that makes gradients.
+inline ForceOfStress force_by(const Eigen::SparseMatrix<double>& gradient) {
+  return [gradient](const Eigen::VectorXd& stress) -> Eigen::VectorXd {
+    return gradient.transpose() * stress;
+  };
 }
 
 /// A box on a lattice with bonded layers behind the faces in `layered`.

@@ -43,7 +43,7 @@ DarcySystem<D> darcy_system(const PoreBoundary<D>& boundary, FlowScheme scheme,
   const std::vector<HeldPoint> held = boundary.held_points(flow.mirror());
   const ScheduledVector pressures = boundary.face_pressures(flow.mirror());
   ScheduledVector sources(0);
-  if (boundary.has_sources()) sources = boundary.sources(flow.gradient_matrix());
+  if (boundary.has_sources()) sources = boundary.sources(test::force_of(flow));
   PoreMaterials materials{{{rock.biot_coefficient, 0.2, 0.0, rock.storage}},
                           std::vector<std::uint8_t>(flow.family().point_count, 0)};
   return {make_flow(scheme, std::move(flow)),

@@ -16,7 +16,7 @@ Eigen::VectorXd steady_pressure(const Body<D>& body, const PoreBoundary<D>& boun
   const Eigen::SparseMatrix<double> h = flow.assemble();
   const Eigen::VectorXd faces = boundary.face_pressures(flow.mirror()).at(0.0);
   Eigen::VectorXd right_side = -h.topRightCorner(n, faces.size()) * faces;
-  if (boundary.has_sources()) right_side += boundary.sources(flow.gradient_matrix()).at(0.0);
+  if (boundary.has_sources()) right_side += boundary.sources(test::force_of(flow)).at(0.0);
   SparseCholesky factor;
   factor.factor(Eigen::SparseMatrix<double>(h.topLeftCorner(n, n)));
   Eigen::VectorXd p(n);
@@ -62,7 +62,7 @@ TEST(PoreBoundary, BringsWhatIsPrescribed) {
   boundary.source(7, 2.0);
   EXPECT_TRUE(boundary.has_sources());
   const auto flow = test::flow_operator<3>(*body, boundary, 1.0);
-  EXPECT_NEAR(boundary.sources(flow.gradient_matrix()).at(0.0).sum(), 0.14 * 25.0 + 2.0, 1e-12);
+  EXPECT_NEAR(boundary.sources(test::force_of(flow)).at(0.0).sum(), 0.14 * 25.0 + 2.0, 1e-12);
 }
 
 }  // namespace

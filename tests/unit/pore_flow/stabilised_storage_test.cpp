@@ -173,7 +173,7 @@ struct Flow {
     boundary.source(3, 0.7);
     auto flow = test::flow_operator<2>(*body, boundary, 0.7);
     const ScheduledVector pressures = boundary.face_pressures(flow.mirror());
-    const ScheduledVector sources = boundary.sources(flow.gradient_matrix());
+    const ScheduledVector sources = boundary.sources(test::force_of(flow));
     PoreMaterials materials{{{biot_coefficient, 0.2, 0.0, point_storage}},
                             std::vector<std::uint8_t>(zero.size(), std::uint8_t{0})};
     return {make_flow(scheme, std::move(flow)),

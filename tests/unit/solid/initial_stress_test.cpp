@@ -47,7 +47,7 @@ void expect_tractions_of_the_faces(int count) {
   const Vector<D> stress = initial_stress<D>();
   for (const auto make : materials<D>) {
     const auto solid = make(*body, boundary, {3.0, 2.0}, stress);
-    const auto gradient = solid->gradient_matrix();
+    const ForceOfStress force_of = test::force_of(*solid);
     Eigen::VectorXd expected = Eigen::VectorXd::Zero(solid->size());
     for (int face = 0; face < 2 * D; ++face) {
       const int axis = face / 2;
@@ -56,7 +56,7 @@ void expect_tractions_of_the_faces(int count) {
         expected[D * points + mirror.face_value(face, axis)] = traction * area_of(*body, face);
       } else {
         expected.segment(axis * points, points) +=
-            traction * face_load<D, D>(*body, gradient, mirrored, face, axis);
+            traction * face_load<D, D>(*body, force_of, mirrored, face, axis);
       }
     }
     const double scale = test::largest(expected);
@@ -91,7 +91,7 @@ void expect_no_more_than_a_constant(int count) {
         flux[(a * D + a) * points + i] = stress[a] * body->points().volume[i];
       }
     }
-    const Eigen::VectorXd initial = loaded->gradient_matrix().transpose() * flux;
+    const Eigen::VectorXd initial = loaded->force_of_stress(flux);
     for (const PoreStress& pores : {PoreStress{}, PoreStress{pore, {}}, PoreStress{pore, slope}}) {
       loaded->apply(u, pores, force, theta);
       plain->apply(u, pores, without, theta);

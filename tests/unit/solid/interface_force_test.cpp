@@ -22,7 +22,7 @@ std::vector<double> impulse_of_traction(const Body<D>& body, const SolidBoundary
   const LinearExactOperator<D, IsotropicElasticity<D>> op(
       family, boundary.mirror_condition(*family), {test::lambda, test::mu});
   const Eigen::VectorXd load =
-      length * traction * face_load<D, D>(body, op.gradient_matrix(), boundary.mirrored(), 1, 0);
+      length * traction * face_load<D, D>(body, test::force_of(op), boundary.mirrored(), 1, 0);
   std::vector<double> impulse(D * body.points().size(), 0.0);
   std::ranges::copy(load, impulse.begin());
   return impulse;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/operators/face_load.hpp"
+#include "core/solvers/sparse_cholesky.hpp"
 #include "core/state/snapshot.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 #include "tests/unit/solid/elastic_solid.hpp"
@@ -102,7 +103,7 @@ void expect_patch_with_shear(int count) {
   const MirrorCondition<D, D> mirror(*family);
   const IsotropicElasticity<D> law{lambda, mu};
   const LinearExactOperator<D, IsotropicElasticity<D>> op(family, mirror, law);
-  const Eigen::SparseMatrix<double> gradient = op.gradient_matrix();
+  const ForceOfStress force_of = test::force_of(op);
   const Points<D>& points = body->points();
   const Index n = points.size();
   Tensor<D, D> slope;
@@ -144,7 +145,7 @@ void expect_patch_with_shear(int count) {
   factor.factor(loose * a * loose.transpose());
   Eigen::VectorXd u(row);
   Eigen::VectorXd load(D * n);
-  boundary.loads(mirror, gradient).at(0.0, load);
+  boundary.loads(mirror, force_of).at(0.0, load);
   factor.solve(loose * (load - a * held), u);
   // Pins leave a long lever to rounding: the matrix's condition is about 1e5.
   EXPECT_LT(test::largest(u - loose * linear), 1e-12 * test::largest(linear));

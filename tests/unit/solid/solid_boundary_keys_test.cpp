@@ -58,15 +58,15 @@ TEST(SolidBoundaryKeys, SayWhatTheBuildersSay) {
   ASSERT_EQ(from_scene.mirrored(), built.mirrored());
   const auto mirror = built.mirror_condition(*body->family(built.mirrored()));
   const auto elastic = test::elastic<2>(*body, built, {1.0, 1.0});
-  const auto gradient = elastic->gradient_matrix();
+  const ForceOfStress force_of = test::force_of(*elastic);
   Eigen::VectorXd expected(elastic->size()), read_back(elastic->size());
   for (const double t : {0.0, 1.5, 30.0}) {
     built.prescribed(mirror).at(t, expected);
     from_scene.prescribed(mirror).at(t, read_back);
     EXPECT_EQ(read_back, expected);
     EXPECT_NE(expected.norm(), 0.0);
-    built.loads(mirror, gradient).at(t, expected);
-    from_scene.loads(mirror, gradient).at(t, read_back);
+    built.loads(mirror, force_of).at(t, expected);
+    from_scene.loads(mirror, force_of).at(t, read_back);
     EXPECT_LT(test::largest(read_back - expected), 1e-13 * test::largest(expected));
   }
 }

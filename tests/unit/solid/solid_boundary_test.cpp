@@ -171,7 +171,7 @@ void expect_ball_shrinks_uniformly(double radius) {
   const auto elastic = test::elastic<D>(*whole, boundary, {lambda, mu});
   const auto mirror = boundary.mirror_condition(*whole->family(0));
   Eigen::VectorXd load(elastic->size()), shrunk(elastic->size());
-  boundary.loads(mirror, elastic->gradient_matrix()).at(0.0, load);
+  boundary.loads(mirror, test::force_of(*elastic)).at(0.0, load);
   const Index n = whole->points().size();
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < n; ++i) shrunk[a * n + i] = slope[a] * whole->points().position[a][i];
@@ -191,7 +191,7 @@ TEST(SolidBoundary, PressesOnAPlaneAgainstItsNormal) {
     change(boundary);
     const auto elastic = test::elastic<2>(*body, boundary, {lambda, mu});
     Eigen::VectorXd load(elastic->size());
-    boundary.loads(boundary.mirror_condition(*body->family(0)), elastic->gradient_matrix())
+    boundary.loads(boundary.mirror_condition(*body->family(0)), test::force_of(*elastic))
         .at(0.0, load);
     return load;
   };

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/body/body.hpp"
+
+namespace perifrac {
+
+/// The same piece of space with points twice as far apart: one for the points of every cell of
+/// 2^D lattice cells, at their centre and with their volume. Where a side holds an odd number of
+/// points the last cell is half a cell.
+template <int D>
+struct CoarseBody {
+  std::shared_ptr<const Body<D>> body;
+  std::vector<Index> coarse_of;               ///< by point of the finer body
+  std::vector<std::array<Index, D>> cell_of;  ///< by coarse point, counted from `corner`
+  std::array<Index, D> cells;                 ///< along each axis
+  Vector<D> corner;                           ///< [m]
+  double size;                                ///< of a cell [m]
+
+  /// The cell of a place.
+  std::array<Index, D> cell_at(const Vector<D>& x) const;
+};
+
+/// Of a body on a lattice, whose low corner is `corner`: the finest body's.
+template <int D>
+CoarseBody<D> coarsen(const Body<D>& fine, const Vector<D>& corner);
+
+/// Where the lattice of a body begins, half a spacing before its first points.
+template <int D>
+Vector<D> low_corner(const Body<D>& body);
+
+}  // namespace perifrac

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "core/body/body.hpp"
+#include "core/config/key.hpp"
+#include "core/config/section.hpp"
+#include "modules/solid/boundary/solid_boundary.hpp"
+#include "modules/solid/material/elastic_operator.hpp"
+
+namespace perifrac {
+
+/// How the equilibrium of an intact body is found.
+struct SolverChoice {
+  enum class Kind { automatic, direct, multigrid };
+  Kind kind = Kind::automatic;
+  double tolerance = 1e-9;  ///< multigrid: force left over, to the body's forces
+};
+
+/// From so many points on a lattice `automatic` takes multigrid: it is the faster one, its first
+/// solve included, and stays so over some hundred windows.
+constexpr double points_worth_multigrid(int dimension) { return dimension == 2 ? 6e4 : 6e3; }
+
+/// The keys of `linear_solver`.
+KeyTable linear_solver_keys();
+SolverChoice read_solver_choice(const Section& section);
+
+/// Solves for the displacements of a body in equilibrium.
+template <int D>
+class StiffnessSolver {
+ public:
+  virtual ~StiffnessSolver() = default;
+
+  /// To be called once, of a body that is held. Throws NotPositiveDefinite, std::bad_alloc.
+  virtual void prepare() = 0;
+  /// Lets the free unknowns answer `load` [N], of all unknowns; those that are held stay.
+  /// `inner`: the stiffness times `unknowns`, before. Throws NotConverged.
+  virtual void solve(const Eigen::VectorXd& load, const Eigen::VectorXd& inner,
+                     Eigen::VectorXd& unknowns) = 0;
+};
+
+/// `free_unknowns` as of SolidBoundary; body and boundary must stay until it is prepared. Throws
+/// BodyError where the body has no lattice for the choice.
+template <int D>
+std::unique_ptr<StiffnessSolver<D>> make_stiffness_solver(
+    const Body<D>& body, std::shared_ptr<ElasticOperator<D>> elastic,
+    const SolidBoundary<D>& boundary, Eigen::SparseMatrix<double> free_unknowns,
+    const SolverChoice& choice);
+
+}  // namespace perifrac
