@@ -129,7 +129,7 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
   Eigen::VectorXd load = pore;
   load += load_.at(window.end);
   interface_.begin(window);
-  if (interface_.is_linked()) load.head(D * slope_.size()) += view(interface_.force());
+  load.head(std::ssize(interface_.force())) += view(interface_.force());
   prescribe(window.end);
   Eigen::VectorXd unknowns = view(unknowns_);
   try {
