@@ -1,5 +1,6 @@
 #include "modules/solid/quasi_static_solid.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/base/eigen_view.hpp"
@@ -130,7 +131,7 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
   load += load_.at(window.end);
   interface_.begin(window);
   load.head(std::ssize(interface_.force())) += view(interface_.force());
-  prescribe(window.end);
+  prescribe(window);
   Eigen::VectorXd unknowns = view(unknowns_);
   try {
     solver_->solve(load, view(inner_force_), unknowns);
@@ -147,10 +148,15 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
   return window.end;
 }
 
-/// Displacements of time t, before the rest has answered them.
+/// What the solver starts from: the displacements that are prescribed at the window's end, and of
+/// the others the last answer or, in a window of no length, which must not know of it, none.
 template <int D>
-void QuasiStaticSolid<D>::prescribe(double t) {
-  const Eigen::VectorXd prescribed = prescribed_.at(t);
+void QuasiStaticSolid<D>::prescribe(const TimeWindow& window) {
+  const Eigen::VectorXd prescribed = prescribed_.at(window.end);
+  if (!solver_->goes_on() || window.length() == 0.0) {
+    std::ranges::fill(unknowns_, 0.0);
+    std::ranges::fill(inner_force_, 0.0);
+  }
   bool moved = false;
   for (const Index k : held_) {
     moved = moved || unknowns_[k] != prescribed[k];

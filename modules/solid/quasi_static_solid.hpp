@@ -60,7 +60,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   std::string find_free_motion(const Eigen::SparseMatrix<double>& free_unknowns) const;
   Eigen::VectorXd pore_force() const;
   double work_at_rest() const;
-  void prescribe(double t);
+  void prescribe(const TimeWindow& window);
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;

@@ -51,6 +51,8 @@ class DirectStiffness final : public StiffnessSolver<D> {
     factor_.factor(Eigen::SparseMatrix<double>(equations * elastic_->assemble() * free_));
   }
 
+  bool goes_on() const override { return false; }
+
   void solve(const Eigen::VectorXd& load, const Eigen::VectorXd& inner,
              Eigen::VectorXd& unknowns) override {
     Eigen::VectorXd change(free_.cols());
@@ -81,6 +83,8 @@ class IteratedStiffness final : public StiffnessSolver<D> {
     log_info(fmt::format("solid: equilibrium of {} points by multigrid, {} levels",
                          body_.points().size(), multigrid_->level_count()));
   }
+
+  bool goes_on() const override { return true; }
 
   /// Until what is left over is small beside the forces, reactions among them, as they are then:
   /// before the body answers a face that has moved they are much larger.

@@ -36,6 +36,8 @@ class StiffnessSolver {
 
   /// To be called once, of a body that is held. Throws NotPositiveDefinite, std::bad_alloc.
   virtual void prepare() = 0;
+  /// It is the faster, the nearer `unknowns` are to the answer.
+  virtual bool goes_on() const = 0;
   /// Lets the free unknowns answer `load` [N], of all unknowns; those that are held stay.
   /// `inner`: the stiffness times `unknowns`, before. Throws NotConverged.
   virtual void solve(const Eigen::VectorXd& load, const Eigen::VectorXd& inner,
