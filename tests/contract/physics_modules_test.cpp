@@ -96,6 +96,8 @@ const std::vector<Variant>& variants() {
               {"solid.material.type=lps"}),
       variant("quasi_static_lps_3d", "solid/quasi_static", box_3d + quasi_static_3d,
               {"solid.material.type=lps"}),
+      variant("quasi_static_multigrid", "solid/quasi_static", box_3d + quasi_static_3d,
+              {"solid.linear_solver.type=multigrid"}),
       variant("quasi_static_confined", "solid/quasi_static", box_2d + quasi_static_2d,
               {"solid.confining_stress=[2 MPa, 3 MPa]"}),
       variant("quasi_static_cracked", "solid/quasi_static", box_2d + quasi_static_2d,
