@@ -50,6 +50,8 @@ nlohmann::json regime_json(const SceneRegime& regime) {
   return {{"corner", corner(toughness, kept)},
           {"dimensionless_toughness", toughness},
           {"leak_off_number", leak_off_number(fracture, regime.time)},
+          {"leak_off_over_toughness",
+           leak_off_over_toughness(fracture, 0.5 * regime.wings, regime.time)},
           {"efficiency", kept},
           {"lag_time", with_unit(lag_time(fracture), "s")},
           {"largest_lag", with_unit(largest_lag(fracture, regime.time), "m")},

@@ -100,14 +100,22 @@ double largest_lag(const HydraulicFracture& fracture, double t) {
                   length * lag_without_stress(fracture.driven.dimensionless_toughness()));
 }
 
+double leak_off_over_toughness(const HydraulicFracture& fracture, double share, double t) {
+  const double modulus = fracture.driven.plane_strain_modulus;
+  const double leaking = std::pow(2.0 * fracture.leak_off_coefficient, 6);
+  const double rate = share * fracture.driven.rate;
+  return std::pow(modulus / fracture.driven.toughness(), 4) * leaking * t / (rate * rate);
+}
+
 std::string corner(double dimensionless_toughness, double efficiency) {
-  const auto one_or_both = [](bool one, bool other, std::string name, std::string other_name) {
-    if (one) return name;
-    return other ? other_name : name + " and " + other_name;
-  };
-  return one_or_both(dimensionless_toughness<0.7, dimensionless_toughness> 4.8, "viscosity",
-                     "toughness") +
-         "; " + one_or_both(efficiency > 0.98, efficiency < 0.02, "storage", "leak-off");
+  constexpr double most = 0.75;
+  std::string result = "viscosity and toughness; ";
+  if (dimensionless_toughness < 0.7) result = "viscosity; ";
+  if (dimensionless_toughness > 4.8) result = "toughness; ";
+  if (efficiency > 0.98) return result + "storage";
+  if (efficiency < 0.02) return result + "leak-off";
+  if (efficiency >= most) return result + "mostly storage";
+  return result + (efficiency <= 1.0 - most ? "mostly leak-off" : "storage and leak-off");
 }
 
 }  // namespace perifrac

@@ -32,6 +32,10 @@ double leak_off_corner(const HydraulicFracture& fracture, double t);
 
 /// C_m = C' (E' t / (mu' Q^3))^(1/6): what leaks over what is pumped in, but for a factor.
 double leak_off_number(const HydraulicFracture& fracture, double t);
+/// E'^4 C'^6 t / (K'^4 Q^2) for `share` of the rate as Q: above 1 leak-off decides, if viscosity
+/// does not count. For the printed criterion of a crack from a body's face Q is what goes into
+/// that.
+double leak_off_over_toughness(const HydraulicFracture& fracture, double share, double t);
 /// What is in the crack over what was pumped in. A crack that leaks is about the one that does not
 /// at the time when that is as long; then the balance of volume is one equation. Within 1 % of a
 /// marched solution in length and opening, 1.5 % in pressure, for any toughness and leak-off.
@@ -46,7 +50,7 @@ double lag_time(const HydraulicFracture& fracture);
 double largest_lag(const HydraulicFracture& fracture, double t);
 
 /// What decides: `viscosity` or `toughness`, `storage` or `leak-off`, and both names of a pair
-/// unless one corner gives the length to about 1 %.
+/// unless one corner gives the length to about 1 %; `mostly` the one that three quarters go to.
 std::string corner(double dimensionless_toughness, double efficiency);
 
 }  // namespace perifrac

@@ -156,7 +156,7 @@ def fig22(runs: Runs, images: Path, errors: Errors) -> None:
     draw_pressure(runs, "leak_off", images, "fig22", "Fig 22: fluid and pore pressure, leak-off dominated")
 
 
-LEAK_OFF_CONDUCTANCE = np.sqrt(1.02e-11 * (0.1 / 2.2e9 + 1.0 / 4.8e9) / np.pi)
+LEAK_OFF_CONDUCTANCE = np.sqrt(1.02e-11 * (0.1 / 22e6 + 1.0 / 4.8e9) / np.pi)
 
 
 def fig23(runs: Runs, images: Path, errors: Errors) -> None:
@@ -173,11 +173,10 @@ def fig24(runs: Runs, images: Path, errors: Errors) -> None:
     compare_lengths(axes[0], runs, "carter", marched, errors, "24")
     axes[0].lines[0].set_label("perifrac, Carter's law")
     axes[0].lines[1].set_label("this specimen with Carter's law, marched by other means")
-    into_pores, no_leak_off = runs.history("leak_off"), runs.history("no_leak_off")
-    axes[0].plot(1e3 * into_pores["time"], 1e3 * (into_pores["crack_length"] - NOTCH), color="C0", lw=1.2,
-                 label="perifrac, into pores")  # fmt: skip
-    axes[0].plot(1e3 * no_leak_off["time"], 1e3 * (no_leak_off["crack_length"] - NOTCH), color="0.6", lw=1.2,
-                 label="perifrac, nothing leaks")  # fmt: skip
+    for name, colour, label in (("leak_off", "C0", "perifrac, into pores"), ("no_leak_off", "0.6", "perifrac, nothing leaks"),
+                                ("stiff_water", "C2", "perifrac, Carter's law, water of 2.2 GPa")):  # fmt: skip
+        history = runs.history(name)
+        axes[0].plot(1e3 * history["time"], 1e3 * (history["crack_length"] - NOTCH), color=colour, lw=1.2, label=label)
     axes[0].legend(fontsize=8, frameon=False)
     save(figure, images, "fig24")
 

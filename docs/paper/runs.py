@@ -51,6 +51,7 @@ SCHEMES["head_force"] = Scheme("force: one_sided", "constant_head.yaml", [*_SHOW
 SCHEMES["storage"] = Scheme("perifrac", "hf_storage_pores.yaml", ["output.interval=1 ms"])
 SCHEMES["leak_off"] = Scheme("into pores", "hf_leakoff_pores.yaml")
 SCHEMES["carter"] = Scheme("Carter's law", "hf_leakoff.yaml")
+SCHEMES["stiff_water"] = Scheme("Carter's law, stiff water", "hf_leakoff_stiff_water.yaml")
 SCHEMES["no_leak_off"] = Scheme("nothing leaks", "hf_leakoff.yaml", ["crack_fluid.leak_off_coefficient=0"])
 SCHEMES["network"] = Scheme("network", "hf_storage.yaml")
 SCHEMES["points"] = Scheme("the paper's points", "hf_storage_points.yaml", loaded_at=0.005)

@@ -8,7 +8,9 @@
 namespace perifrac {
 
 /// Carter's law, a sink where no pore flow is simulated: both sides of a facet take C_L / sqrt(t -
-/// t_0) each, t_0 when fluid came first, integrated exactly over a step; in proportion to the fill.
+/// t_0) each, t_0 when fluid came to that part of it, integrated exactly over a step. The front
+/// goes through a facet evenly, from when fluid came first to when it last came further. Where a
+/// facet drains, so much of it leaks as is wet.
 template <int D>
 class CarterLeakOff final : public LeakOff {
  public:
@@ -21,19 +23,22 @@ class CarterLeakOff final : public LeakOff {
     return sealed_.contain(facet) ? 0.0 : coefficient_;
   }
   void match(const PointSet& facets, const CrackGraph& graph) override;
-  void begin(const TimeWindow& step) override { step_ = step; }
+  void begin(const TimeWindow& step, std::span<const double> fill) override;
   void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
                 LeakedFluid& leaked) override;
-  double accept(std::span<const double> mass) override;
-  void visit_state(StateVisitor& visitor) override { visitor.visit("crack_wet_since", wet_since_); }
+  double accept(std::span<const double> fill) override;
+  void visit_state(StateVisitor& visitor) override;
 
  private:
+  void note_arrivals(std::span<const double> fill, double from, double to);
+
   double coefficient_;
   double density_;
   SealedWalls<D> sealed_;
   const CrackGraph* graph_ = nullptr;
   TimeWindow step_{};
-  std::vector<double> wet_since_;  ///< [s]; negative: never
+  std::vector<double> wet_share_;              ///< the most of a facet that was ever wet
+  std::vector<double> wet_since_, wet_until_;  ///< when it became so: began, ended [s]
 };
 
 }  // namespace perifrac

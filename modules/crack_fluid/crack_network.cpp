@@ -149,7 +149,7 @@ bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
                              .mass = facets_.mass,
                              .inflows = inflows,
                              .leak_off = leak_off_.get()};
-  if (leak_off_) leak_off_->begin(time);
+  if (leak_off_) leak_off_->begin(time, facets_.fill(liquid_));
   Eigen::VectorXd v = vector_of(time.length() > 0.0 ? facets_.unknown : facets_.settled);
   const auto solved = [&] {
     try {
@@ -211,7 +211,8 @@ void CrackNetwork<D>::book(const Eigen::VectorXd& v) {
     facets_.aperture[f] = lubrication_.aperture()[f];
   }
   if (!leak_off_) return;
-  const double handed_over = leak_off_->accept(facets_.mass);  // which pore flow counts as gained
+  const double handed_over =
+      leak_off_->accept(facets_.fill(liquid_));  // which pore flow counts as gained
   books_.work.add(-handed_over);
   books_.dissipation.add(-handed_over);
 }

@@ -18,6 +18,13 @@ struct FacetFluid {
 
   std::size_t count() const { return mass.size(); }
 
+  /// How much of each is full.
+  std::vector<double> fill(const CrackLiquid& liquid) const {
+    std::vector<double> share(count());
+    std::ranges::transform(unknown, share.begin(), [&](double v) { return liquid.fill(v); });
+    return share;
+  }
+
   /// Facets are only added; what is new is dry.
   void match(std::size_t count, const CrackLiquid& liquid) {
     mass.resize(count, 0.0);

@@ -32,13 +32,14 @@ class LeakOff {
   /// Follows the facets; `graph` must last.
   virtual void match(const PointSet& facets, const CrackGraph& graph) = 0;
   virtual void begin_window(const TimeWindow&) {}
-  virtual void begin(const TimeWindow& step) = 0;
+  /// `fill`: of the facets at the step's begin.
+  virtual void begin(const TimeWindow& step, std::span<const double> fill) = 0;
   /// Over the step that has begun, by what the facets hold at its end. Appends to by_pressure.
   virtual void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
                         LeakedFluid& leaked) = 0;
-  /// The step that has begun stands as it was last evaluated; facets now hold these masses [kg].
+  /// The step that has begun stands as it was last evaluated; `fill`: of the facets now.
   /// Returns the energy that the leaked fluid still has [J].
-  virtual double accept(std::span<const double> mass) = 0;
+  virtual double accept(std::span<const double> fill) = 0;
   virtual void visit_state(StateVisitor& visitor) = 0;
 };
 

@@ -94,7 +94,7 @@ void PoreLeakOff<D>::begin_window(const TimeWindow& window) {
 }
 
 template <int D>
-void PoreLeakOff<D>::begin(const TimeWindow& step) {
+void PoreLeakOff<D>::begin(const TimeWindow& step, std::span<const double>) {
   step_ = step;
   for (std::size_t n = 0; n < touched_.size(); ++n) {
     const Index i = touched_[n];

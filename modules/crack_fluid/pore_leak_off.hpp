@@ -28,10 +28,10 @@ class PoreLeakOff final : public LeakOff {
   bool is_sink() const override { return false; }
   void match(const PointSet& facets, const CrackGraph& graph) override;
   void begin_window(const TimeWindow& window) override;
-  void begin(const TimeWindow& step) override;
+  void begin(const TimeWindow& step, std::span<const double> fill) override;
   void evaluate(const Eigen::VectorXd& pressure, const Eigen::VectorXd& fill,
                 LeakedFluid& leaked) override;
-  double accept(std::span<const double> mass) override;
+  double accept(std::span<const double> fill) override;
   void visit_state(StateVisitor&) override {}
 
   PortView pore_pressure();                               ///< in, takes rate and slope

@@ -17,6 +17,7 @@ from typing import Callable, Protocol
 import numpy as np
 
 Array = np.ndarray
+SEAL_RAMP = 1e-3  # [m]
 
 
 class Elasticity(Protocol):
@@ -46,7 +47,7 @@ class Crack:
     rate: Callable[[float], float]  # [m^2/s] at zero pressure
     cavity: float = 0.0  # [m^2]
     cavity_wall: float = 0.0  # [m] of it leak, from time zero
-    tight: float = 0.0  # walls nearer to the mouth do not leak, past 1.5 times that they do in full
+    tight: float = 0.0  # walls nearer to the mouth do not leak [m]
     lag: bool = False
     stops: bool = True  # never grows shorter, K < K_IC then
 
@@ -133,10 +134,22 @@ class March:
     def leaked(self, state: State) -> Array:
         if self.crack.fluid.leak_off == 0:
             return np.zeros_like(self.points)
-        x, twice_rate = self.points * state.front, 2 * self.crack.fluid.leak_off
-        if self.crack.tight > 0:
-            twice_rate = twice_rate * np.clip(2 * x / self.crack.tight - 2, 0, 1)
-        return self.arrival.leaked(x, state, twice_rate)
+        return self.arrival.leaked(self.points * state.front, state, 2 * self.crack.fluid.leak_off)
+
+    def leaking(self, x: Array) -> tuple[Array, Array]:
+        """Which share of the wall leaks at x, and how much of it does up to x [m]: from none to all of it
+        within a millimetre about where it is tight, so that a step sees no jump."""
+        tight, ramp = self.crack.tight, SEAL_RAMP
+        if tight == 0:
+            return np.ones_like(x), x
+        share = np.clip((x - tight) / ramp + 0.5, 0, 1)
+        return share, ramp * share**2 / 2 + np.maximum(x - tight - ramp / 2, 0)
+
+    def leaked_in_cells(self, state: State) -> Array:
+        """[m^2]"""
+        v = self.leaked(state)
+        length = np.diff(self.leaking(self.faces * state.front)[1])
+        return length * (v[:-1:2] + 4 * v[1::2] + v[2::2]) / 6
 
     def leaked_from_cavity(self, state: State) -> float:
         return self.crack.cavity_wall * self.crack.fluid.leak_off * np.sqrt(state.time)
@@ -147,7 +160,7 @@ class March:
         density = self.crack.fluid.density(p)
         widths = np.diff(self.faces)[:, None] * state.front
         mean = lambda v: (v[:-1:2] + 4 * v[1::2] + v[2::2]) / 6
-        cells = widths * (density[1:] * mean(response[1:-1]) + mean(self.leaked(state)[:, None]))
+        cells = widths * density[1:] * mean(response[1:-1]) + self.leaked_in_cells(state)[:, None]
         cavity = density[:1] * (self.crack.cavity + response[:1]) + self.leaked_from_cavity(state)
         return np.vstack((cavity, cells))
 
@@ -166,9 +179,10 @@ class March:
         conductivity = np.maximum(opening, 0) ** 3 / (12 * fluid.viscosity)
         face_density = (density[1:] + density[:-1]) / 2
         flux = -face_density * conductivity[:-1] * np.diff(p, axis=0) / np.diff(centres)[:, None]
-        carried = face_density * opening[:-1] + self.leaked(state)[:-1:2, None]
+        leaked = self.leaked(state)[::2] * self.leaking(self.faces * state.front)[0]
+        carried = face_density * opening[:-1] + leaked[:-1, None]
         flux -= carried * (self.faces[:-1] * speed)[:, None]
-        left_behind = -self.leaked(state)[-1] * speed  # nothing while the front advances
+        left_behind = -leaked[-1] * speed  # nothing while the front advances
         ends = [np.full((1, p.shape[1]), v) for v in (crack.rate(state.time), left_behind)]
         flux = np.vstack((ends[0], flux, ends[1]))
         balance = weights[0] * mass + stored + np.diff(flux, axis=0)
@@ -272,7 +286,7 @@ class March:
         self.history.rows.append(
             (state.time, state.length, state.pressure[0], response[1], state.lag,
              cells(response[1:-1]),
-             cells(self.leaked(state)) + self.leaked_from_cavity(state),
+             self.leaked_in_cells(state).sum() + self.leaked_from_cavity(state),
              np.diff(self.faces) @ state.pressure[1:], response[-1],
              self.mass(state, G, g, state.pressure[:, None]).sum())
         )  # fmt: skip

@@ -5,7 +5,8 @@ flow and fluid lag: length, inlet pressure and opening, lag and leaked volume ov
 Elasticity: the weight functions of this specimen, plate.py. Flow: lubrication.py. The crack begins
 as a slit; its length counts from the notch's floor. The notch is full of fluid at zero pressure at
 time zero, its walls carry the inlet pressure and its growth takes fluid in (`--notch dry`: no fluid
-and no pressure in it). Until K_I reaches K_IC the pressure is uniform over notch and slit. The rate
+and no pressure in it; `--notch slit`: notch and slit are one slit from the top, as in the scenes, and
+length counts from there: soft water in a wide notch takes up most of what is pumped in). Until K_I reaches K_IC the pressure is uniform over notch and slit. The rate
 is a mass rate over the density at zero pressure.
 
 Outer faces. `stress`: constant lateral stress on left and right, vertical on top and bottom.
@@ -14,8 +15,8 @@ bottom keep their normal displacement, the top its stress. All without friction.
 not carry of the vertical stress, and its pressure, the bottom balances uniformly.
 
 Leak-off. Carter's law with C_L of the case's pore fluid at the mean pressure over the wet walls and
-over the time of growth (found by iteration); the slit's walls do not leak, the crack's do in full
-from 1.5 slit lengths on; the notch's walls with `--leaking-notch` only.
+over the time of growth (found by iteration); the slit's walls do not leak; the notch's
+walls with `--leaking-notch` only.
 """
 
 from __future__ import annotations
@@ -188,26 +189,29 @@ def rows(history: History, end: float, step: float) -> Iterator[list[str]]:
         yield [f"{time:.6g}", *(f"{history.at(name, time):.5g}" for name in COLUMNS[1:])]
 
 
+def coefficient_of(rock: dict, bulk_modulus: float, pressure: float) -> float:
+    return carter_coefficient(pressure, young=rock["young"], poisson=0.25, viscosity=Case.viscosity,
+                              permeability=rock["permeability"], porosity=0.1,
+                              bulk_modulus=bulk_modulus)  # fmt: skip
+
+
 def results(rock: dict, outer: str, bulk_modulus: float, end: float, fine: float, *,
-            wet_notch: bool = True, leaking_notch: bool = False, vertical: float | None = None,
+            notch: str = "wet", leaking_notch: bool = False, vertical: float | None = None,
             lateral: float | None = None, **options) -> tuple[History, History | None, float]:  # fmt: skip
     """Without leak-off, with it if the rock is permeable, and the pressure of its C_L."""
     lateral = rock["lateral"] if lateral is None else lateral
     vertical = lateral / 2 if vertical is None else vertical
-    functions = weight_functions(Plate(young=rock["young"], outer=outer), fine)
-    elasticity = EdgeCrack(functions, lateral, vertical, wet_notch)
-    case = Case(rock["energy"], rock["rate"], lateral, bulk_modulus=bulk_modulus,
-                leaking_notch=leaking_notch, wet_notch=wet_notch)  # fmt: skip
+    plate, slit = Plate(young=rock["young"], outer=outer), Case.slit
+    if notch == "slit":
+        plate, slit = replace(plate, notch_depth=0.0), slit + plate.notch_depth
+    elasticity = EdgeCrack(weight_functions(plate, fine), lateral, vertical, notch == "wet")
+    case = Case(rock["energy"], rock["rate"], lateral, bulk_modulus=bulk_modulus, slit=slit,
+                leaking_notch=leaking_notch, wet_notch=notch == "wet")  # fmt: skip
     plain = march(case, elasticity, end, **options)
     if rock["permeability"] == 0:
         return plain, None, 0.0
 
-    def coefficient(pressure: float) -> float:
-        return carter_coefficient(pressure, young=rock["young"], poisson=0.25, viscosity=case.viscosity,
-                                  permeability=rock["permeability"], porosity=0.1,
-                                  bulk_modulus=bulk_modulus)  # fmt: skip
-
-    return plain, *with_leak_off(case, elasticity, end, coefficient, **options)
+    return plain, *with_leak_off(case, elasticity, end, lambda p: coefficient_of(rock, bulk_modulus, p), **options)
 
 
 def tables(name: str, writer, end: float, step: float, fine: float, **options) -> None:
@@ -221,6 +225,13 @@ def tables(name: str, writer, end: float, step: float, fine: float, **options) -
             for row in rows(leaky or plain, end, step):
                 without = (f"{plain.at('length', float(row[0])):.5g}", f"{pressure:.4g}")
                 writer.writerow((outer, f"{bulk_modulus:g}", *row, *(without if leaking else ())))
+
+
+def scene_table(history: History, writer, begin: float, end: float, step: float) -> None:
+    writer.writerow(("time [s]", "crack_length [m]", "inlet_notch_pressure [Pa]", "leak_off_volume [m^2]"))
+    for time in np.arange(begin, end + step / 2, step):
+        values = (history.at(name, time) for name in ("length", "pressure", "leak_off"))
+        writer.writerow([f"{time:.6g}", *(f"{v:.5g}" for v in values)])
 
 
 # Checks, run by --test
@@ -328,6 +339,21 @@ def test_convergence() -> None:
                           histories[0].at(name, time), other.at(name, time), tolerance)  # fmt: skip
 
 
+def test_soft_water() -> None:
+    """The leak-off case, 22 MPa, one slit: elements, then cells and steps, halved."""
+    def marched(fine: float, **options) -> History:
+        return results(ROCKS["leak-off"], "stress", 22e6, 0.1, fine, notch="slit", **options)[1]
+
+    coarse = marched(2e-4, cells=12, change=0.03)
+    check("fluid stored and leaked against injected", coarse.rows[-1][-1], 8e-6, 1e-3)
+    for what, other in (("elements", marched(1e-4, cells=12, change=0.03)),
+                        ("cells and steps", marched(2e-4, cells=24, change=0.015))):  # fmt: skip
+        for name, tolerance in (("length", 5e-3), ("pressure", 2e-3), ("leak_off", 5e-3)):
+            for time in (0.02, 0.05, 0.1):
+                check(f"22 MPa: {name} at {time} s, {what} halved",
+                      coarse.at(name, time), other.at(name, time), tolerance)  # fmt: skip
+
+
 def test_leak_off() -> None:
     coefficient = carter_coefficient(1e6, young=4e9, poisson=0.25, permeability=1.02e-14,
                                      viscosity=1e-3, porosity=0.1, bulk_modulus=22e6)  # fmt: skip
@@ -355,13 +381,14 @@ def main() -> None:
     parser.add_argument("--bulk-modulus", type=float, default=np.inf, help="of the fluid [Pa]")
     parser.add_argument("--lateral", type=float, help="stress on left and right [Pa]")
     parser.add_argument("--vertical", type=float, help="on top and bottom [Pa], else half the lateral")
-    parser.add_argument("--notch", choices=("wet", "dry"), default="wet")
+    parser.add_argument("--notch", choices=("wet", "dry", "slit"), default="wet")
     parser.add_argument("--leaking-notch", action="store_true")
     parser.add_argument("--end", type=float, default=0.1, help="[s]")
     parser.add_argument("--step", type=float, default=1e-3, help="between rows [s]")
     parser.add_argument("--cells", type=int, default=24)
     parser.add_argument("--fine", type=float, default=1e-4, help="a fifth of the elements down the path [m], twice those at the mouth")
     parser.add_argument("--table", action="store_true", help="all variants of the case")
+    parser.add_argument("--scene", type=float, help="in a scene's words, from this time on [s]")
     parser.add_argument("--test", action="store_true", help="verify this script")
     a = parser.parse_args()
     if a.test:
@@ -373,10 +400,14 @@ def main() -> None:
     if a.table:
         return tables(a.case, writer, a.end, a.step, a.fine, cells=a.cells)
     plain, leaky, pressure = results(
-        ROCKS[a.case], a.outer, a.bulk_modulus, a.end, a.fine, wet_notch=a.notch == "wet",
+        ROCKS[a.case], a.outer, a.bulk_modulus, a.end, a.fine, notch=a.notch,
         leaking_notch=a.leaking_notch, lateral=a.lateral, vertical=a.vertical, cells=a.cells)  # fmt: skip
     if leaky:
-        print(f"# C_L at {pressure:.4g} Pa; length without leak-off {plain.rows[-1][1]:.5g} m", file=sys.stderr)
+        coefficient = coefficient_of(ROCKS[a.case], a.bulk_modulus, pressure)
+        print(f"# C_L {coefficient:.5g} m/s^.5, at {pressure:.4g} Pa; length without leak-off {plain.rows[-1][1]:.5g} m",
+              file=sys.stderr)  # fmt: skip
+    if a.scene is not None:
+        return scene_table(leaky or plain, writer, a.scene, a.end, a.step)
     writer.writerow(COLUMNS)
     writer.writerows(rows(leaky or plain, a.end, a.step))
 

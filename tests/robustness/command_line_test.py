@@ -138,6 +138,13 @@ class CommandLine(RunTest):
         self.assertAlmostEqual(said["regime"]["lag_time"]["value"], 2.478e-4, delta=1e-7)
         self.assertEqual(said["warnings"], [])
         self.assertIn("regime: viscosity", perifrac("check", CONFIGS / "kgd_mixed.yaml", "--trial", "0", "--set", coarse).stdout)
+        # The words go by what leaks, and so does the printed number of a crack from a face.
+        for scene, words, least, most in (("hf_leakoff", "viscosity; mostly leak-off", 800, 900),
+                                          ("hf_leakoff_stiff_water", "viscosity; storage and leak-off", 0.05, 0.06),
+                                          ("hf_storage_pores", "viscosity and toughness; mostly storage", 0, 1e-4)):
+            regime = check(scene + ".yaml", "body.spacing=5 mm")["regime"]
+            self.assertEqual(regime["corner"], words)
+            self.assertTrue(least < regime["leak_off_over_toughness"] < most, regime)
         # Twice the time, and next to no stress: the crack grows too long, and its tip stays dry.
         little_stress = "solid.confining_stress=[0.1 MPa, 0.1 MPa]"
         far, dry = check("kgd_mixed.yaml", coarse, "time.end=0.2 s", little_stress)["warnings"]

@@ -34,15 +34,53 @@ TEST(HfStorage, AgreesWithInertiaToo) {
   EXPECT_LE(run.summary["ledger"]["energy_error"], 9.5e-4);
 }
 
-/// The fluid lags by 3.5 mm, hardly more than a facet here.
-TEST(HfLeakOff, AgreesWithTheIndependentSolutionOnACoarseLattice) {
-  const SceneRun run = run_config("hf_leakoff", {"body.spacing=2.5 mm"});
-  expect_near_reference(run, 0.010, 0.07, 0.034);
+void expect_leaked_near_reference(const SceneRun& run, double from, double tolerance) {
   for (const auto& row : run.summary["reference"]["table"]) {
-    if (row["time"] < 0.010) continue;
-    EXPECT_LE(row["leak_off_volume_error"], 0.15) << row["time"];
+    if (row["time"] < from) continue;
+    EXPECT_LE(row["leak_off_volume_error"], tolerance) << row["time"];
   }
+}
+
+/// The fluid lags by 3.5 mm, hardly more than a facet here.
+TEST(HfLeakOff, AgreesWithTheIndependentSolutionInStiffWaterOnACoarseLattice) {
+  const SceneRun run = run_config("hf_leakoff_stiff_water", {"body.spacing=2.5 mm"});
+  expect_near_reference(run, 0.020, 0.056, 0.007);
+  expect_leaked_near_reference(run, 0.020, 0.016);
   EXPECT_LE(run.summary["ledger"]["energy_error"], 1.3e-3);
+}
+
+/// Mean pressure on the wet walls while the crack grows, the pressure that drives leak-off [Pa].
+double mean_pressure_on_walls(const SceneRun& run) {
+  const std::vector<double> time = run.column("time [s]"),
+                            pressure = run.column("mean_crack_pressure [Pa]"),
+                            length = run.column("crack_length [m]");
+  double sum = 0.0, lasted = 0.0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    if (length[k] <= length[0]) continue;
+    const double step = time[k] - time[k - 1];
+    sum += 0.5 * step * (pressure[k - 1] + pressure[k]);
+    lasted += step;
+  }
+  return sum / lasted;
+}
+
+/// As shipped: the regime that the paper's case is in, by its own number, and the marched solution
+/// with the same fluid.
+TEST(HfLeakOff, IsDominatedByLeakOffAndAgreesWithTheIndependentSolution) {
+  const SceneRun run = run_config("hf_leakoff");
+  expect_near_reference(run, 0.020, 0.0235, 0.0041);
+  expect_leaked_near_reference(run, 0.020, 0.0089);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 5.1e-4);
+
+  const double modulus = 4e9 / (1.0 - 0.25 * 0.25), uniaxial = 4.8e9, end = 0.1, rate = 0.8e-4;
+  const double toughness = 4.0 * std::sqrt(2.0 / M_PI * modulus * 2.0);
+  const double storage = 0.1 / 22e6 + 1.0 / uniaxial;
+  const double coefficient =
+      mean_pressure_on_walls(run) * std::sqrt(1.02e-14 * storage / (M_PI * 1e-3));
+  EXPECT_NEAR(coefficient, 1.639e-4, 0.006e-4);  // what the scene gives Carter's law
+  const double leaking = std::pow(2.0 * coefficient, 6);
+  EXPECT_GE(std::pow(modulus / toughness, 4) * leaking * end / (rate * rate), 50.0);
+  EXPECT_GE(-run.column("leaked_crack_fluid_mass [kg/m]").back(), 0.6 * 1000.0 * rate * end);
 }
 
 /// From 20 ms on.

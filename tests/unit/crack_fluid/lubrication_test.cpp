@@ -120,7 +120,7 @@ struct AnyStep {
       for (int g = 0; g < 15; ++g) slope.push_back((f == g ? 1e-10 : 0.0) + 1e-11 * random(bits));
     }
     leak_off.match(PointSet{}, lubrication.graph());
-    leak_off.begin({0.1, 0.12});
+    leak_off.begin({0.1, 0.12}, std::vector<double>(15, 0.5));
   }
   LubricationStep step(double end = 0.12) {
     return {.time = {0.1, end},
@@ -168,7 +168,7 @@ TEST(Lubrication, OnlyFullFacetsGive) {
 
 TEST(Lubrication, NothingFlowsInAStepOfNoLength) {
   AnyStep any;
-  any.leak_off.begin({0.1, 0.1});
+  any.leak_off.begin({0.1, 0.1}, std::vector<double>(15, 0.5));
   any.inflows.clear();
   any.lubrication.evaluate(any.step(0.1), any.v);
   EXPECT_EQ(any.lubrication.outflow().cwiseAbs().sum(), 0.0);

@@ -36,6 +36,8 @@ TEST(Regime, HasTheNumbersOfTheLiterature) {
   const HydraulicFracture leaky{water, 1e-4, 3e6};
   EXPECT_NEAR(leak_off_number(leaky, t), 0.678101, 1e-6);
   EXPECT_NEAR(leak_off_corner(leaky, t), 0.0805267, 1e-7);
+  EXPECT_NEAR(leak_off_over_toughness(leaky, 1.0, t), 0.0537345, 1e-7);
+  EXPECT_NEAR(leak_off_over_toughness(leaky, 0.5, t), 0.214938, 1e-7);
   EXPECT_NEAR(lag_time(leaky), 2.47783e-4, 1e-9);
   EXPECT_TRUE(std::isinf(lag_time({water, 0.0, 0.0})));
 }
@@ -106,6 +108,8 @@ TEST(Regime, NamesItsCorner) {
   EXPECT_EQ(corner(0.3, 1.0), "viscosity; storage");
   EXPECT_EQ(corner(5.0, 0.01), "toughness; leak-off");
   EXPECT_EQ(corner(1.16, 0.5), "viscosity and toughness; storage and leak-off");
+  EXPECT_EQ(corner(1.16, 0.8), "viscosity and toughness; mostly storage");
+  EXPECT_EQ(corner(0.3, 0.2), "viscosity; mostly leak-off");
 }
 
 }  // namespace

@@ -1,0 +1,54 @@
+#include "modules/crack_fluid/carter_leak_off.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/crack_fluid/crack_run.hpp"
+
+namespace perifrac {
+namespace {
+
+using namespace test;
+
+/// What a facet of a metre has leaked by each of some times [m^2], `fill` of it wet then.
+std::vector<double> leaked_at(const std::vector<double>& times, const std::vector<double>& fill) {
+  const std::vector<CrackFacet<2>> facet(1, CrackFacet<2>{{{0.0, 0.0}, {1.0, 0.0}}});
+  const CrackGraph graph(facet);
+  CarterLeakOff<2> carter(1e-4, 1000.0);
+  carter.match(PointSet{}, graph);
+  LeakedFluid step{Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1), {}};
+  std::vector<double> leaked{0.0};
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    carter.begin({times[k - 1], times[k]}, std::span(&fill[k - 1], 1));
+    carter.evaluate({}, Eigen::VectorXd::Constant(1, fill[k]), step);
+    carter.accept(std::span(&fill[k], 1));
+    leaked.push_back(leaked.back() + step.mass[0] / 1000.0);
+  }
+  return leaked;
+}
+
+/// A front that goes through a facet at a steady speed: 4 C_L sqrt(t - t_0) over all its parts, in
+/// steps of any length.
+TEST(CarterLeakOff, TakesAFacetAsTheFrontGoesThrough) {
+  const std::vector<double> times{2.0, 2.1, 2.4, 2.5, 3.0, 3.5, 7.0};  // full at 3
+  std::vector<double> fill;
+  for (const double t : times) fill.push_back(std::min(t - 2.0, 1.0));
+  const std::vector<double> leaked = leaked_at(times, fill);
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double since = times[k] - 2.0, after = std::max(since - 1.0, 0.0);
+    const double exact = 4e-4 * 2.0 / 3.0 * (std::pow(since, 1.5) - std::pow(after, 1.5));
+    EXPECT_NEAR(leaked[k], exact, 1e-12 * exact) << times[k];
+  }
+}
+
+/// Where fluid has been before nothing begins anew.
+TEST(CarterLeakOff, DrainedAndFilledAgainTakesNoMore) {
+  const std::vector<double> leaked = leaked_at({0.0, 1.0, 4.0, 9.0}, {1.0, 1.0, 0.25, 1.0});
+  EXPECT_NEAR(leaked[1], 4e-4, 1e-15);
+  EXPECT_NEAR(leaked[2] - leaked[1], 0.25 * 4e-4, 1e-15);
+  EXPECT_NEAR(leaked[3] - leaked[2], 4e-4, 1e-15);
+}
+
+}  // namespace
+}  // namespace perifrac
