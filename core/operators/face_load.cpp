@@ -10,8 +10,8 @@
 namespace perifrac {
 
 template <int D, int R>
-Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
-                          FaceSet mirrored, int face, int component, FaceSet without_layers) {
+Eigen::VectorXd face_load(const Body<D>& body, const TransposedGradient& gradient, FaceSet mirrored,
+                          int face, int component, FaceSet without_layers) {
   const Face& loaded = body.faces()[face];
   const int across = body.opposite(face);
   const Face& opposite = body.faces()[across];
@@ -39,15 +39,20 @@ Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>
                                 std::max(0.0, apart), loaded.name),
                     fmt::format("at least 4 horizons, {:g} m, or no load there", 2.0 * reach));
   }
-  Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
+  const auto depth = [&](Index i) {
+    return std::abs(loaded.coordinate - body.points().position[loaded.axis][i]);
+  };
+  // What is farther off pulls at no point that is loaded.
+  const double pulling = (reach + body.horizon()) * (1.0 + 1e-9);
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(R * D * points);
   for (Index i = 0; i < points; ++i) {
+    if (depth(i) > pulling) continue;
     stress[(component * D + loaded.axis) * points + i] = loaded.direction * body.points().volume[i];
   }
-  const Eigen::VectorXd forces = gradient.transpose() * stress;
+  const Eigen::VectorXd forces = gradient * stress;
   Eigen::VectorXd load = Eigen::VectorXd::Zero(points);
   for (Index i = 0; i < points; ++i) {
-    const double depth = std::abs(loaded.coordinate - body.points().position[loaded.axis][i]);
-    if (depth <= reach) load[i] = forces[component * points + i];
+    if (depth(i) <= reach) load[i] = forces[component * points + i];
   }
   return load;
 }
@@ -77,15 +82,14 @@ std::vector<double> walls_of(const Body<D>& body, const Region<D>& box, int axis
 }  // namespace
 
 template <int D>
-Eigen::VectorXd cutout_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
-                            int axis) {
+Eigen::VectorXd cutout_load(const Body<D>& body, const TransposedGradient& gradient, int axis) {
   const Index points = body.points().size();
   const double reach = 2.0 * body.horizon();
-  Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(D * D * points);
   for (Index i = 0; i < points; ++i) {
     stress[(axis * D + axis) * points + i] = body.points().volume[i];
   }
-  const Eigen::VectorXd forces = gradient.transpose() * stress;
+  const Eigen::VectorXd forces = gradient * stress;
   Eigen::VectorXd load = Eigen::VectorXd::Zero(points);
   for (const Region<D>& box : body.cutouts()) {
     const std::vector<double> walls = walls_of(body, box, axis, 2.0 * reach);
@@ -102,15 +106,15 @@ Eigen::VectorXd cutout_load(const Body<D>& body, const Eigen::SparseMatrix<doubl
   return load;
 }
 
-template Eigen::VectorXd cutout_load<2>(const Body<2>&, const Eigen::SparseMatrix<double>&, int);
-template Eigen::VectorXd cutout_load<3>(const Body<3>&, const Eigen::SparseMatrix<double>&, int);
-template Eigen::VectorXd face_load<2, 1>(const Body<2>&, const Eigen::SparseMatrix<double>&,
-                                         FaceSet, int, int, FaceSet);
-template Eigen::VectorXd face_load<2, 2>(const Body<2>&, const Eigen::SparseMatrix<double>&,
-                                         FaceSet, int, int, FaceSet);
-template Eigen::VectorXd face_load<3, 1>(const Body<3>&, const Eigen::SparseMatrix<double>&,
-                                         FaceSet, int, int, FaceSet);
-template Eigen::VectorXd face_load<3, 3>(const Body<3>&, const Eigen::SparseMatrix<double>&,
-                                         FaceSet, int, int, FaceSet);
+template Eigen::VectorXd cutout_load<2>(const Body<2>&, const TransposedGradient&, int);
+template Eigen::VectorXd cutout_load<3>(const Body<3>&, const TransposedGradient&, int);
+template Eigen::VectorXd face_load<2, 1>(const Body<2>&, const TransposedGradient&, FaceSet, int,
+                                         int, FaceSet);
+template Eigen::VectorXd face_load<2, 2>(const Body<2>&, const TransposedGradient&, FaceSet, int,
+                                         int, FaceSet);
+template Eigen::VectorXd face_load<3, 1>(const Body<3>&, const TransposedGradient&, FaceSet, int,
+                                         int, FaceSet);
+template Eigen::VectorXd face_load<3, 3>(const Body<3>&, const TransposedGradient&, FaceSet, int,
+                                         int, FaceSet);
 
 }  // namespace perifrac

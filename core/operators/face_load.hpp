@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 
 #include "core/body/body.hpp"
 #include "core/bonds/mirror_condition.hpp"
+#include "core/operators/nonlocal_gradient.hpp"
 
 namespace perifrac {
 
@@ -12,20 +13,19 @@ namespace perifrac {
 /// points near the face. In a body with that stress it balances the inner forces exactly, surfaces
 /// and corners included, and its sum is the face's area.
 ///
-/// `gradient` is the operator's gradient_matrix(), `mirrored` and `without_layers` what its family
+/// `gradient` is the transpose of the operator's, `mirrored` and `without_layers` what its family
 /// was asked for; the result has one value a point [m^(D-1)]. Beside a layer with bonds the load
 /// goes on along the layer, which is under the same stress, and the sum is greater by its side.
 /// Throws BodyError where the body is too thin to tell the face from the opposite one.
 template <int D, int R>
-Eigen::VectorXd face_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
-                          FaceSet mirrored, int face, int component, FaceSet without_layers = 0);
+Eigen::VectorXd face_load(const Body<D>& body, const TransposedGradient& gradient, FaceSet mirrored,
+                          int face, int component, FaceSet without_layers = 0);
 
 /// The same for the walls of all cut-outs that are normal to `axis`: the point load, in direction
 /// `axis`, of a unit traction along their normals out of the body. A body under uniform stress that
 /// holds at its faces and not in its cut-outs bears this times the stress, with the sign turned.
 /// Throws BodyError where such a wall is too near to a face to tell them apart.
 template <int D>
-Eigen::VectorXd cutout_load(const Body<D>& body, const Eigen::SparseMatrix<double>& gradient,
-                            int axis);
+Eigen::VectorXd cutout_load(const Body<D>& body, const TransposedGradient& gradient, int axis);
 
 }  // namespace perifrac

@@ -44,6 +44,35 @@ Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
 }
 
 template <int D, int R>
+Eigen::VectorXd transposed_gradient(const Family<D>& family, const FamilyMoments<D>& moments,
+                                    const MirrorCondition<D, R>& mirror,
+                                    const Eigen::VectorXd& flux) {
+  const Index points = family.point_count;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(R * points + mirror.face_value_count());
+  for (Index i = 0; i < points; ++i) {
+    Tensor<R, D> own;
+    for (int k = 0; k < R * D; ++k) own[k] = flux[k * points + i];
+    if (own == Tensor<R, D>{}) continue;
+    own = times_inverse_shape<R, D>(own, moments, i);
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const Index j = family.other[bond];
+      const Vector<D> xi = vector_at(family.position, j) - vector_at(family.position, i);
+      for (int r = 0; r < R; ++r) {
+        double force = 0.0;
+        for (int b = 0; b < D; ++b) force += own[r * D + b] * xi[b];
+        force *= family.weight[bond];
+        const Combination end = node_unknowns(family, mirror, j, r);
+        for (int k = 0; k < end.count; ++k) {
+          result[end.terms[k].unknown] += end.terms[k].coefficient * force;
+        }
+        result[r * points + i] -= force;
+      }
+    }
+  }
+  return result;
+}
+
+template <int D, int R>
 Eigen::SparseMatrix<double> bond_matrix(const Family<D>& family,
                                         const MirrorCondition<D, R>& mirror,
                                         std::span<const double> bond_stiffness) {
@@ -83,6 +112,14 @@ template Eigen::SparseMatrix<double> gradient_matrix(const Family<3>&, const Fam
                                                      const MirrorCondition<3, 1>&);
 template Eigen::SparseMatrix<double> gradient_matrix(const Family<3>&, const FamilyMoments<3>&,
                                                      const MirrorCondition<3, 3>&);
+template Eigen::VectorXd transposed_gradient(const Family<2>&, const FamilyMoments<2>&,
+                                             const MirrorCondition<2, 1>&, const Eigen::VectorXd&);
+template Eigen::VectorXd transposed_gradient(const Family<2>&, const FamilyMoments<2>&,
+                                             const MirrorCondition<2, 2>&, const Eigen::VectorXd&);
+template Eigen::VectorXd transposed_gradient(const Family<3>&, const FamilyMoments<3>&,
+                                             const MirrorCondition<3, 1>&, const Eigen::VectorXd&);
+template Eigen::VectorXd transposed_gradient(const Family<3>&, const FamilyMoments<3>&,
+                                             const MirrorCondition<3, 3>&, const Eigen::VectorXd&);
 template Eigen::SparseMatrix<double> bond_matrix(const Family<2>&, const MirrorCondition<2, 1>&,
                                                  std::span<const double>);
 template Eigen::SparseMatrix<double> bond_matrix(const Family<2>&, const MirrorCondition<2, 2>&,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <span>
+#include <utility>
 
 #include <Eigen/SparseCore>
 
@@ -54,6 +56,30 @@ template <int D, int R>
 Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
                                             const FamilyMoments<D>& moments,
                                             const MirrorCondition<D, R>& mirror);
+
+/// Its transpose times a flux of R * D blocks of points, without the matrix; points where the flux
+/// is 0 cost nothing.
+template <int D, int R>
+Eigen::VectorXd transposed_gradient(const Family<D>& family, const FamilyMoments<D>& moments,
+                                    const MirrorCondition<D, R>& mirror,
+                                    const Eigen::VectorXd& flux);
+
+/// The transpose of a gradient, however it is multiplied.
+class TransposedGradient {
+ public:
+  using Product = std::function<Eigen::VectorXd(const Eigen::VectorXd& flux)>;
+
+  TransposedGradient(Product product) : product_(std::move(product)) {}
+  TransposedGradient(Eigen::SparseMatrix<double> gradient)
+      : product_([gradient = std::move(gradient)](const Eigen::VectorXd& flux) {
+          return Eigen::VectorXd(gradient.transpose() * flux);
+        }) {}
+
+  Eigen::VectorXd operator*(const Eigen::VectorXd& flux) const { return product_(flux); }
+
+ private:
+  Product product_;
+};
 
 /// The matrix of sum_i V_i 1/2 s_i sum_j w_ij |u_j - u_i|^2, with s_i per point. Its whole diagonal
 /// is stored, zeros of points without bonds too, for a storage to be added in place.

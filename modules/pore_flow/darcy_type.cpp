@@ -103,7 +103,7 @@ Discretisation<D> discretise(FlowScheme scheme, const Body<D>& body,
   const auto family = body.family(boundary.mirrored(), boundary.sealed_layers());
   LinearExactOperator<D, Law> op(family, boundary.mirror_condition(*family), std::move(law));
   Discretisation<D> made;
-  if (boundary.has_sources()) made.sources = boundary.sources(op.gradient_matrix());
+  if (boundary.has_sources()) made.sources = boundary.sources(op.transposed_gradient());
   made.flow = make_flow(scheme, std::move(op));
   return made;
 }

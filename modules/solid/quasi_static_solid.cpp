@@ -37,7 +37,7 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
   prescribed_ = boundary.prescribed(mirror);
   const Eigen::SparseMatrix<double> equations = free_unknowns_.transpose();
   load_ = ScheduledVector(equations.rows());
-  load_.add(equations, boundary.loads(mirror, elastic_->gradient_matrix()));
+  load_.add(equations, boundary.loads(mirror, elastic_->transposed_gradient()));
   load_.add(-equations * stiffness_, prescribed_);
   for (Index i = 0; i < body_->points().size(); ++i) {
     slope_.push_back(elastic_->pore_sign() / elastic_->drained_bulk_modulus(i));

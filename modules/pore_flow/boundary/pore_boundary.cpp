@@ -113,7 +113,7 @@ bool PoreBoundary<D>::has_sources() const {
 }
 
 template <int D>
-ScheduledVector PoreBoundary<D>::sources(const Eigen::SparseMatrix<double>& gradient) const {
+ScheduledVector PoreBoundary<D>::sources(const TransposedGradient& gradient) const {
   const Index points = body_->points().size();
   ScheduledVector rate(points);
   for (int f = 0; f < std::ssize(faces_); ++f) {

@@ -7,6 +7,7 @@
 #include "core/bonds/mirror_condition.hpp"
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
+#include "core/operators/nonlocal_gradient.hpp"
 #include "core/time/scheduled_vector.hpp"
 #include "modules/pore_flow/boundary/held_point.hpp"
 
@@ -40,7 +41,7 @@ class PoreBoundary {
   /// Prescribed pressures, by face value, then of pressure_layers() [Pa].
   ScheduledVector face_pressures(const MirrorCondition<D, 1>& mirror) const;
   /// Volume per time that inflow and sources bring to every point [m^3/s, per metre in 2D].
-  ScheduledVector sources(const Eigen::SparseMatrix<double>& gradient) const;
+  ScheduledVector sources(const TransposedGradient& gradient) const;
   bool has_sources() const;
 
  private:

@@ -208,19 +208,19 @@ void SolidBoundary<D>::spread_over_layer(int face, const Vector<D>& force,
 /// What a face's condition does to every unknown at factor 1 of its schedule [N].
 template <int D>
 Eigen::VectorXd SolidBoundary<D>::face_force(int face, const MirrorCondition<D, D>& mirror,
-                                             const Eigen::SparseMatrix<double>& gradient) const {
+                                             const TransposedGradient& gradient) const {
   const Index points = body_->points().size();
   const Condition& condition = faces_[face];
   Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points + mirror.face_value_count());
   if (condition.kind == Kind::pressure) {
     // The whole body's: parts of it on plane faces cancel against those of their ghosts.
-    Eigen::VectorXd stress = Eigen::VectorXd::Zero(gradient.rows());
+    Eigen::VectorXd stress = Eigen::VectorXd::Zero(D * D * points);
     for (int a = 0; a < D; ++a) {
       for (Index i = 0; i < points; ++i) {
         stress[(a * D + a) * points + i] = -condition.pressure * body_->points().volume[i];
       }
     }
-    load.head(D * points) = (gradient.transpose() * stress).head(D * points);
+    load.head(D * points) = (gradient * stress).head(D * points);
   } else if (has_layer(face)) {
     Vector<D> force = condition.value;
     const bool plate = condition.kind == Kind::rigid_plate;
@@ -241,7 +241,7 @@ Eigen::VectorXd SolidBoundary<D>::face_force(int face, const MirrorCondition<D, 
 
 template <int D>
 ScheduledVector SolidBoundary<D>::loads(const MirrorCondition<D, D>& mirror,
-                                        const Eigen::SparseMatrix<double>& gradient) const {
+                                        const TransposedGradient& gradient) const {
   const Index points = body_->points().size();
   Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points + mirror.face_value_count());
   ScheduledVector sum(load.size());

@@ -8,6 +8,7 @@
 
 #include "core/body/body.hpp"
 #include "core/bonds/mirror_condition.hpp"
+#include "core/operators/nonlocal_gradient.hpp"
 #include "core/time/scheduled_vector.hpp"
 
 namespace perifrac {
@@ -70,10 +71,10 @@ class SolidBoundary {
   Eigen::SparseMatrix<double> free_unknowns(const MirrorCondition<D, D>& mirror) const;
   /// Prescribed displacements in their places among all unknowns, 0 elsewhere [m].
   ScheduledVector prescribed(const MirrorCondition<D, D>& mirror) const;
-  /// External force on every unknown, without reactions [N]; `gradient` is the operator's gradient
-  /// matrix. Throws BodyError as face_load.
+  /// External force on every unknown, without reactions [N]; `gradient` is the
+  /// operator's. Throws BodyError as face_load.
   ScheduledVector loads(const MirrorCondition<D, D>& mirror,
-                        const Eigen::SparseMatrix<double>& gradient) const;
+                        const TransposedGradient& gradient) const;
   /// Neither prescribed displacements nor loads change with time.
   bool is_constant() const;
 
@@ -102,7 +103,7 @@ class SolidBoundary {
                           const std::vector<int>& holders) const;
   void spread_over_layer(int face, const Vector<D>& force, Eigen::VectorXd& load) const;
   Eigen::VectorXd face_force(int face, const MirrorCondition<D, D>& mirror,
-                             const Eigen::SparseMatrix<double>& gradient) const;
+                             const TransposedGradient& gradient) const;
 
   const Body<D>* body_;
   std::vector<Condition> faces_;

@@ -11,7 +11,7 @@ CrackedLoad<D>::CrackedLoad(std::shared_ptr<const Body<D>> body,
     : body_(std::move(body)),
       elastic_(std::move(elastic)),
       prescribed_(boundary.prescribed(mirror)),
-      load_(boundary.loads(mirror, elastic_->gradient_matrix())),
+      load_(boundary.loads(mirror, elastic_->transposed_gradient())),
       prescribes_(!prescribed_.is_constant() || prescribed_.at(0.0).any()),
       is_steady_by_itself_(load_.is_constant() && !prescribes_) {}
 

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #include <Eigen/SparseCore>
 
+#include "core/base/packet.hpp"
 #include "core/base/points.hpp"
+#include "core/operators/nonlocal_gradient.hpp"
 
 namespace perifrac {
 
@@ -16,18 +20,20 @@ struct PoreStress {
   std::span<const double> slope{};
 };
 
-/// Calls use(at), at(i, dilatation) being the pore stress of point i, so that its kind is asked for
-/// once and not at every point.
+/// Calls use(at), at(i, dilatation) being the pore stress of point i, or of a packet of points, so
+/// that its kind is asked for once and not at every point.
 template <class Use>
 void with_pore_stress(const PoreStress& pore, Use&& use) {
   const double* const value = pore.value.data();
   const double* const slope = pore.slope.data();
   if (value == nullptr) {
-    use([](Index, double) { return 0.0; });
+    use([](auto, const auto& dilatation) { return std::decay_t<decltype(dilatation)>{}; });
   } else if (slope == nullptr) {
-    use([=](Index i, double) { return value[i]; });
+    use([=](auto i, const auto&) { return value_at(value, i); });
   } else {
-    use([=](Index i, double dilatation) { return value[i] + slope[i] * dilatation; });
+    use([=](auto i, const auto& dilatation) {
+      return value_at(value, i) + value_at(slope, i) * dilatation;
+    });
   }
 }
 
@@ -81,6 +87,10 @@ class ElasticOperator {
   /// Takes displacements to D * D blocks of point gradients; its transpose makes loads of
   /// tractions.
   virtual Eigen::SparseMatrix<double> gradient_matrix() const = 0;
+  virtual TransposedGradient transposed_gradient() const = 0;
+
+  /// How apply() goes over the bonds, and why: a line for whoever asks what is slow.
+  virtual std::string path() const = 0;
 
   /// Stiffness of a point against a change of volume at fixed mean stress [Pa].
   virtual double drained_bulk_modulus(Index i) const = 0;

@@ -82,6 +82,11 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   Eigen::SparseMatrix<double> gradient_matrix() const override {
     return operator_.gradient_matrix();
   }
+  TransposedGradient transposed_gradient() const override {
+    return operator_.transposed_gradient();
+  }
+
+  std::string path() const override { return operator_.path(); }
 
   double drained_bulk_modulus(Index i) const override { return law(i).drained_bulk_modulus(); }
 
@@ -137,16 +142,17 @@ class LinearExactElasticity : public BreakableElasticity<D> {
     return thin != thin_points_.end() && thin->point == i;
   }
 
-  void add_initial(Tensor<D, D>& stress) const {
+  template <class Number>
+  void add_initial(std::array<Number, D * D>& stress) const {
     for (int a = 0; a < D; ++a) stress[a * D + a] += (*initial_stress_)[a];
   }
 
   template <class PoreStressAt, class AddInitial>
   void apply_with(std::span<const double> u, std::span<double> force, std::span<double> dilatation,
                   PoreStressAt&& pore_stress, AddInitial&& add_initial) {
-    operator_.apply(u, force, [&](Index i, const Tensor<D, D>& gradient, Tensor<D, D>& stress) {
-      const double theta = trace(gradient);
-      if (!dilatation.empty()) dilatation[i] = theta;
+    operator_.apply(u, force, [&](auto i, const auto& gradient, auto& stress) {
+      const auto theta = trace(gradient);
+      if (!dilatation.empty()) set_value(dilatation.data(), i, theta);
       add_to_diagonal(stress, -pore_stress(i, theta));
       add_initial(stress);
     });

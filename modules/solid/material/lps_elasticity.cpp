@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
@@ -53,6 +54,10 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
     image_sign_.push_back(sign);
   }
   if (initial_stress_) mirror_.fill_conjugate(initial_state_);
+  lattice_ = LpsLattice<D>::find(*family_, why_no_packets_);
+  std::vector<Index> all(points);
+  std::iota(all.begin(), all.end(), 0);
+  give_to_lattice([&](const auto& rock) { lattice_->take(rock, all); });
 }
 
 /// What follows from the moments of a point's family.
@@ -75,6 +80,16 @@ void LpsElasticity<D>::update(std::span<const Index> points) {
     take_moments(i);
   }
   if (initial_stress_) mirror_.fill_conjugate(initial_state_);
+  give_to_lattice([&](const auto& rock) { lattice_->update(*family_, rock, points); });
+}
+
+template <int D>
+template <class Take>
+void LpsElasticity<D>::give_to_lattice(Take&& take) {
+  if (!lattice_) return;
+  std::vector<double> stiffness(family_->point_count);
+  for_each_point(family_->point_count, [&](Index i) { stiffness[i] = dilatation_stiffness(i); });
+  take(typename LpsLattice<D>::Rock{dilatation_scale_, bond_stiffness_, stiffness, initial_state_});
 }
 
 template <int D>
@@ -87,7 +102,6 @@ void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
                              std::span<double> force, std::span<double> dilatation) {
   assert(static_cast<Index>(u.size()) == size() && u.size() == force.size());
   mirror_.spread(u, field_);
-  with_pore_stress(pore, [&](auto pore_stress) { store_state(dilatation, pore_stress); });
   const Index points = family_->point_count;
   const auto write_forces = [&]<bool initially_stressed>() {
     for_each_point(points, [&](Index i) {
@@ -95,16 +109,31 @@ void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
       set_at(force, points, i, -f);
     });
   };
-  if (initial_state_.empty()) {
-    write_forces.template operator()<false>();
-  } else {
-    write_forces.template operator()<true>();
-  }
+  with_pore_stress(pore, [&](auto pore_stress) {
+    if (apply_on_lattice(force, dilatation, pore_stress)) return;
+    store_state(dilatation, pore_stress);
+    if (initial_state_.empty()) {
+      write_forces.template operator()<false>();
+    } else {
+      write_forces.template operator()<true>();
+    }
+  });
   for_each_point(static_cast<Index>(face_points_.size()), [&](Index k) {
     const Index i = face_points_[k];
     add_at(force, points, i, -image_forces(i));
   });
   add_face_reactions(force.subspan(static_cast<std::size_t>(D) * points));
+}
+
+template <int D>
+template <class PoreStressAt>
+bool LpsElasticity<D>::apply_on_lattice(std::span<double> force, std::span<double> dilatation,
+                                        PoreStressAt&& pore_stress) {
+  if (!lattice_) return false;
+  lattice_->apply(
+      field_, [&](auto i, const auto& theta) { return pore_sign_ * pore_stress(i, theta); },
+      dilatation, volume_state_, force);
+  return true;
 }
 
 template <int D>
@@ -361,6 +390,18 @@ Eigen::SparseMatrix<double> LpsElasticity<D>::assemble() const {
 template <int D>
 Eigen::SparseMatrix<double> LpsElasticity<D>::gradient_matrix() const {
   return perifrac::gradient_matrix(*family_, moments_, mirror_);
+}
+
+template <int D>
+TransposedGradient LpsElasticity<D>::transposed_gradient() const {
+  return TransposedGradient([this](const Eigen::VectorXd& flux) {
+    return perifrac::transposed_gradient(*family_, moments_, mirror_, flux);
+  });
+}
+
+template <int D>
+std::string LpsElasticity<D>::path() const {
+  return lattice_ ? lattice_->bonds().path() : "bond by bond: " + why_no_packets_;
 }
 
 template class LpsElasticity<2>;
