@@ -2,6 +2,9 @@
 // loaded and the rest when it is first used; where there is no room it tries for ever. So the
 // program looks for the room first, before any library begins, a time at which only the system
 // itself can be asked, and has OpenBLAS take all of it before anything else can.
+// OpenMP's threads, where nothing is said, wait by spinning: beside other work they take from each
+// other the processor that they wait for. How they wait is read from the environment when their
+// library is loaded, so that the program begins once more with it said.
 // METIS, under CHOLMOD, calls itself: a stack of less than 256 kB ends it without a word.
 #include <algorithm>
 #include <cstddef>
@@ -67,7 +70,31 @@ void look_for_standard_files() {
   }
 }
 
-void look_for_room(int, char**, char** environment) {
+bool says_how_threads_wait(std::string_view entry) {
+  return entry.starts_with("OMP_WAIT_POLICY=") || entry.starts_with("GOMP_SPINCOUNT=");
+}
+
+/// Begins once more with threads that sleep where they wait, unless the environment says how they
+/// are to. Where that cannot be, they spin.
+void let_threads_sleep(char** arguments, char** environment) {
+  static char asleep[] = "OMP_WAIT_POLICY=passive";
+  std::size_t count = 0;
+  for (; environment[count] != nullptr; ++count) {
+    if (says_how_threads_wait(environment[count])) return;
+  }
+  const std::size_t bytes = (count + 2) * sizeof(char*);
+  void* const place =
+      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (place == MAP_FAILED) return;
+  char** const longer = static_cast<char**>(place);
+  std::copy_n(environment, count, longer);
+  longer[count] = asleep;
+  ::execve("/proc/self/exe", arguments, longer);
+  ::munmap(place, bytes);
+}
+
+void look_for_room(int, char** arguments, char** environment) {
+  if (thread_count(environment) > 1) let_threads_sleep(arguments, environment);
   look_for_standard_files();
   look_for_stack();
   const std::size_t buffers = std::max<std::size_t>(2, thread_count(environment));

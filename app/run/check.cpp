@@ -33,6 +33,15 @@ nlohmann::json modules_of(const CouplingManager& manager) {
   return modules;
 }
 
+/// How each module goes over the bonds.
+nlohmann::json paths_of(const CouplingManager& manager) {
+  nlohmann::json paths = nlohmann::json::object();
+  for (const ModuleSlot& slot : manager.modules()) {
+    if (const std::string path = slot.module->path(); !path.empty()) paths[slot.name] = path;
+  }
+  return paths;
+}
+
 nlohmann::json links_of(const CouplingManager& manager) {
   nlohmann::json links = nlohmann::json::array();
   for (const Link& link : manager.links()) links.push_back(link.name());
@@ -134,6 +143,10 @@ void print(const nlohmann::json& result) {
   for (const auto& link : result.value("links", nlohmann::json::array())) {
     fmt::print("  link {}\n", link.get<std::string>());
   }
+  const auto loops = result.value("bond_loops", nlohmann::json::object());
+  for (const auto& [name, path] : loops.items()) {
+    fmt::print("  bonds of {}: {}\n", name, path.get<std::string>());
+  }
   if (result.contains("family_bytes")) {
     fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
                counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
@@ -179,6 +192,7 @@ nlohmann::json built(const CheckRequest& request, const Section& scene) {
                            {"effects", effects(scene)},
                            {"read", what_was_read(scene, simulation)},
                            {"links", links_of(manager)},
+                           {"bond_loops", paths_of(manager)},
                            {"counts", counts(simulation)},
                            {"family_bytes", family_bytes(simulation.body)},
                            {"arrays", list.arrays},

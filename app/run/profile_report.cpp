@@ -99,9 +99,14 @@ Json profile_json(Profile& profile, const Simulation& simulation) {
   const auto at_start = static_cast<double>(profile.resident_at_start());
   const auto resident = static_cast<double>(resident_bytes());
   const Profile::Part& whole = parts[0];
+  Json loops = Json::object();
+  for (const ModuleSlot& slot : simulation.manager->modules()) {
+    if (const std::string path = slot.module->path(); !path.empty()) loops[slot.name] = path;
+  }
   return {{"seconds", whole.seconds},
           {"cpu_seconds", whole.cpu_seconds},
           {"parts", named},
+          {"bond_loops", loops},
           {"unaccounted",
            {{"seconds", whole.seconds - named_seconds},
             {"share", share(whole.seconds - named_seconds, whole.seconds)}}},
@@ -124,6 +129,9 @@ std::string profile_text(const Json& profile) {
   text +=
       fmt::format("  {:<32} {:>9} {:>10.3f} {:>10.3f} {:>6.1f}\n", "all", "",
                   profile["seconds"].get<double>(), profile["cpu_seconds"].get<double>(), 100.0);
+  for (const auto& [name, path] : profile["bond_loops"].items()) {
+    text += fmt::format("  bonds of {}: {}\n", name, path.get<std::string>());
+  }
   const Json& memory = profile["memory"];
   const auto mb = [&](const char* key) { return memory[key].get<double>() / 1e6; };
   text += fmt::format(

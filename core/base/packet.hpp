@@ -57,6 +57,31 @@ inline Packet gather(std::span<const double> values, const Index* index) {
   (std::make_integer_sequence<int, packet_size>{});
 }
 
+/// Points to compute with at once; -1 where there is none, of which nothing is kept.
+struct PointPacket {
+  const Index* point;
+};
+
+/// What points have, one or a packet: where there is none, of some other.
+inline double value_at(const double* values, Index i) { return values[i]; }
+inline Packet value_at(const double* values, PointPacket at) {
+  return [&]<int... l>(std::integer_sequence<int, l...>) {
+    return Packet{values[at.point[l] < 0 ? 0 : at.point[l]]...};
+  }
+  (std::make_integer_sequence<int, packet_size>{});
+}
+
+inline void set_value(double* values, Index i, double value) { values[i] = value; }
+inline void set_value(double* values, PointPacket at, const Packet& value) {
+  for (int l = 0; l < packet_size; ++l) {
+    if (at.point[l] >= 0) values[at.point[l]] = value[l];
+  }
+}
+
+inline void store(double* values, const Packet& packet) {
+  std::memcpy(values, &packet, sizeof packet);
+}
+
 /// The sum of a packet's numbers.
 inline double total(const Packet& packet) {
   std::array<double, packet_size> part;

@@ -112,17 +112,18 @@ constexpr std::size_t rows_of = N == 9   ? 3
                                 : N == 4 ? 2
                                          : 1;
 
-template <std::size_t N>
-constexpr double trace(const std::array<double, N>& tensor) {
+/// Also of a tensor of packets, as is the next.
+template <class Number, std::size_t N>
+constexpr Number trace(const std::array<Number, N>& tensor) {
   static_assert(rows_of<N> * rows_of<N> == N);
-  double sum = 0.0;
+  Number sum{};
   for (std::size_t a = 0; a < rows_of<N>; ++a) sum += tensor[a * rows_of<N> + a];
   return sum;
 }
 
 /// s times the unit tensor more.
-template <std::size_t N>
-constexpr void add_to_diagonal(std::array<double, N>& tensor, double s) {
+template <class Number, std::size_t N>
+constexpr void add_to_diagonal(std::array<Number, N>& tensor, const Number& s) {
   static_assert(rows_of<N> * rows_of<N> == N);
   for (std::size_t a = 0; a < rows_of<N>; ++a) tensor[a * rows_of<N> + a] += s;
 }

@@ -3,20 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/base/small_vector.hpp"
 #include "core/bonds/bond_lengths.hpp"
 
 namespace perifrac {
 
 namespace {
 
-constexpr double rounding = 1e-9;      // of a place on the lattice, in spacings
-constexpr std::size_t most_bits = 63;  // of a signed word
+constexpr double rounding = 1e-9;  // of a place on the lattice, in spacings; of a weight
 
 /// Where nodes lie on a lattice: counted from a corner one horizon outside.
 template <int D>
 struct Grid {
   std::array<Index, D> counts;
   std::vector<std::array<Index, D>> place;  ///< by node
+  Index reach = 0;                          ///< of bonds, along any axis
 
   /// Rows along the first axis.
   Index cell(const std::array<Index, D>& at) const {
@@ -69,39 +72,93 @@ Index farthest_step(const Family<D>& family, const Grid<D>& grid) {
   return reach;
 }
 
-}  // namespace
-
+/// Steps of at most a reach along every axis, numbered row by row.
 template <int D>
-std::optional<LatticeBonds<D>> LatticeBonds<D>::find(const Family<D>& family) {
-  const double spacing = bond_lengths(family).shortest;
-  if (family.curved || !std::isfinite(spacing)) return {};
-  std::optional<Grid<D>> grid = find_grid(family, spacing);
-  if (!grid) return {};
+struct Steps {
+  Index reach;
 
-  // Rows are as far apart as bonds reach, so that a neighbour that is not there lies in no point's
-  // cell; the cells before the first and after the last are there to be read.
-  const Index reach = farthest_step(family, *grid);
-  grid->counts[0] += reach;
-  std::int64_t row = 1, before = packet_size, cells = 1;
-  for (int a = 0; a < D; ++a) {
-    before += reach * row;
-    row *= grid->counts[a];
-    cells *= grid->counts[a];
+  std::size_t count() const { return number(filled(reach)) + 1; }
+  std::size_t number(const std::array<Index, D>& step) const {
+    std::size_t index = 0;
+    for (int a = D - 1; a >= 0; --a) index = index * (2 * reach + 1) + (step[a] + reach);
+    return index;
   }
-  // A body that fills its box badly is better off without.
-  if (cells > 2 * static_cast<std::int64_t>(family.node_count()) + 1000) return {};
+  std::array<Index, D> step(std::size_t number) const {
+    std::array<Index, D> step;
+    for (int a = 0; a < D; ++a, number /= 2 * reach + 1) {
+      step[a] = static_cast<Index>(number % (2 * reach + 1)) - reach;
+    }
+    return step;
+  }
 
-  LatticeBonds result;
-  if (!result.take_cells(family, *grid, cells, before)) return {};
+ private:
+  static std::array<Index, D> filled(Index value) {
+    std::array<Index, D> all;
+    all.fill(value);
+    return all;
+  }
+};
+
+bool differ(double a, double b) { return std::abs(a - b) > rounding * b; }
+
+/// The weight of the bonds of each step; 0: there are none. Nothing where some differ.
+template <int D>
+std::optional<std::vector<double>> find_weights(const Family<D>& family, const Grid<D>& grid) {
+  const Steps<D> steps{grid.reach};
+  std::vector<double> weights(steps.count(), 0.0);
   for (Index i = 0; i < family.point_count; ++i) {
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       if (family.weight[bond] == 0.0) continue;
-      const auto step = step_of(family, *grid, i, bond);
-      Vector<D> xi;
-      for (int a = 0; a < D; ++a) xi[a] = static_cast<double>(step[a]);
-      if (!result.take_bond(family, i, bond, xi, spacing)) return {};
+      double& weight = weights[steps.number(step_of(family, grid, i, bond))];
+      if (weight == 0.0) weight = family.weight[bond];
+      if (differ(family.weight[bond], weight)) return {};
     }
   }
+  // Opposite directions lie in opposite places. A direction that bonds have to ghosts alone has no
+  // opposite: then there is one that all points lack.
+  for (std::size_t k = 0, last = weights.size() - 1; k < last - k; ++k) {
+    double &a = weights[k], &b = weights[last - k];
+    if (a == 0.0) a = b;
+    if (b == 0.0) b = a;
+    if (differ(a, b)) return {};
+  }
+  return weights;
+}
+
+}  // namespace
+
+template <int D>
+std::optional<LatticeBonds<D>> LatticeBonds<D>::find(const Family<D>& family, std::string* why) {
+  const auto none = [&](const char* reason) -> std::optional<LatticeBonds> {
+    if (why != nullptr) *why = reason;
+    return {};
+  };
+  if (family.curved) return none("there are images at a sphere");
+  const double spacing = bond_lengths(family).shortest;
+  if (!std::isfinite(spacing)) return none("there are no bonds");
+  std::optional<Grid<D>> grid = find_grid(family, spacing);
+  if (!grid) return none("the points do not lie on a lattice");
+
+  // Rows are as far apart as bonds reach, so that a neighbour that is not there lies in no point's
+  // cell; the cells before the first and after the last are there to be read.
+  grid->reach = farthest_step(family, *grid);
+  grid->counts[0] += grid->reach;
+  std::int64_t row = 1, before = packet_size, cells = 1;
+  for (int a = 0; a < D; ++a) {
+    before += grid->reach * row;
+    row *= grid->counts[a];
+    cells *= grid->counts[a];
+  }
+  if (cells > 4 * static_cast<std::int64_t>(family.node_count()) + 1000) {
+    return none("the points fill less than a quarter of a box");
+  }
+
+  LatticeBonds result;
+  if (!result.take_cells(family, *grid, cells, before)) return none("two points share a place");
+  if (!result.take_neighbours(family, *grid, spacing)) {
+    return none("bonds along one direction differ in weight");
+  }
+  result.find_packets();
   return result;
 }
 
@@ -111,9 +168,9 @@ template <class Grid>
 bool LatticeBonds<D>::take_cells(const Family<D>& family, const Grid& grid, std::int64_t cells,
                                  std::int64_t before) {
   cell_count_ = static_cast<Index>(cells + 2 * before);
-  present_.assign(cell_count_, 0);
   point_.assign(cell_count_, -1);
   std::vector<bool> taken(cell_count_, false);
+  cell_of_.reserve(family.node_count());
   for (Index i = 0; i < family.node_count(); ++i) {
     const Index cell = static_cast<Index>(before) + grid.cell(grid.place[i]);
     if (taken[cell]) return false;
@@ -121,44 +178,72 @@ bool LatticeBonds<D>::take_cells(const Family<D>& family, const Grid& grid, std:
     cell_of_.push_back(cell);
     if (i < family.point_count) point_[cell] = i;
   }
-  const auto [first, last] = std::ranges::minmax(std::span(cell_of_).first(family.point_count));
-  first_ = first;
-  last_ = last;
   return true;
 }
 
-/// Notes that the bond is there; false where it is not as all others of its direction are, or there
-/// are too many directions. `xi` is in spacings.
+/// All directions of bonds, and which bonds there are; false where those of one direction differ.
 template <int D>
-bool LatticeBonds<D>::take_bond(const Family<D>& family, Index i, Index bond, const Vector<D>& xi,
-                                double spacing) {
-  const double weight = family.weight[bond];
-  const Index offset = cell_of_[family.other[bond]] - cell_of_[i];
-  auto found = std::ranges::find(neighbours_, offset, &Neighbour::offset);
-  if (found == neighbours_.end()) {
-    Vector<D> weighted;
-    for (int a = 0; a < D; ++a) weighted[a] = weight * xi[a] * spacing;
-    neighbours_.push_back({offset, weight, weighted});
-    found = std::prev(neighbours_.end());
-    if (neighbours_.size() > most_bits) return false;
+template <class Grid>
+bool LatticeBonds<D>::take_neighbours(const Family<D>& family, const Grid& grid, double spacing) {
+  const Steps<D> steps{grid.reach};
+  const auto weights = find_weights<D>(family, grid);
+  if (!weights) return false;
+  reach_ = grid.reach;
+  spacing_ = spacing;
+  number_.assign(weights->size(), -1);
+  for (std::size_t k = 0; k < weights->size(); ++k) {
+    const double weight = (*weights)[k];
+    if (weight == 0.0) continue;
+    const auto step = steps.step(k);
+    Vector<D> xi;
+    for (int a = 0; a < D; ++a) xi[a] = step[a] * spacing;
+    number_[k] = neighbour_count();
+    neighbours_.push_back({grid.cell(step), weight, weight * xi, xi / squared_norm(xi)});
   }
-  if (std::abs(weight - found->weight) > rounding * found->weight) return false;
-  present_[cell_of_[i]] |= std::int64_t{1} << (found - neighbours_.begin());
+  all_.assign((neighbours_.size() + word_bits - 1) / word_bits, 0);
+  for (std::size_t k = 0; k < neighbours_.size(); ++k) all_[k / word_bits] |= bit(k);
+  present_.assign(all_.size() * cell_count_, 0);
+  for_each_point(family.point_count, [&](Index i) {
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      if (family.weight[bond] == 0.0) continue;
+      const Index k = number_[steps.number(step_of<D>(family, grid, i, bond))];
+      word_of(k, cell_of_[i]) |= bit(k);
+    }
+  });
   return true;
+}
+
+template <int D>
+void LatticeBonds<D>::find_packets() {
+  for (Index cell = 0; cell < cell_count_; ++cell) {
+    if (point_[cell] < 0) continue;
+    packets_.push_back(cell);
+    cell += packet_size - 1;
+  }
 }
 
 template <int D>
 void LatticeBonds<D>::update(const Family<D>& family, std::span<const Index> points) {
   for (const Index i : points) {
-    std::int64_t& present = present_[cell_of_[i]];
-    present = 0;
+    const Index cell = cell_of_[i];
+    for (std::size_t word = 0; word < all_.size(); ++word) word_of(word * word_bits, cell) = 0;
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       if (family.weight[bond] == 0.0) continue;
-      const Index offset = cell_of_[family.other[bond]] - cell_of_[i];
-      const auto found = std::ranges::find(neighbours_, offset, &Neighbour::offset);
-      present |= std::int64_t{1} << (found - neighbours_.begin());
+      std::array<Index, D> step;
+      for (int a = 0; a < D; ++a) {
+        const std::vector<double>& x = family.position[a];
+        step[a] = static_cast<Index>(std::lround((x[family.other[bond]] - x[i]) / spacing_));
+      }
+      const Index k = number_[Steps<D>{reach_}.number(step)];
+      word_of(k, cell) |= bit(k);
     }
   }
+}
+
+template <int D>
+std::string LatticeBonds<D>::path() const {
+  return fmt::format("packets of {} points: a lattice, {} neighbours", packet_size,
+                     neighbours_.size());
 }
 
 template class LatticeBonds<2>;

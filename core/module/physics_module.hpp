@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "core/module/port.hpp"
 #include "core/module/time_window.hpp"
@@ -54,6 +55,9 @@ class PhysicsModule {
 
   /// False: neither advance() nor conclude() ever ends a window early.
   virtual bool may_end_windows() const { return true; }
+
+  /// How its forces or flows go over the bonds of a body, and why; empty: it has none.
+  virtual std::string path() const { return {}; }
 
   /// Shows every evolving field once; a visitor that restores may resize.
   virtual void visit_state(StateVisitor& visitor) = 0;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <concepts>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -63,8 +65,10 @@ class LinearExactOperator {
     }
     if (family_->curved) matrix_.emplace(assemble());
     if constexpr (PacketLaw<Law, D>) {
-      lattice_ = LinearExactLattice<D, Law>::find(*family_, face_points_);
+      lattice_ = LinearExactLattice<D, R>::find(*family_, face_points_, why_no_packets_);
       take_in_lattice();
+    } else {
+      why_no_packets_ = "the law knows no packets";
     }
   }
 
@@ -188,18 +192,27 @@ class LinearExactOperator {
         }
         result[row] = sum;
       });
-    } else if (!apply_on_lattice(law_, u, result)) {
-      apply(u, result, [](Index, const Tensor<R, D>&, Tensor<R, D>&) {});
+    } else {
+      apply(u, result, [](auto, const auto&, auto&) {});
     }
   }
 
   /// The same with the stress that add(i, gradient, stress) makes of the law's at every point; not
-  /// for curved ghosts.
+  /// for curved ghosts. Where bonds lie on a lattice i is a PointPacket and the others are packets,
+  /// unless add takes none.
   template <class AddStress>
   void apply(std::span<const double> u, std::span<double> result, AddStress&& add) {
     assert(static_cast<Index>(u.size()) == size() && u.size() == result.size());
     if (matrix_) throw std::logic_error("an added stress beside curved ghosts");
     mirror_.spread(u, field_);
+    if constexpr (PacketLaw<Law, D> &&
+                  std::invocable<AddStress, PointPacket, const Packets&, Packets&>) {
+      if (lattice_) {
+        lattice_->apply(law_, add, mirror_, field_, state_, result);
+        add_face_reactions(result.subspan(point_unknowns()));
+        return;
+      }
+    }
     for_each_point(family_->point_count, [&](Index i) { store_state(i, add); });
     mirror_.fill_conjugate(state_);
     const Index points = family_->point_count;
@@ -210,18 +223,12 @@ class LinearExactOperator {
     add_face_reactions(result.subspan(point_unknowns()));
   }
 
-  /// apply() where bonds lie on a lattice, with the stress of another law, which may be no linear
-  /// one; elsewhere it does nothing and is false.
-  template <class AnyLaw>
-  bool apply_on_lattice(const AnyLaw& law, std::span<const double> u, std::span<double> result) {
-    if constexpr (PacketLaw<Law, D>) {
-      if (!lattice_) return false;
-      mirror_.spread(u, field_);
-      lattice_->apply(law, mirror_, field_, state_, result);
-      add_face_reactions(result.subspan(point_unknowns()));
-      return true;
-    }
-    return false;
+  /// How apply() goes over the bonds, and why.
+  std::string path() const {
+    if (matrix_) return "a sparse matrix: " + why_no_packets_;
+    if (!lattice_) return "bond by bond: " + why_no_packets_;
+    if constexpr (PacketLaw<Law, D>) return lattice_->bonds().path();
+    return {};
   }
 
   /// Takes the field that gradient_at() and energy() are of; apply() and gradient() do so too.
@@ -235,6 +242,9 @@ class LinearExactOperator {
   /// Gradient of the field at every point: R * D blocks of point_count, block r * D + b.
   void gradient(std::span<const double> u, std::span<double> result) {
     mirror_.spread(u, field_);
+    if constexpr (PacketLaw<Law, D>) {
+      if (lattice_) return lattice_->gradient(field_, result);
+    }
     const Index points = family_->point_count;
     for_each_point(points, [&](Index i) {
       const Tensor<R, D> f = gradient_at(i);
@@ -262,6 +272,7 @@ class LinearExactOperator {
 
  private:
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  using Packets = std::array<Packet, static_cast<std::size_t>(R* D)>;
 
   void take_in_lattice() {
     if constexpr (PacketLaw<Law, D>) {
@@ -406,8 +417,9 @@ class LinearExactOperator {
   std::vector<double> field_;           ///< u on real points and ghosts
   std::vector<double> state_;           ///< store_state() on real points and ghosts
   std::vector<double> bond_stiffness_;  ///< s_i on real points and ghosts
-  using Lattice = std::conditional_t<PacketLaw<Law, D>, LinearExactLattice<D, Law>, std::monostate>;
+  using Lattice = std::conditional_t<PacketLaw<Law, D>, LinearExactLattice<D, R>, std::monostate>;
   std::optional<Lattice> lattice_;  ///< where bonds lie on one
+  std::string why_no_packets_;
   std::vector<Index> face_points_;  ///< points with a bond to an odd ghost
   std::vector<Index> thin_points_;  ///< ascending; none where nothing breaks
   std::optional<Matrix> matrix_;    ///< A, where ghosts are curved

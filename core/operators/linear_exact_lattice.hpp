@@ -3,32 +3,28 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
+#include "core/base/law_by_region.hpp"
 #include "core/bonds/lattice_bonds.hpp"
 #include "core/bonds/mirror_condition.hpp"
 #include "core/bonds/shape_tensor.hpp"
 
 namespace perifrac {
 
-/// The law takes packets of gradients.
-template <class Law, int D>
-concept PacketLaw = requires(const Law& law, const std::array<Packet, Law::components * D>& f) {
-  law.stress(f);
-};
-
 /// The force of LinearExactOperator where bonds lie on a lattice, packet by packet: the same sums
 /// in another order. Its own copies lie in the lattice's cells.
-template <int D, class Law>
+template <int D, int R>
 class LinearExactLattice {
  public:
-  static constexpr int R = Law::components;
-
-  /// Nothing where the family is no lattice. `face_points`: those whose state is asked for.
+  /// Nothing where the family is no lattice, and why. `face_points`: those whose state is asked
+  /// for.
   static std::optional<LinearExactLattice> find(const Family<D>& family,
-                                                std::span<const Index> face_points) {
-    auto bonds = LatticeBonds<D>::find(family);
+                                                std::span<const Index> face_points,
+                                                std::string& why) {
+    auto bonds = LatticeBonds<D>::find(family, &why);
     if (!bonds) return {};
     return LinearExactLattice(family, std::move(*bonds), face_points);
   }
@@ -51,16 +47,30 @@ class LinearExactLattice {
     }
   }
 
-  /// Force -dE/du on the real points, R blocks, from the field on all nodes; writes `state` on
-  /// ghosts, their sources and the face points.
-  template <class AnyLaw>
-  void apply(const AnyLaw& law, const MirrorCondition<D, R>& mirror,
+  const LatticeBonds<D>& bonds() const { return bonds_; }
+
+  /// Force -dE/du on the real points, R blocks, from the field on all nodes, with the stress that
+  /// add(points, gradient, stress) makes of the law's; writes `state` on ghosts, their sources and
+  /// the face points.
+  template <class Law, class AddStress>
+  void apply(const Law& law, AddStress&& add, const MirrorCondition<D, R>& mirror,
              const std::vector<double>& field, std::vector<double>& state,
              std::span<double> result) {
     spread(field);
-    bonds_.for_each_packet([&](Index c) { store_state(law, c); });
+    bonds_.for_each_packet([&](Index c) { store_state(law, add, c); });
     fill_ghosts(mirror, state);
     bonds_.for_each_packet([&](Index c) { store_force(c, result); });
+  }
+
+  /// The gradient of the field, R * D blocks of real points.
+  void gradient(const std::vector<double>& field, std::span<double> result) {
+    spread(field);
+    bonds_.for_each_packet([&](Index c) {
+      const Packets<R* D> f = gradient_at(c);
+      for (int k = 0; k < R * D; ++k) {
+        set_value(result.data() + static_cast<std::size_t>(k) * points_, bonds_.points(c), f[k]);
+      }
+    });
   }
 
  private:
@@ -73,13 +83,11 @@ class LinearExactLattice {
         points_(family.point_count),
         nodes_(family.node_count()),
         seen_(face_points.begin(), face_points.end()),
-        node_of_(bonds_.cell_count(), -1),
         stiffness_(bonds_.cell_count(), 0.0),
         volume_(stiffness_) {
     field_.fill(stiffness_);
     state_.fill(stiffness_);
     inverse_shape_.fill(stiffness_);
-    for (Index node = 0; node < nodes_; ++node) node_of_[bonds_.cell_of(node)] = node;
     for (Index i = 0; i < points_; ++i) volume_[bonds_.cell_of(i)] = family.volume[i];
     seen_.insert(seen_.end(), family.ghost_source.begin(), family.ghost_source.end());
     std::ranges::sort(seen_);
@@ -88,12 +96,8 @@ class LinearExactLattice {
   }
 
   void spread(const std::vector<double>& field) {
-    const Index count = bonds_.cell_count();
-#pragma omp parallel for schedule(static) if (points_ >= points_worth_threads)
-    for (Index c = 0; c < count; ++c) {
-      const Index node = node_of_[c];
-      if (node < 0) continue;
-      for (int r = 0; r < R; ++r) field_[r][c] = field[static_cast<std::size_t>(r) * nodes_ + node];
+    for (int r = 0; r < R; ++r) {
+      bonds_.spread(field.data() + static_cast<std::size_t>(r) * nodes_, field_[r]);
     }
   }
 
@@ -109,26 +113,30 @@ class LinearExactLattice {
     return result;
   }
 
-  template <class AnyLaw>
-  void store_state(const AnyLaw& law, Index c) {
+  Packets<R * D> gradient_at(Index c) const {
     Packets<R> own;
     for (int r = 0; r < R; ++r) own[r] = load(&field_[r][c]);
     const Packets<R* D> moment =
-        bonds_.template sum_over_bonds<R * D>(c, [&](Index j, const auto&, const auto& w_xi) {
+        bonds_.template sum_over_bonds<R * D>(c, [&](Index j, const auto& bond) {
           Packets<R * D> t;
           for (int r = 0; r < R; ++r) {
             const Packet difference = load(&field_[r][j]) - own[r];
-            for (int b = 0; b < D; ++b) t[r * D + b] = difference * w_xi[b];
+            for (int b = 0; b < D; ++b) t[r * D + b] = difference * bond.weighted[b];
           }
           return t;
         });
-    const Packets<R* D> f = times_inverse_shape(moment, c);
-    const Packets<R* D> stress = times_inverse_shape(law.stress(f), c);
+    return times_inverse_shape(moment, c);
+  }
+
+  template <class Law, class AddStress>
+  void store_state(const Law& law, AddStress&& add, Index c) {
+    const PointPacket points = bonds_.points(c);
+    const Packets<R* D> f = gradient_at(c);
+    Packets<R* D> stress = stress_at(law, points, f);
+    add(points, f, stress);
+    stress = times_inverse_shape(stress, c);
     const Packet s = load(&stiffness_[c]);
-    for (int k = 0; k < R * D; ++k) {
-      const Packet value = stress[k] - s * f[k];
-      std::memcpy(&state_[k][c], &value, sizeof value);
-    }
+    for (int k = 0; k < R * D; ++k) store(&state_[k][c], stress[k] - s * f[k]);
   }
 
   void fill_ghosts(const MirrorCondition<D, R>& mirror, std::vector<double>& state) {
@@ -151,37 +159,31 @@ class LinearExactLattice {
     for (int r = 0; r < R; ++r) own[r] = load(&field_[r][c]);
     for (int k = 0; k < R * D; ++k) own_state[k] = load(&state_[k][c]);
     const Packet own_stiffness = load(&stiffness_[c]);
-    Packets<R> force =
-        bonds_.template sum_over_bonds<R>(c, [&](Index j, const auto& w, const auto& w_xi) {
-          // Where no bond is missing those of opposite directions cancel the point's own state.
-          constexpr bool has_all = std::is_same_v<decltype(w), const double&>;
-          Packets<R> t;
-          const Packet stiffness = w * (own_stiffness + load(&stiffness_[j]));
-          for (int r = 0; r < R; ++r) {
-            t[r] = stiffness * (load(&field_[r][j]) - own[r]);
-            for (int b = 0; b < D; ++b) {
-              Packet state = load(&state_[r * D + b][j]);
-              if constexpr (!has_all) state += own_state[r * D + b];
-              t[r] += state * w_xi[b];
-            }
-          }
-          return t;
-        });
+    Packets<R> force = bonds_.template sum_over_bonds<R>(c, [&](Index j, const auto& bond) {
+      Packets<R> t;
+      const Packet stiffness = bond.weight * (own_stiffness + load(&stiffness_[j]));
+      for (int r = 0; r < R; ++r) {
+        t[r] = stiffness * (load(&field_[r][j]) - own[r]);
+        for (int b = 0; b < D; ++b) {
+          Packet state = load(&state_[r * D + b][j]);
+          // Where no bond is missing those of opposite directions cancel the own state.
+          if constexpr (!std::decay_t<decltype(bond)>::is_whole) state += own_state[r * D + b];
+          t[r] += state * bond.weighted[b];
+        }
+      }
+      return t;
+    });
     const Packet volume = load(&volume_[c]);
     for (int r = 0; r < R; ++r) {
-      force[r] *= volume;
-      for (int l = 0; l < packet_size; ++l) {
-        const Index i = bonds_.point(c + l);
-        if (i >= 0) result[static_cast<std::size_t>(r) * points_ + i] = -force[r][l];
-      }
+      set_value(result.data() + static_cast<std::size_t>(r) * points_, bonds_.points(c),
+                -volume * force[r]);
     }
   }
 
   LatticeBonds<D> bonds_;
   Index points_;
   Index nodes_;
-  std::vector<Index> seen_;     ///< points whose state others ask for
-  std::vector<Index> node_of_;  ///< by cell
+  std::vector<Index> seen_;  ///< points whose state others ask for
   std::array<std::vector<double>, R> field_;
   std::array<std::vector<double>, R * D> state_;
   std::array<std::vector<double>, D * D> inverse_shape_;

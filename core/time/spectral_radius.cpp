@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/block_sum.hpp"
 #include "core/base/errors.hpp"
+#include "core/solvers/symmetric_spectrum.hpp"
 
 namespace perifrac {
 namespace {
@@ -15,6 +17,15 @@ double norm(std::span<const double> v) {
   double sum = 0.0;
   for (const double value : v) sum += value * value;
   return std::sqrt(sum);
+}
+
+/// A fixed sequence: it must hold a part of the fastest mode, whichever it is.
+void fill_without_structure(std::span<double> v) {
+  std::uint32_t bits = 1;
+  for (double& value : v) {
+    bits = bits * 1664525u + 1013904223u;
+    value = static_cast<double>(bits >> 8) / (1u << 23) - 1.0;
+  }
 }
 
 }  // namespace
@@ -26,12 +37,7 @@ double spectral_radius(std::string_view field, double t, std::size_t size, std::
   constexpr double tolerance = 1e-3;
   constexpr double margin = 1.02;
   std::vector<double> v(size, 0.0), product(size);
-  // A fixed sequence without structure: it must hold a part of the fastest mode, whichever it is.
-  std::uint32_t bits = 1;
-  for (std::size_t i = 0; i < coupled; ++i) {
-    bits = bits * 1664525u + 1013904223u;
-    v[i] = static_cast<double>(bits >> 8) / (1u << 23) - 1.0;
-  }
+  fill_without_structure(std::span(v).first(coupled));
   double length = norm(v);
   double checked = 0.0;
   for (int iteration = 1; iteration <= max_iterations; ++iteration) {
@@ -46,6 +52,46 @@ double spectral_radius(std::string_view field, double t, std::size_t size, std::
     }
     std::copy_n(product.begin(), coupled, v.begin());
     length = radius;
+  }
+  throw NumericalError(std::string(field), "the explicit integrator", t,
+                       "the stable time step could not be found");
+}
+
+double symmetric_spectral_radius(std::string_view field, double t, std::span<const double> mass,
+                                 const MatrixProduct& times) {
+  constexpr int steps = 9;
+  constexpr double settled = 1e-3;  // of the bound
+  constexpr double margin = 1.02;
+  const std::size_t size = mass.size();
+  std::vector<double> v(size), last(size, 0.0), product(size);
+  std::vector<double> sums;
+  // By the masses, for which M^-1 K is symmetric.
+  const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    return block_sum(static_cast<Index>(size), sums,
+                     [&](Index i) { return mass[i] * a[i] * b[i]; });
+  };
+  fill_without_structure(v);
+  double length = std::sqrt(dot(v, v));
+  if (length == 0.0) return 0.0;
+  for (double& value : v) value /= length;
+  Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(steps, steps);
+  double beside = 0.0;  // the part of the next vector in the last one's image
+  for (int n = 0;; ++n) {
+    times(v, product);
+    for (std::size_t i = 0; i < size; ++i) product[i] /= mass[i];
+    const double own = dot(v, product);
+    for (std::size_t i = 0; i < size; ++i) product[i] -= own * v[i] + beside * last[i];
+    projected(n, n) = own;
+    beside = std::sqrt(dot(product, product));
+    if (!std::isfinite(own) || !std::isfinite(beside)) break;
+    const SymmetricSpectrum spectrum = symmetric_spectrum(projected.topLeftCorner(n + 1, n + 1));
+    const double largest = spectrum.values[n];
+    const double rest = beside * std::abs(spectrum.vectors(n, n));
+    if (largest + rest <= 0.0) return 0.0;
+    if (n + 1 == steps || rest <= settled * largest) return margin * (largest + rest);
+    projected(n, n + 1) = projected(n + 1, n) = beside;
+    last.swap(v);
+    for (std::size_t i = 0; i < size; ++i) v[i] = product[i] / beside;
   }
   throw NumericalError(std::string(field), "the explicit integrator", t,
                        "the stable time step could not be found");

@@ -81,13 +81,11 @@ void VelocityVerlet::damp(double factor, Motion& motion) {
 
 double VelocityVerlet::stable_step(double t) {
   if (limit_version_ != system_.stiffness_version()) {
-    const std::span<const double> mass = system_.mass();
     const double largest =
-        spectral_radius(system_.name(), t, mass.size(), mass.size(),
-                        [&](std::span<const double> v, std::span<double> product) {
-                          system_.stiffness_times(v, product);
-                          for (std::size_t i = 0; i < mass.size(); ++i) product[i] /= mass[i];
-                        });
+        symmetric_spectral_radius(system_.name(), t, system_.mass(),
+                                  [&](std::span<const double> v, std::span<double> product) {
+                                    system_.stiffness_times(v, product);
+                                  });
     stable_step_ = 2.0 / std::sqrt(largest);  // infinity where nothing pulls back
     limit_version_ = system_.stiffness_version();
   }

@@ -109,6 +109,8 @@ class DarcySystem final : public OdeSystem {
   void renew(std::span<double> y);
   void start() { std::ranges::fill(taken_out_, 0.0); }
   void visit_state(StateVisitor& visitor);
+  /// How the flow goes over the bonds.
+  std::string path() const { return flow_->path(); }
 
   /// What came in since `start` by faces and sources: volume at zero pressure, and energy [J].
   double gained_volume(double start, double t, std::span<const double> y) const;

@@ -42,6 +42,7 @@ class DynamicSolid : public PhysicsModule {
   double advance(const TimeWindow& window) override;
   bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor& visitor) override;
+  std::string path() const override { return system_->path(); }
   void on_restored(double t) override;
 
  protected:

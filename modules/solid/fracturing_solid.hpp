@@ -63,6 +63,7 @@ class FracturingSolid final : public PhysicsModule {
   double advance(const TimeWindow& window) override;
   double conclude(const TimeWindow& window) override;
   void visit_state(StateVisitor& visitor) override;
+  std::string path() const override { return "a sparse matrix and its factor: in equilibrium"; }
   void on_restored(double t) override;
 
  private:

@@ -16,6 +16,8 @@ class ConservativeFlow final : public GradientFlow<D, Law> {
     this->operator_.apply(p, outflow);
   }
 
+  std::string path() const override { return this->operator_.path(); }
+
   Eigen::SparseMatrix<double> assemble() const override { return this->operator_.assemble(); }
 };
 

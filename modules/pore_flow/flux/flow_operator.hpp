@@ -42,6 +42,9 @@ class FlowOperator {
   /// Darcy velocity at the points, D blocks [m/s].
   virtual void velocity(std::span<const double> p, std::span<double> velocity) = 0;
 
+  /// How apply() goes over the bonds, and why.
+  virtual std::string path() const { return "bond by bond: not the conservative operator"; }
+
   /// H as a matrix.
   virtual Eigen::SparseMatrix<double> assemble() const = 0;
 

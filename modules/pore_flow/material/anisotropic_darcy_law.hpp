@@ -14,7 +14,15 @@ struct AnisotropicDarcyLaw {
 
   Tensor<D, D> mobility;
 
-  Tensor<1, D> stress(const Tensor<1, D>& gradient) const { return mobility * gradient; }
+  /// Also of packets of gradients.
+  template <class Number>
+  std::array<Number, D> stress(const std::array<Number, D>& gradient) const {
+    std::array<Number, D> result{};
+    for (int a = 0; a < D; ++a) {
+      for (int b = 0; b < D; ++b) result[a] += mobility[a * D + b] * gradient[b];
+    }
+    return result;
+  }
 
   double mean_mobility() const { return trace(mobility) / D; }
 
@@ -41,6 +49,12 @@ struct ScaledDarcyLaw {
   std::vector<double> factor;
 
   AnisotropicDarcyLaw<D> at(Index i) const { return law.at(i).times(factor[i]); }
+
+  std::array<Packet, D> stress(PointPacket points, const std::array<Packet, D>& gradient) const {
+    std::array<Packet, D> result = law.stress(points, gradient);
+    for (Packet& component : result) component *= value_at(factor.data(), points);
+    return result;
+  }
 };
 
 }  // namespace perifrac

@@ -12,7 +12,13 @@ struct DarcyLaw {
 
   double mobility;  ///< permeability / viscosity [m^2/(Pa s)]
 
-  Tensor<1, D> stress(const Tensor<1, D>& gradient) const { return mobility * gradient; }
+  /// Also of packets of gradients.
+  template <class Number>
+  std::array<Number, D> stress(const std::array<Number, D>& gradient) const {
+    std::array<Number, D> result;
+    for (int a = 0; a < D; ++a) result[a] = gradient[a] * mobility;
+    return result;
+  }
 
   double mean_mobility() const { return mobility; }
 

@@ -13,7 +13,8 @@ namespace perifrac {
 /// point stores
 ///   V_i [1/2 E : C : E + 1/2 s_i sum_j w_ij |u_j - u_i - G_i xi|^2],  E = U_i - I,
 /// whose second term does not see a rotation. The force is its exact derivative: the linear-exact
-/// operator with R_i (C : E_i - pore stress) for stress. So linear and angular momentum are kept to
+/// operator with R_i (C : E_i - pore stress) for stress, since an isotropic stress has the axes of
+/// U_i, so that turning those does no work. So linear and angular momentum are kept to
 /// rounding, and with a linear law's E = sym G to first order. The pore stress works on
 /// theta = tr E.
 ///
@@ -29,10 +30,8 @@ class CorotationalElasticity final : public LinearExactElasticity<D, Law> {
 
   void apply(std::span<const double> u, const PoreStress& pore, std::span<double> force,
              std::span<double> dilatation) override {
-    if (!pore.value.empty() || !dilatation.empty() || !apply_dry_on_lattice(u, force)) {
-      with_pore_stress(pore,
-                       [&](auto pore_stress) { apply_with(u, force, dilatation, pore_stress); });
-    }
+    with_pore_stress(pore,
+                     [&](auto pore_stress) { apply_with(u, force, dilatation, pore_stress); });
     for (const Thin& thin : turning_) thin.bonds.add_force(u, force);
   }
 
@@ -95,21 +94,14 @@ class CorotationalElasticity final : public LinearExactElasticity<D, Law> {
     TurningBonds<D> bonds;
   };
 
-  bool apply_dry_on_lattice(std::span<const double> u, std::span<double> force) {
-    if constexpr (PacketLaw<Law, D>) {
-      return operator_.apply_on_lattice(TurnedLaw<D, Law>{operator_.law()}, u, force);
-    }
-    return false;
-  }
-
   template <class PoreStressAt>
   void apply_with(std::span<const double> u, std::span<double> force, std::span<double> dilatation,
                   PoreStressAt&& pore_stress) {
-    operator_.apply(u, force, [&](Index i, const Tensor<D, D>& gradient, Tensor<D, D>& stress) {
-      const Turned<D> at = turned(gradient);
-      const double theta = trace(at.strain);
-      if (!dilatation.empty()) dilatation[i] = theta;
-      Tensor<D, D> unturned = law_at(operator_.law(), i).stress(at.strain);
+    operator_.apply(u, force, [&](auto i, const auto& gradient, auto& stress) {
+      const auto at = turned(gradient);
+      const auto theta = trace(at.strain);
+      if (!dilatation.empty()) set_value(dilatation.data(), i, theta);
+      auto unturned = perifrac::stress_at(operator_.law(), i, at.strain);
       add_to_diagonal(unturned, -pore_stress(i, theta));
       stress = product<D>(at.rotation, unturned);
     });

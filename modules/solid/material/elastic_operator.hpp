@@ -1,10 +1,13 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #include <Eigen/SparseCore>
 
+#include "core/base/packet.hpp"
 #include "core/base/points.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
@@ -17,18 +20,20 @@ struct PoreStress {
   std::span<const double> slope{};
 };
 
-/// Calls use(at), at(i, dilatation) being the pore stress of point i, so that its kind is asked for
-/// once and not at every point.
+/// Calls use(at), at(i, dilatation) being the pore stress of point i, or of a packet of points, so
+/// that its kind is asked for once and not at every point.
 template <class Use>
 void with_pore_stress(const PoreStress& pore, Use&& use) {
   const double* const value = pore.value.data();
   const double* const slope = pore.slope.data();
   if (value == nullptr) {
-    use([](Index, double) { return 0.0; });
+    use([](auto, const auto& dilatation) { return std::decay_t<decltype(dilatation)>{}; });
   } else if (slope == nullptr) {
-    use([=](Index i, double) { return value[i]; });
+    use([=](auto i, const auto&) { return value_at(value, i); });
   } else {
-    use([=](Index i, double dilatation) { return value[i] + slope[i] * dilatation; });
+    use([=](auto i, const auto& dilatation) {
+      return value_at(value, i) + value_at(slope, i) * dilatation;
+    });
   }
 }
 
@@ -87,6 +92,9 @@ class ElasticOperator {
 
   /// The elastic constants at a point.
   virtual const IsotropicElasticity<D>& law(Index i) const = 0;
+
+  /// How apply() goes over the bonds, and why: a line for whoever asks what is slow.
+  virtual std::string path() const = 0;
 
   /// Stiffness of a point against a change of volume at fixed mean stress [Pa].
   virtual double drained_bulk_modulus(Index i) const = 0;

@@ -42,8 +42,9 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   void apply_stiffness(std::span<const double> u, std::span<double> force,
                        std::span<double> dilatation = {}) override {
     if (!dilatation.empty() && !operator_.family().curved) {
-      apply_with(
-          u, force, dilatation, [](Index, double) { return 0.0; }, [](auto&) {});
+      with_pore_stress({}, [&](auto none) {
+        apply_with(u, force, dilatation, none, [](auto&) {});
+      });
       return;
     }
     operator_.apply(u, force);
@@ -68,8 +69,8 @@ class LinearExactElasticity : public BreakableElasticity<D> {
     }
     const std::vector<double> rest(size(), 0.0);
     std::vector<double> inner(size());
-    operator_.apply(rest, inner, [&](Index i, const Tensor<D, D>&, Tensor<D, D>& stress) {
-      add_to_diagonal(stress, -pore_stress[i]);
+    operator_.apply(rest, inner, [&](auto i, const auto&, auto& stress) {
+      add_to_diagonal(stress, -value_at(pore_stress.data(), i));
     });
     view(force) -= view(inner);
   }
@@ -107,6 +108,7 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const override {
     return operator_.force_of_stress(stress);
   }
+  std::string path() const override { return operator_.path(); }
 
   double drained_bulk_modulus(Index i) const override { return law(i).drained_bulk_modulus(); }
 
@@ -162,16 +164,17 @@ class LinearExactElasticity : public BreakableElasticity<D> {
     return thin != thin_points_.end() && thin->point == i;
   }
 
-  void add_initial(Tensor<D, D>& stress) const {
+  template <class Number>
+  void add_initial(std::array<Number, D * D>& stress) const {
     for (int a = 0; a < D; ++a) stress[a * D + a] += (*initial_stress_)[a];
   }
 
   template <class PoreStressAt, class AddInitial>
   void apply_with(std::span<const double> u, std::span<double> force, std::span<double> dilatation,
                   PoreStressAt&& pore_stress, AddInitial&& add_initial) {
-    operator_.apply(u, force, [&](Index i, const Tensor<D, D>& gradient, Tensor<D, D>& stress) {
-      const double theta = trace(gradient);
-      if (!dilatation.empty()) dilatation[i] = theta;
+    operator_.apply(u, force, [&](auto i, const auto& gradient, auto& stress) {
+      const auto theta = trace(gradient);
+      if (!dilatation.empty()) set_value(dilatation.data(), i, theta);
       add_to_diagonal(stress, -pore_stress(i, theta));
       add_initial(stress);
     });

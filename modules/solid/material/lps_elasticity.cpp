@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
@@ -53,6 +54,10 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
     image_sign_.push_back(sign);
   }
   if (initial_stress_) mirror_.fill_conjugate(initial_state_);
+  lattice_ = LpsLattice<D>::find(*family_, why_no_packets_);
+  std::vector<Index> all(points);
+  std::iota(all.begin(), all.end(), 0);
+  give_to_lattice([&](const auto& rock) { lattice_->take(rock, all); });
 }
 
 /// What follows from the moments of a point's family.
@@ -75,6 +80,16 @@ void LpsElasticity<D>::update(std::span<const Index> points) {
     take_moments(i);
   }
   if (initial_stress_) mirror_.fill_conjugate(initial_state_);
+  give_to_lattice([&](const auto& rock) { lattice_->update(*family_, rock, points); });
+}
+
+template <int D>
+template <class Take>
+void LpsElasticity<D>::give_to_lattice(Take&& take) {
+  if (!lattice_) return;
+  std::vector<double> stiffness(family_->point_count);
+  for_each_point(family_->point_count, [&](Index i) { stiffness[i] = dilatation_stiffness(i); });
+  take(typename LpsLattice<D>::Rock{dilatation_scale_, bond_stiffness_, stiffness, initial_state_});
 }
 
 template <int D>
@@ -87,20 +102,21 @@ void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
                              std::span<double> force, std::span<double> dilatation) {
   assert(static_cast<Index>(u.size()) == size() && u.size() == force.size());
   mirror_.spread(u, field_);
-  with_pore_stress(pore, [&](auto pore_stress) { store_state(dilatation, pore_stress); });
-  if (initial_stress_) {
-    find_forces<true>(force);
-  } else {
-    find_forces<false>(force);
-  }
+  with_pore_stress(pore, [&](auto pore_stress) {
+    if (initial_stress_) {
+      find_forces<true>(force, dilatation, pore_stress);
+    } else {
+      find_forces<false>(force, dilatation, pore_stress);
+    }
+  });
 }
 
 template <int D>
 void LpsElasticity<D>::apply_stiffness(std::span<const double> u, std::span<double> force,
                                        std::span<double> dilatation) {
   mirror_.spread(u, field_);
-  store_state(dilatation, [](Index, double) { return 0.0; });
-  find_forces<false>(force);
+  with_pore_stress({},
+                   [&](auto none) { find_forces<false>(force, dilatation, none); });
 }
 
 template <int D>
@@ -109,19 +125,28 @@ void LpsElasticity<D>::add_pore_force(std::span<const double> pore_stress,
   const std::vector<double> rest(size(), 0.0);
   std::vector<double> inner(size());
   mirror_.spread(rest, field_);
-  store_state({}, [&](Index i, double) { return pore_stress[i]; });
-  find_forces<false>(inner);
+  with_pore_stress({.value = pore_stress},
+                   [&](auto pore_stress_at) { find_forces<false>(inner, {}, pore_stress_at); });
   for (std::size_t k = 0; k < inner.size(); ++k) force[k] -= inner[k];
 }
 
+/// Of the displacement in `field_`.
 template <int D>
-template <bool initially_stressed>
-void LpsElasticity<D>::find_forces(std::span<double> force) const {
+template <bool initially_stressed, class PoreStressAt>
+void LpsElasticity<D>::find_forces(std::span<double> force, std::span<double> dilatation,
+                                   PoreStressAt&& pore_stress) {
   const Index points = family_->point_count;
-  for_each_point(points, [&](Index i) {
-    const Vector<D> f = bond_forces<initially_stressed>(i);
-    set_at(force, points, i, -f);
-  });
+  if (lattice_ && initially_stressed == initial_stress_.has_value()) {
+    lattice_->apply(
+        field_, [&](auto i, const auto& theta) { return pore_sign_ * pore_stress(i, theta); },
+        dilatation, volume_state_, force);
+  } else {
+    store_state(dilatation, pore_stress);
+    for_each_point(points, [&](Index i) {
+      const Vector<D> f = bond_forces<initially_stressed>(i);
+      set_at(force, points, i, -f);
+    });
+  }
   for_each_point(static_cast<Index>(face_points_.size()), [&](Index k) {
     const Index i = face_points_[k];
     add_at(force, points, i, -image_forces(i));
@@ -384,6 +409,11 @@ Eigen::SparseMatrix<double> LpsElasticity<D>::assemble() const {
 template <int D>
 Eigen::VectorXd LpsElasticity<D>::force_of_stress(const Eigen::VectorXd& stress) const {
   return perifrac::force_of_stress(*family_, moments_, mirror_, stress);
+}
+
+template <int D>
+std::string LpsElasticity<D>::path() const {
+  return lattice_ ? lattice_->bonds().path() : "bond by bond: " + why_no_packets_;
 }
 
 template class LpsElasticity<2>;

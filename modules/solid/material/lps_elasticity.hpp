@@ -2,12 +2,14 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/law_by_region.hpp"
 #include "core/bonds/mirror_condition.hpp"
 #include "core/bonds/shape_tensor.hpp"
 #include "modules/solid/material/breakable_elasticity.hpp"
+#include "modules/solid/material/lps_lattice.hpp"
 
 namespace perifrac {
 
@@ -39,6 +41,7 @@ class LpsElasticity final : public BreakableElasticity<D> {
   /// Takes displacements to point dilatations.
   Eigen::SparseMatrix<double> dilatation_matrix() const;
   Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const override;
+  std::string path() const override;
   double drained_bulk_modulus(Index i) const override { return law_.at(i).drained_bulk_modulus(); }
   double pore_sign() const override { return pore_sign_; }
 
@@ -53,6 +56,8 @@ class LpsElasticity final : public BreakableElasticity<D> {
   Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const override;
   double point_energy(Index i, std::span<const double> u) const override;
   void take_moments(Index i);
+  template <class Take>
+  void give_to_lattice(Take&& take);
   /// lambda - mu: the stiffness against dilatation that the bonds do not have.
   double dilatation_stiffness(Index i) const {
     return law_.at(i).lame_lambda - law_.at(i).shear_modulus;
@@ -60,8 +65,9 @@ class LpsElasticity final : public BreakableElasticity<D> {
   double dilatation_at(Index i) const;
   template <class PoreStressAt>
   void store_state(std::span<double> dilatation, PoreStressAt&& pore_stress);
-  template <bool initially_stressed>
-  void find_forces(std::span<double> force) const;
+  template <bool initially_stressed, class PoreStressAt>
+  void find_forces(std::span<double> force, std::span<double> dilatation,
+                   PoreStressAt&& pore_stress);
   template <bool initially_stressed>
   Vector<D> bond_forces(Index i) const;
   Vector<D> image_forces(Index i) const;
@@ -84,6 +90,8 @@ class LpsElasticity final : public BreakableElasticity<D> {
   std::vector<double> initial_state_;     ///< initial stress K_i^-1 on real points and ghosts
   std::vector<Vector<D>> image_sign_;     ///< of ghosts: see image_forces()
   std::vector<Index> face_points_;        ///< points with a bond to a ghost
+  std::optional<LpsLattice<D>> lattice_;  ///< where bonds lie on one
+  std::string why_no_packets_;
 };
 
 }  // namespace perifrac

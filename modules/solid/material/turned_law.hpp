@@ -69,19 +69,4 @@ std::array<Number, D * D> product(const std::array<Number, D * D>& a,
   return result;
 }
 
-/// An isotropic law of small strains, of strains that are small beside a rotation of any size: the
-/// energy 1/2 (U - I) : C : (U - I) per volume. Its stress R (C : (U - I)), by area and axes as
-/// they were at first, is the derivative of that energy by F: exactly, since an isotropic stress
-/// has the axes of U, so that turning U does no work.
-template <int D, class Law>
-struct TurnedLaw {
-  const Law& law;
-
-  template <class Number>
-  std::array<Number, D * D> stress(const std::array<Number, D * D>& gradient) const {
-    const Turned<D, Number> at = turned(gradient);
-    return product<D>(at.rotation, law.stress(at.strain));
-  }
-};
-
 }  // namespace perifrac

@@ -90,6 +90,7 @@ void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<do
   place_plates(view(std::as_const(load_now_)), pore_stress_.now().value, unknowns_);
   apply(unknowns_, pore_stress_.now(), inner_,
         pore_stress_.is_there() ? std::span(dilatation_) : std::span<double>());
+  inner_is_elastic_ = !pore_stress_.is_there() && fracture_ == nullptr;
   if (fracture_ != nullptr) fracture_->add(t, unknowns_, inner_);
   work_.book(before_, unknowns_, [&](Index k) {
     return moved_.owner(k) == LumpedMass::none ? inner_[k] : load_now_[k];
@@ -124,6 +125,7 @@ template <int D>
 void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<double> product) {
   moved_.expand(v, {}, trial_);
   place_plates({}, {}, trial_);
+  inner_is_elastic_ = false;
   apply_small(trial_, pore_stress_.reference(), inner_, {});
   moved_.gather([&](Index k) { return inner_[k]; }, product);
 }
@@ -172,6 +174,7 @@ void ElasticDynamics<D>::find_acted_on() {
 template <int D>
 void ElasticDynamics<D>::start() {
   unknowns_.assign(moved_.unknowns(), 0.0);
+  inner_is_elastic_ = false;
   work_.start(unknowns_.size());
   pore_stress_.start();
   dilatation_.assign(body_.points().size(), 0.0);
@@ -200,6 +203,7 @@ void ElasticDynamics<D>::derive() {
     plates_.forget();
   }
   apply(unknowns_, {}, inner_, pore_stress_.is_there() ? dilatation_ : std::span<double>());
+  inner_is_elastic_ = false;
 }
 
 template <int D>
@@ -210,7 +214,7 @@ std::span<double> ElasticDynamics<D>::dilatation() {
 
 template <int D>
 double ElasticDynamics<D>::elastic_energy() {
-  apply(unknowns_, {}, inner_, {});
+  if (!inner_is_elastic_) apply(unknowns_, {}, inner_, {});
   return elastic_->energy(unknowns_, inner_);
 }
 

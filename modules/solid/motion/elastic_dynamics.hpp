@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -85,8 +86,9 @@ class ElasticDynamics final : public SecondOrderSystem {
   std::vector<double>& unknowns() { return unknowns_; }
   std::span<double> dilatation();  ///< of the points
   void effective_stress(std::span<double> stress) { elastic_->stress(unknowns_, stress); }
-  double elastic_energy();                              ///< without pore stress [J]
-  double external_work() const { return work_.sum(); }  ///< [J]
+  double elastic_energy();                               ///< without pore stress [J]
+  double external_work() const { return work_.sum(); }   ///< [J]
+  std::string path() const { return elastic_->path(); }  ///< of the bond forces
   /// An unknown that each rigid plate moves, in the boundary's order.
   const std::vector<Index>& plate_unknowns() const { return plate_unknowns_; }
   /// Velocity of the points, D blocks [m/s], from that of what has a mass. What is prescribed is
@@ -124,6 +126,8 @@ class ElasticDynamics final : public SecondOrderSystem {
   std::span<const double> interface_force_;
   MovingPoreStress pore_stress_;
 
+  /// inner_ is the force of the bonds at unknowns_, without anything else.
+  bool inner_is_elastic_ = false;
   Eigen::VectorXd prescribed_now_, load_now_;             // workspace
   std::vector<double> before_, trial_, inner_, scratch_;  // workspace
 };
