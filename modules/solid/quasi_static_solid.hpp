@@ -52,7 +52,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   double advance(const TimeWindow& window) override;
   bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor& visitor) override;
-  std::string path() const override { return "a sparse matrix and its factor: in equilibrium"; }
+  std::string path() const override { return solver_->path(); }
   void on_restored(double t) override;
 
  private:

@@ -43,14 +43,17 @@ namespace {
 template <int D>
 class DirectStiffness final : public StiffnessSolver<D> {
  public:
-  DirectStiffness(std::shared_ptr<ElasticOperator<D>> elastic, Eigen::SparseMatrix<double> free)
-      : elastic_(std::move(elastic)), free_(std::move(free)) {}
+  /// `why` it is not multigrid.
+  DirectStiffness(std::shared_ptr<ElasticOperator<D>> elastic, Eigen::SparseMatrix<double> free,
+                  std::string why)
+      : elastic_(std::move(elastic)), free_(std::move(free)), why_(std::move(why)) {}
 
   void prepare() override {
     const Eigen::SparseMatrix<double> equations = free_.transpose();
     factor_.factor(Eigen::SparseMatrix<double>(equations * elastic_->assemble() * free_));
   }
 
+  std::string path() const override { return "a factor of the stiffness: " + why_; }
   bool goes_on() const override { return false; }
 
   void solve(const Eigen::VectorXd& load, const Eigen::VectorXd& inner,
@@ -63,6 +66,7 @@ class DirectStiffness final : public StiffnessSolver<D> {
  private:
   std::shared_ptr<ElasticOperator<D>> elastic_;
   Eigen::SparseMatrix<double> free_;
+  std::string why_;
   SparseCholesky factor_;
 };
 
@@ -84,6 +88,7 @@ class IteratedStiffness final : public StiffnessSolver<D> {
                          body_.points().size(), multigrid_->level_count()));
   }
 
+  std::string path() const override { return "multigrid, " + elastic_->path(); }
   bool goes_on() const override { return true; }
 
   /// Until what is left over is small beside the forces, reactions among them, as they are then:
@@ -131,7 +136,10 @@ std::unique_ptr<StiffnessSolver<D>> make_stiffness_solver(
     return std::make_unique<IteratedStiffness<D>>(body, std::move(elastic), boundary,
                                                   std::move(free_unknowns), choice.tolerance);
   }
-  return std::make_unique<DirectStiffness<D>>(std::move(elastic), std::move(free_unknowns));
+  const std::string why = choice.kind == Kind::direct ? "as the scene says"
+                          : is_large                  ? obstacle
+                                                      : "few points";
+  return std::make_unique<DirectStiffness<D>>(std::move(elastic), std::move(free_unknowns), why);
 }
 
 template std::unique_ptr<StiffnessSolver<2>> make_stiffness_solver(

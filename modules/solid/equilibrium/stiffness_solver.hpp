@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -36,6 +37,8 @@ class StiffnessSolver {
 
   /// To be called once, of a body that is held. Throws NotPositiveDefinite, std::bad_alloc.
   virtual void prepare() = 0;
+  /// How it goes over the bonds, and why.
+  virtual std::string path() const = 0;
   /// It is the faster, the nearer `unknowns` are to the answer.
   virtual bool goes_on() const = 0;
   /// Lets the free unknowns answer `load` [N], of all unknowns; those that are held stay.

@@ -42,9 +42,8 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   void apply_stiffness(std::span<const double> u, std::span<double> force,
                        std::span<double> dilatation = {}) override {
     if (!dilatation.empty() && !operator_.family().curved) {
-      with_pore_stress({}, [&](auto none) {
-        apply_with(u, force, dilatation, none, [](auto&) {});
-      });
+      with_pore_stress({},
+                       [&](auto none) { apply_with(u, force, dilatation, none, [](auto&) {}); });
       return;
     }
     operator_.apply(u, force);

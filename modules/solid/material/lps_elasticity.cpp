@@ -115,8 +115,7 @@ template <int D>
 void LpsElasticity<D>::apply_stiffness(std::span<const double> u, std::span<double> force,
                                        std::span<double> dilatation) {
   mirror_.spread(u, field_);
-  with_pore_stress({},
-                   [&](auto none) { find_forces<false>(force, dilatation, none); });
+  with_pore_stress({}, [&](auto none) { find_forces<false>(force, dilatation, none); });
 }
 
 template <int D>

@@ -182,7 +182,7 @@ TEST(FlowInLayers, ShareTheInflowThroughTheirFace) {
   PoreBoundary<3> boundary(*body);
   boundary.flux(5, 0.14);
   ASSERT_TRUE(boundary.has_sources());
-  const Eigen::VectorXd sources = boundary.sources(Eigen::SparseMatrix<double>{}).at(0.0);
+  const Eigen::VectorXd sources = boundary.sources({}).at(0.0);
   EXPECT_NEAR(sources.sum(), 0.14 * 3.0 * 2.5, 1e-14);
   double in_layer = 0.0;
   for (const Index i : body->layer(5)) in_layer += sources[i];
