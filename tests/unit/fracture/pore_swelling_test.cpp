@@ -31,7 +31,8 @@ TEST(PoreSwelling, IsEvenRoundACrack) {
     const Index count = body->points().size();
     for (Index i = 0; i < count; ++i) {
       for (int a = 0; a < 2; ++a) {
-        EXPECT_NEAR(moved[a * count + i], strain * body->points().at(i)[a], 1e-11) << angle << " " << i;
+        EXPECT_NEAR(moved[a * count + i], strain * body->points().at(i)[a], 1e-11)
+            << angle << " " << i;
       }
     }
   }
