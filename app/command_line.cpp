@@ -14,6 +14,9 @@
 #include "app/run/run.hpp"
 #include "app/run/version.hpp"
 #include "app/study/study.hpp"
+#include "app/writing/explain.hpp"
+#include "app/writing/json_schema.hpp"
+#include "app/writing/new_scene.hpp"
 #include "core/base/errors.hpp"
 
 namespace perifrac {
@@ -30,6 +33,7 @@ struct Request {
   std::string folder;
   bool page = false;
   double trial = 4.0;  ///< [s]
+  std::string key, kind, new_scene;
 };
 
 void add_scene_options(CLI::App& verb, Request& request) {
@@ -92,6 +96,17 @@ void add_study_options(CLI::App& verb, StudyRequest& study) {
   verb.add_flag("--json", study.json, "machine-readable output");
 }
 
+/// Of verbs that help to write a scene.
+void add_writing_verbs(CLI::App& app, Request& request) {
+  CLI::App& fresh = *app.add_subcommand("new", "write a commented scene to begin with");
+  fresh.add_option("kind", request.kind, "what it is of; a wrong word lists them")->required();
+  fresh.add_option("--output", request.new_scene, "its file; KIND.yaml")->type_name("FILE");
+  CLI::App& explained = *app.add_subcommand("explain", "what is known of a key");
+  explained.add_option("key", request.key, "as in pore_flow.porosity, porosity or pore_flow")
+      ->required();
+  app.add_subcommand("schema", "JSON Schema of scenes, for editors that complete and check");
+}
+
 int dispatch(const CLI::App& app, const Request& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);
@@ -103,6 +118,9 @@ int dispatch(const CLI::App& app, const Request& request) {
   }
   if (app.got_subcommand("study")) return run_study(request.study);
   if (app.got_subcommand("report")) return make_report(request.folder, false);
+  if (app.got_subcommand("new")) return write_new_scene(request.kind, request.new_scene);
+  if (app.got_subcommand("explain")) return explain(request.key);
+  if (app.got_subcommand("schema")) return print_json_schema();
   return request.page ? print_reference_page() : list_modules(request.run.json);
 }
 
@@ -122,6 +140,7 @@ int parse_and_dispatch(int argc, char** argv) {
   CLI::App& list = *app.add_subcommand("list", "modules and keys");
   list.add_flag("--json", request.run.json, "machine-readable output");
   list.add_flag("--page", request.page, "the reference page, in Markdown");
+  add_writing_verbs(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -129,7 +148,9 @@ int parse_and_dispatch(int argc, char** argv) {
     throw InputError(std::string("perifrac: ") + error.what() + "; see perifrac --help");
   }
   if (app.get_subcommands().empty()) {
-    throw InputError("perifrac: a verb is missing; expected run, check, study, report or list");
+    throw InputError(
+        "perifrac: a verb is missing; expected run, check, study, report, list, new, "
+        "explain or schema");
   }
   return dispatch(app, request);
 }

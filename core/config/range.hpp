@@ -12,6 +12,11 @@ class Range {
 
   bool holds(double value) const;
 
+  double lowest() const { return lowest_; }
+  double highest() const { return highest_; }
+  bool includes_lowest() const { return lowest_included_; }
+  bool includes_highest() const { return highest_included_; }
+
  private:
   double lowest_;
   double highest_;

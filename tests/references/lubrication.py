@@ -17,7 +17,7 @@ from typing import Callable, Protocol
 import numpy as np
 
 Array = np.ndarray
-SEAL_RAMP = 1e-3  # [m]
+SEAL_RAMP = 0.3e-3  # [m]
 
 
 class Elasticity(Protocol):
@@ -138,7 +138,7 @@ class March:
 
     def leaking(self, x: Array) -> tuple[Array, Array]:
         """Which share of the wall leaks at x, and how much of it does up to x [m]: from none to all of it
-        within a millimetre about where it is tight, so that a step sees no jump."""
+        within a third of a millimetre about where it is tight, so that a step sees no jump."""
         tight, ramp = self.crack.tight, SEAL_RAMP
         if tight == 0:
             return np.ones_like(x), x

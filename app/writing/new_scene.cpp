@@ -1,0 +1,72 @@
+#include "app/writing/new_scene.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/names.hpp"
+#include "core/io/input_file.hpp"
+
+namespace perifrac {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One that may not be there yet.
+void write_new_file(const fs::path& path, const std::string& text) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wxe"),
+                                                             &std::fclose);
+  if (!file) throw OutputError(path.string(), std::strerror(errno));
+  if (std::fputs(text.c_str(), file.get()) < 0 || std::fflush(file.get()) != 0) {
+    throw OutputError(path.string(), std::strerror(errno));
+  }
+}
+
+std::vector<std::string> kinds() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(PERIFRAC_TEMPLATES)) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+}  // namespace
+
+int write_new_scene(const std::string& kind, const std::string& output) {
+  const std::vector<std::string> known = kinds();
+  if (std::ranges::find(known, kind) == known.end()) {
+    const std::string near = nearest_name(kind, known);
+    throw InputError(fmt::format("perifrac new: unknown kind {}; expected one of: {}{}",
+                                 in_quotes(kind), fmt::join(known, ", "),
+                                 near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+  const fs::path scene = output.empty() ? fs::path(kind + ".yaml") : fs::path(output);
+  std::vector<std::pair<fs::path, fs::path>> files = {
+      {fs::path(PERIFRAC_TEMPLATES) / (kind + ".yaml"), scene}};
+  const fs::path points = fs::path(PERIFRAC_TEMPLATES) / (kind + ".csv");
+  if (fs::exists(points)) files.emplace_back(points, scene.parent_path() / points.filename());
+  for (const auto& [from, to] : files) {
+    if (!fs::exists(fs::symlink_status(to))) continue;
+    throw InputError(
+        fmt::format("perifrac new: {} is there already; expected a new name, as in "
+                    "--output my_{}.yaml in another folder, or that you move it",
+                    in_quotes(to.string()), kind));
+  }
+  for (const auto& [from, to] : files) {
+    write_new_file(to, read_input_text(from.string(), "a template of the program"));
+  }
+  fmt::print("wrote {}; next: perifrac check {}\n", scene.string(), scene.string());
+  return 0;
+}
+
+}  // namespace perifrac

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace perifrac {
+
+/// `perifrac new KIND`: writes a commented scene to begin with, and the files that it reads, beside
+/// `output` (`KIND.yaml` where empty). Throws InputError for a kind that there is none of, and
+/// where a file of that name is there already.
+int write_new_scene(const std::string& kind, const std::string& output);
+
+}  // namespace perifrac

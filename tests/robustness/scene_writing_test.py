@@ -1,0 +1,163 @@
+#!/usr/bin/python3
+"""What helps to write a scene: `perifrac new`, `explain` and `schema`.
+
+Usage: scene_writing_test.py PERIFRAC [unittest's arguments]
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import jsonschema
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+PERIFRAC = os.path.abspath(sys.argv.pop(1))
+KINDS = ("consolidation", "constant_head", "fractures_in_layers", "impact", "kgd", "mandel", "natural_fracture",
+         "own_points", "radial")  # fmt: skip
+
+
+def perifrac(*arguments, cwd=None):
+    return subprocess.run([PERIFRAC, *map(str, arguments)], capture_output=True, text=True, check=False, cwd=cwd)
+
+
+class New(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_writes_scenes_that_are_fine(self):
+        for kind in KINDS:
+            with self.subTest(kind):
+                self.assertEqual(perifrac("new", kind, cwd=self.folder).returncode, 0)
+                said = perifrac("check", kind + ".yaml", "--trial", "0", "--json", cwd=self.folder)
+                self.assertEqual((said.returncode, said.stderr), (0, ""))
+                warnings = json.loads(said.stdout)["warnings"]
+                self.assertEqual([warning for warning in warnings if "those of an infinite body" not in warning], [])
+                text = (self.folder / (kind + ".yaml")).read_text(encoding="utf-8")
+                self.assertGreaterEqual(text.count("# "), 5, "comments")
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
+                         sorted([k + ".yaml" for k in KINDS] + ["own_points.csv"]))
+
+    def test_never_replaces_a_file(self):
+        for name in ("own_points.yaml", "own_points.csv"):
+            (self.folder / name).write_text("mine", encoding="utf-8")
+            done = perifrac("new", "own_points", cwd=self.folder)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(f"'{name}' is there already; expected", done.stderr)
+            self.assertEqual([p.name for p in self.folder.iterdir()], [name])
+            self.assertEqual((self.folder / name).read_text(encoding="utf-8"), "mine")
+            (self.folder / name).unlink()
+        os.symlink("nowhere", self.folder / "kgd.yaml")
+        self.assertEqual(perifrac("new", "kgd", cwd=self.folder).returncode, 2)
+
+    def test_has_another_name_on_demand_and_names_its_kinds(self):
+        self.assertEqual(perifrac("new", "kgd", "--output", self.folder / "mine.yaml").returncode, 0)
+        self.assertTrue((self.folder / "mine.yaml").exists())
+        done = perifrac("new", "kdg", cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr, "perifrac new: unknown kind 'kdg'; expected one of: " + ", ".join(KINDS) +
+                         "; did you mean 'kgd'?\n")
+
+
+class Explain(unittest.TestCase):
+    def said(self, key):
+        done = perifrac("explain", key)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def test_says_what_is_known_of_a_key(self):
+        said = self.said("pore_flow.porosity")
+        for line in ("pore_flow.porosity", "value     number", "range     (0, 1)", "none, it must be written",
+                     "holds     pore_flow.type=darcy"):  # fmt: skip
+            self.assertIn(line, said)
+        self.assertRegex(said, "used by   aquifer, .* more")
+        said = self.said("crack_fluid.inlets[0].holds")
+        self.assertIn("choices   rate, pressure, fluid", said)
+        self.assertIn("default   rate", said)
+        self.assertIn("only with type=pressure", self.said("pore_flow.boundary.top.pressure"))
+
+    def test_finds_a_key_by_its_end_and_lists_a_section(self):
+        self.assertTrue(self.said("leak_off_coefficient").startswith("crack_fluid.leak_off_coefficient\n"))
+        self.assertIn("  crack_fluid.inlets[].rate: ", self.said("crack_fluid"))
+
+    def test_names_what_is_near(self):
+        for key, near in (("porosty", "pore_flow.porosity"), ("solid.material.young", "solid.material.youngs_modulus"),
+                          ("", None), ("xyzzy", None), ("a..b", None)):
+            done = perifrac("explain", key)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+            self.assertIn("expected a key of `perifrac list`", done.stderr)
+            if near:
+                self.assertIn("did you mean " + near, done.stderr)
+
+
+class CoreLoader(yaml.SafeLoader):  # pylint: disable=too-many-ancestors
+    """YAML 1.2's core schema, as editors read it."""
+
+
+CoreLoader.yaml_implicit_resolvers = {}
+for _tag, _pattern, _first in (
+        ("bool", r"true|True|TRUE|false|False|FALSE", "tTfF"), ("int", r"[-+]?[0-9]+", "-+0123456789"),
+        ("float", r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?", "-+.0123456789"),
+        ("null", r"~|null|Null|NULL|", ["~", "n", "N", ""])):  # fmt: skip
+    CoreLoader.add_implicit_resolver(f"tag:yaml.org,2002:{_tag}", re.compile(f"^(?:{_pattern})$"), list(_first))
+CoreLoader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value, 10))
+CoreLoader.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(node.value))
+
+
+class Schema(unittest.TestCase):
+    # Of what is wrong by the catalogue alone; what is not is asked for by the modules.
+    WRONG = ("unknown key", "missing key '", "unknown word", "is not used where", "is out of range", "is a single value",
+             " is a list", " is a map", "is not a whole number;", "is no truth value", "has no value", "is not a number")
+    BEYOND = {"crack_without_normal_in_3d", "damage_without_fracture_energy", "scatter_without_length",
+              "strength_of_a_region_only",  # needed by what else the scene says
+              "number_with_decimals_for_integer"}  # 2.0 is an integer there
+
+    @classmethod
+    def setUpClass(cls):
+        done = perifrac("schema")
+        schema = json.loads(done.stdout)
+        jsonschema.Draft7Validator.check_schema(schema)
+        cls.schema, cls.validator = schema, jsonschema.Draft7Validator(schema)
+
+    def errors(self, path):
+        return [f"{list(e.path)}: {e.message}" for e in
+                self.validator.iter_errors(yaml.load(path.read_text(encoding="utf-8"), Loader=CoreLoader))]  # fmt: skip
+
+    def test_takes_every_shipped_scene(self):
+        scenes = [*ROOT.glob("configs/*.yaml"), *ROOT.glob("configs/paper/*.yaml"), *ROOT.glob("app/writing/templates/*.yaml")]
+        self.assertGreater(len(scenes), 55)
+        for path in scenes:
+            with self.subTest(path.name):
+                self.assertEqual(self.errors(path), [])
+
+    def test_refuses_what_is_wrong_by_the_catalogue(self):
+        seen = 0
+        for path in sorted((ROOT / "tests" / "config_errors").glob("*.yaml")):
+            header = dict(re.findall(r"^# (expect|args|scene): (.*)$", path.read_text(encoding="utf-8"), re.M)[::-1])
+            if {"args", "scene"} & set(header) or path.stem in self.BEYOND or "valid YAML" in header["expect"]:
+                continue
+            if any(word in header["expect"] for word in self.WRONG):
+                seen += 1
+                with self.subTest(path.name):
+                    self.assertNotEqual(self.errors(path), [], header["expect"])
+        self.assertGreater(seen, 30)
+
+    def test_says_meaning_unit_range_and_default(self):
+        flow = next(c["then"] for c in self.schema["properties"]["pore_flow"]["allOf"]
+                    if c["if"]["properties"]["type"]["const"] == "darcy")  # fmt: skip
+        porosity = flow["properties"]["porosity"]
+        self.assertIn("Range: (0, 1).", porosity["description"])
+        self.assertEqual(porosity["anyOf"][0], {"type": "number", "exclusiveMinimum": 0.0, "exclusiveMaximum": 1.0})
+        self.assertIn("Unit: m^2.", flow["properties"]["permeability"]["description"])
+        self.assertEqual(self.schema["properties"]["coupling"]["properties"]["acceleration"]["default"], "anderson")
+        self.assertEqual(sorted(self.schema["required"]), ["dimension", "time"])
+
+
+if __name__ == "__main__":
+    unittest.main()
