@@ -75,22 +75,25 @@ double CrackGrowth<D>::first_event(const TimeWindow& window) {
 template <int D>
 void CrackGrowth<D>::grow() {
   cuts_ = 0;
+  // Windows that come up to the criterion in small steps pass it as often as they stop short.
+  const double due = std::clamp(1.0 - 0.5 * (readiness_ - readiness_before_), ready, 1.0);
   readiness_before_ = readiness_;
   const bool is_wet = equilibrium_.is_wet();
   const std::size_t facets = equilibrium_.body().facets().size();
-  const bool has_grown = grow_tips(readiness_);
+  const bool has_grown = grow_tips(readiness_, due);
   if (nucleation_ && !(has_grown && is_wet)) begin_cracks(has_grown);
   // Beside fluid, readiness after an event is known only at the next window's end.
   const bool is_known = !is_wet || equilibrium_.body().facets().size() == facets;
   nucleus_before_ = is_known ? nucleus_readiness_ : 0.0;
 }
 
-/// Cuts what is ready, all of it where no fluid answers.
+/// Cuts what is ready once the readiest is due, all of it where no fluid answers.
 template <int D>
-bool CrackGrowth<D>::grow_tips(double most) {
+bool CrackGrowth<D>::grow_tips(double most, double due) {
   const bool is_wet = equilibrium_.is_wet();
   bool has_grown = false;
-  while (most >= ready) {
+  while (most >= due) {
+    due = ready;
     const double before = is_wet ? 0.0 : work_.released_energy();
     const double spent = tips_.grow(equilibrium_.state());
     has_grown = has_grown || spent > 0.0;
@@ -120,7 +123,7 @@ template <int D>
 void CrackGrowth<D>::begin_cracks(bool has_grown) {
   if (has_grown) nucleus_readiness_ = find_nucleus_readiness();
   while (nucleus_readiness_ >= begins && begin_crack() && !equilibrium_.is_wet()) {
-    grow_tips(tips_.find_readiness(equilibrium_.state()));
+    grow_tips(tips_.find_readiness(equilibrium_.state()), ready);
     nucleus_readiness_ = find_nucleus_readiness();
   }
 }

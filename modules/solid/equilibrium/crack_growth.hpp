@@ -34,7 +34,7 @@ class CrackGrowth {
   void visit_state(StateVisitor& visitor);
 
  private:
-  bool grow_tips(double most);
+  bool grow_tips(double most, double due);
   double find_nucleus_readiness();
   void begin_cracks(bool has_grown);
   bool begin_crack();

@@ -114,7 +114,8 @@ std::span<double> CrackedEquilibrium<D>::dilatation() {
 template <int D>
 double CrackedEquilibrium<D>::elastic_energy() {
   derive();
-  return friction_ != nullptr ? strain_energy_ + friction_->elastic_energy() : strain_energy_;
+  const double sheared = friction_ != nullptr ? friction_->elastic_energy() : 0.0;
+  return strain_energy_ + sheared + cracked_.pressed_energies(faces_.pressure).elastic;
 }
 
 template <int D>

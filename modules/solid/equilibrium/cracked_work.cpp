@@ -64,6 +64,7 @@ double CrackedWork<D>::relief(std::span<const double> unknowns,
     const Vector<D> stress = cracked.relief(f), jump = cracked.jump(f, unknowns);
     relief += cracked.jumps()[f].area * dot(stress, jump);
   }
+  relief += cracked.pressed_energies(body_.faces().pressure).relief;
   const std::span<const double> at_rest = body_.load().pore_stress_at_rest();
   for (std::size_t i = 0; i < at_rest.size(); ++i) {
     relief -= at_rest[i] * dilatation[i] * body_.load().points().volume[i];

@@ -29,14 +29,11 @@ void CrackFriction::follow(CrackedBody<2>& body) {
   const auto count = static_cast<Eigen::Index>(body.jumps().size());
   layer_.clear();
   for (const FaceJump<2>& jump : body.jumps()) {
-    double thickness = 0.0, softness = 0.0;
+    double softness = 0.0;
     for (const auto& [point, coefficient] : jump.terms) {
-      for (int a = 0; a < 2; ++a) {
-        thickness += coefficient * jump.normal[a] * body.family().position[a][point];
-      }
       softness += 0.5 * std::abs(coefficient) / body.elastic().law(point).shear_modulus;
     }
-    layer_.push_back(thickness * softness);
+    layer_.push_back(jump.reach * softness);
   }
   compliance_.resize(2 * count, 2 * count);
   compliance_ << body.compliance(), body.compliance(0, 1), body.compliance(1, 0),

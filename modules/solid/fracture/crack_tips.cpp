@@ -149,18 +149,36 @@ TipModes CrackTips::followed_modes(Tip& tip, const TipLaw& tip_law, const CrackS
                        state.leak_off.empty() ? 0.0 : state.leak_off[at.facet]};
   const double s = behind(at);
   const bool is_known = tip.even.sliding > 0.0;
-  const double net = state.pressure[at.before] + cracked_.relief(at.before)[0];
-  const double pressed = is_known ? pressed_by(at.before) * net : 0.0;
   const double opening =
-      ((state.opening[at.before] + pressed) / tip.even.opening -
-       opening_by_layers(at, s, tip_law)) /
-      tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed);
+      (state.opening[at.before] / tip.even.opening - opening_by_layers(at, s, tip_law)) /
+      tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed) /
+      beyond_mean(tip, state);
   // The ratio is that of the faces as far behind as a facet resolves, of fluid that is viscous too.
   const TipJump jump = energy_release_.jump(at, jumps);
-  const double apart = jump.opening + pressed;
+  const double apart = jump.opening;
   if (!(apart > 0.0)) return {opening, 0.0};
   const double sliding = is_known ? jump.sliding / tip.even.sliding : modes_of(jump).sliding;
   return {opening, opening * sliding / apart};
+}
+
+/// A facet that has just been cut leaks most: the crack's volume sags meanwhile and comes back, so
+/// that what opens when the tip goes on is beyond the mean of the step, by this factor. Carter's
+/// law takes 4 C_L sqrt(T (n + x)) a length from the facet that was cut n steps of T ago; the sum
+/// of that, less what is linear in x from 0 to 1, has the mean -4 C_L sqrt(T) zeta(-1/2).
+double CrackTips::beyond_mean(const Tip& tip, const CrackState<2>& state) const {
+  constexpr double sag = 0.2078862249773546;  // -zeta(-1/2)
+  if (state.leak_off.empty() || tip.took == 0.0) return 1.0;
+  const double took = std::min(tip.took, state.t - tip.since);
+  double volume = 0.0, lost = 0.0;
+  for (const Index f : crack_of(tip.at)) {
+    const double length = cracked_.jumps()[f].area;
+    volume += length * std::max(0.0, state.opening[f]);
+    for (const Tip& other : tips_) {
+      if (other.at.facet != f || !other.grows) continue;
+      lost += 4.0 * sag * state.leak_off[f] * std::sqrt(took) * length;
+    }
+  }
+  return volume > 0.0 ? 1.0 + lost / volume : 1.0;
 }
 
 /// What faces do under an even pressure and an even shear, beside what K_I and K_II of that J do by
@@ -185,11 +203,12 @@ void CrackTips::ask_even_loads(Tip& tip) const {
   };
   const auto pressed = under({1.0, 0.0});
   if (!pressed) return;
-  const double opened = cracked_.jump(tip.at.before, unknowns)[0] + pressed_by(tip.at.before);
+  const double opened =
+      cracked_.jump(tip.at.before, unknowns)[0] + cracked_.pressed_by(tip.at.before);
   const double volume_opened = *volume;
   const auto sheared = under({0.0, 1.0});
   const double mode_one = intensity(*pressed), mode_two = intensity(*sheared);
-  const double apart = pressed->opening + pressed_by(tip.at.before);
+  const double apart = pressed->opening + cracked_.pressed_by(tip.at.before);
   const double slid = std::abs(sheared->sliding);
   if (!(std::min({mode_one, mode_two, opened, apart, slid, volume_opened}) > 0.0)) return;
   tip.even.intensity = mode_one / volume_opened;
@@ -218,14 +237,6 @@ std::vector<Index> CrackTips::crack_of(const CrackTip& tip) const {
     }
   }
   return crack;
-}
-
-/// Openings are taken over a spacing of rock, which a pressure in the crack presses together by so
-/// much [m/Pa]: no part of how far the faces are apart.
-double CrackTips::pressed_by(Index facet) const {
-  const Index point = body_.nearest_point(middle<2>(cracked_.facets()[facet]));
-  const IsotropicElasticity<2>& law = cracked_.elastic().law(point);
-  return body_.spacing() / (law.lame_lambda + 2.0 * law.shear_modulus);
 }
 
 /// Fluid holds a tip back by the pressure that it loses on its way there, and it cannot lose more
@@ -346,6 +357,8 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   const FaceJump<2>& jump = cracked_.jumps().back();
   tip.at = {facet[1], jump.tangents[0], static_cast<Index>(cracked_.facets().size()) - 1,
             tip.at.facet};
+  tip.took = tip.moved ? t - tip.since : 0.0;
+  tip.moved = true;
   tip.since = t;
   tip.asked = tip.asked_opening = 0.0;
   tip.intensity_before = tip.even.intensity;
@@ -387,6 +400,8 @@ void CrackTips::visit_state(StateVisitor& visitor) {
       FieldOfEach("facet", [](Tip& tip) -> Index& { return tip.at.facet; }),
       FieldOfEach("facet_before", [](Tip& tip) -> Index& { return tip.at.before; }),
       FieldOfEach("since", [](Tip& tip) -> double& { return tip.since; }),
+      FieldOfEach("took", [](Tip& tip) -> double& { return tip.took; }),
+      FieldOfEach("moved", [](Tip& tip) -> bool& { return tip.moved; }),
       FieldOfEach("grows", [](Tip& tip) -> bool& { return tip.grows; }),
       FieldOfEach("intensity_ratio", [](Tip& tip) -> double& { return tip.intensity_ratio; }),
       FieldOfEach("asked", [](Tip& tip) -> double& { return tip.asked; }),

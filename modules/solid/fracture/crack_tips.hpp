@@ -48,6 +48,8 @@ class CrackTips {
   struct Tip {
     CrackTip at{};
     double since = 0.0;  ///< when it came there [s]
+    double took = 0.0;   ///< its step before, 0: it had none [s]
+    bool moved = false;  ///< it came there by growth
     bool grows = false;  ///< some bond lies ahead
     Index nearest = -1;  ///< point, whose rock it is in
     /// K_I under fluid of fixed volume, over that before the last step: falls as the crack grows.
@@ -71,10 +73,10 @@ class CrackTips {
   bool is_closed(const CrackTip& at, const CrackState<2>& state) const;
   TipModes followed_modes(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                           std::span<const Vector<2>> jumps) const;
+  double beyond_mean(const Tip& tip, const CrackState<2>& state) const;
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
   void ask_even_loads(Tip& tip) const;
   std::vector<Index> crack_of(const CrackTip& tip) const;
-  double pressed_by(Index facet) const;
   double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
   double behind(const CrackTip& at) const;
   double within_crack(const Tip& tip, double s) const;

@@ -56,6 +56,7 @@ void CrackedBody<D>::start() {
   inverse_ = std::make_unique<CondensedInverse>(factor_, free_unknowns_.cols());
   jumps_.clear();
   modes_.clear();
+  pressed_.clear();
   for (const CrackFacet<D>& seed : seeds_) add_mode(face_jump<D>(seed, intact_, spacing_));
   intact_move_.resize(0);
   set_load(load_);
@@ -189,6 +190,7 @@ void CrackedBody<D>::add_mode(const FaceJump<D>& jump) {
   }
   jumps_.push_back(jump);
   modes_.push_back(std::move(mode));
+  pressed_.push_back(this->pressed_by(static_cast<Index>(jumps_.size()) - 1));
 }
 
 template <int D>
@@ -208,6 +210,7 @@ Eigen::MatrixXd CrackedBody<D>::compliance(int jump, int traction) const {
       for (const auto& [place, c] : modes_[f][jump]) sum += c * response(place, g);
       compliance(f, g) = sum;
     }
+    if (jump == 0 && traction == 0) compliance(f, f) += pressed_[f];
   }
   return compliance;
 }
@@ -258,7 +261,9 @@ void CrackedBody<D>::find_opening() {
   const auto count = static_cast<Eigen::Index>(modes_.size());
   const Eigen::VectorXd x = loaded_ + inverse_->block() * block_force(Eigen::VectorXd::Zero(count));
   opening_.resize(count);
-  for (Eigen::Index f = 0; f < count; ++f) opening_[f] = along(modes_[f][0], x);
+  for (Eigen::Index f = 0; f < count; ++f) {
+    opening_[f] = along(modes_[f][0], x) + pressed_[f] * this->relief(static_cast<Index>(f))[0];
+  }
 }
 
 template <int D>
@@ -304,7 +309,9 @@ std::optional<double> CrackedBody<D>::find_answer(std::span<const Index> faces,
     all[unknown] = free < 0 ? 0.0 : by * moved[next++];
   }
   double volume = 0.0;
-  for (const Index f : faces) volume += jumps_[f].area * along(modes_[f][0], block);
+  for (const Index f : faces) {
+    volume += jumps_[f].area * (along(modes_[f][0], block) + pressed_[f] * traction[0]);
+  }
   return volume;
 }
 
@@ -385,9 +392,10 @@ std::vector<Vector<D>> CrackedBody<D>::jumps_under(const Eigen::VectorXd& pressu
                                                    std::span<const double> shear) const {
   const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure, shear);
   std::vector<Vector<D>> jumps;
-  for (const Mode& mode : modes_) {
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
     Vector<D>& jump = jumps.emplace_back();
-    for (int k = 0; k < D; ++k) jump[k] = along(mode[k], block);
+    for (int k = 0; k < D; ++k) jump[k] = along(modes_[f][k], block);
+    jump[0] += pressed_[f] * face_load(f, pressure[f], {})[0];
   }
   return jumps;
 }
@@ -406,6 +414,22 @@ typename CrackedBody<D>::Energies CrackedBody<D>::energies(const Eigen::VectorXd
     double sum = 0.0;
     for (int k = 0; k < D; ++k) sum += load[k] * along(modes_[f][k], block);
     energies.relief += jumps_[f].area * sum;
+  }
+  const Energies pressed = pressed_energies(pressure);
+  energies.elastic += pressed.elastic;
+  energies.relief += pressed.relief;
+  return energies;
+}
+
+template <int D>
+typename CrackedBody<D>::Energies CrackedBody<D>::pressed_energies(
+    const Eigen::VectorXd& pressure) const {
+  Energies energies{};
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
+    const double load = face_load(f, pressure[f], {})[0];
+    const double apart = jumps_[f].area * pressed_[f] * load;
+    energies.elastic += 0.5 * apart * load;
+    energies.relief += apart * this->relief(static_cast<Index>(f))[0];
   }
   return energies;
 }

@@ -46,7 +46,7 @@ class CrackedBody final : public CutBody<D> {
 
   /// What the cracks' faces do at a pressure in them, one value a facet.
   struct Faces {
-    Eigen::VectorXd opening;   ///< mean normal jump [m], >= 0
+    Eigen::VectorXd opening;   ///< [m], >= 0
     Eigen::VectorXd pressure;  ///< on the faces, that of contact included [Pa]
     std::vector<bool> closed;
     std::vector<double> shear{};  ///< on the faces, along their tangent; empty: no friction [Pa]
@@ -54,11 +54,12 @@ class CrackedBody final : public CutBody<D> {
   };
   /// Without friction.
   Faces faces(const Eigen::VectorXd& pressure) const;
-  /// The mean normal jumps of faces that may pass through one another [m].
+  /// The openings of faces that may pass through one another [m].
   Eigen::VectorXd free_opening(const Eigen::VectorXd& pressure) const;
   /// d(free_opening)/d(pressure) [m/Pa].
   const Eigen::MatrixXd& compliance() const { return compliance_; }
-  /// Mean jumps along one axis of the facets' frames (0: normal) by tractions along another [m/Pa].
+  /// What faces do along one axis of the facets' frames (0: normal) by tractions along another
+  /// [m/Pa]. Openings are mean normal jumps and what pressed_by() puts back.
   Eigen::MatrixXd compliance(int jump, int traction) const;
   double intensity_at_fixed_volume(Index facet) const override;
   std::optional<double> find_answer(std::span<const Index> faces, const Vector<D>& traction,
@@ -67,7 +68,7 @@ class CrackedBody final : public CutBody<D> {
 
   // Of a pressure on the faces and, unless it is empty, a shear along their (first) tangent:
 
-  /// Mean jumps across all facets along their normal and tangents [m].
+  /// Openings of all facets, and how far they slide along their tangents [m].
   std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure,
                                      std::span<const double> shear = {}) const;
 
@@ -85,6 +86,8 @@ class CrackedBody final : public CutBody<D> {
     double relief;  ///< the stress that faces are relieved of, times their jumps
   };
   Energies energies(const Eigen::VectorXd& pressure, std::span<const double> shear = {}) const;
+  /// Of that, what is in the rock that openings put back, and the work of relief there.
+  Energies pressed_energies(const Eigen::VectorXd& pressure) const;
   /// Force of the faces, and of the stress they are relieved of, on all unknowns [N].
   Eigen::VectorXd face_force(const Eigen::VectorXd& pressure, bool relief = true,
                              std::span<const double> shear = {}) const;
@@ -135,6 +138,7 @@ class CrackedBody final : public CutBody<D> {
   SparseCholesky factor_;
   std::unique_ptr<CondensedInverse> inverse_;
   std::vector<Mode> modes_;
+  std::vector<double> pressed_;  ///< pressed_by(), by facet
   Eigen::MatrixXd compliance_;
 
   Eigen::VectorXd load_;         ///< of those solved for

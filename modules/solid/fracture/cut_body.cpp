@@ -94,6 +94,17 @@ Vector<D> CutBody<D>::relief(Index f) const {
 }
 
 template <int D>
+double CutBody<D>::pressed_by(Index f) const {
+  if constexpr (D == 3) return 0.0;
+  double softness = 0.0;
+  for (const auto& [point, coefficient] : jumps_[f].terms) {
+    const IsotropicElasticity<D>& law = elastic_->law(point);
+    softness += 0.25 * std::abs(coefficient) / (law.lame_lambda + law.shear_modulus);
+  }
+  return jumps_[f].reach * softness;
+}
+
+template <int D>
 Vector<D> CutBody<D>::jump(Index f, std::span<const double> unknowns) const {
   Vector<D> sum{};
   for (const auto& [point, coefficient] : jumps_[f].terms) {

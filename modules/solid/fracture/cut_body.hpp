@@ -48,6 +48,12 @@ class CutBody {
   /// Normal and tangential stress that facet f is relieved of [Pa].
   Vector<D> relief(Index f) const;
   bool relief_varies() const { return initial_stress_ && !initial_stress_->inside.empty(); }
+  /// The points that a jump is between lie within the rock. What a load of its faces presses that
+  /// rock together by is no part of how far the faces are apart; this times the load puts it back
+  /// [m/Pa]. On the line of a crack both stresses in the plane are -p, and the strain across it is
+  /// -p / (2 (lambda + mu)). Not in 3D: squares at the front open too far by more than that, where
+  /// a radius is a few squares.
+  double pressed_by(Index f) const;
   /// Mean jump across facet f in a field of all unknowns, along normal and tangents [m].
   Vector<D> jump(Index f, std::span<const double> unknowns) const;
 

@@ -57,7 +57,11 @@ FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, doubl
     coefficient[crossing.above] += crossing.weight / sum;
     coefficient[crossing.below] -= crossing.weight / sum;
   }
-  for (const auto& [point, c] : coefficient) jump.terms.push_back({point, c});
+  jump.reach = 0.0;
+  for (const auto& [point, c] : coefficient) {
+    jump.terms.push_back({point, c});
+    jump.reach += c * dot(jump.normal, vector_at(family.position, point));
+  }
   return jump;
 }
 

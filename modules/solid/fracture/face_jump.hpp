@@ -24,7 +24,8 @@ struct FaceJump {
   std::vector<Term> terms;
   Vector<D> normal;
   std::array<Vector<D>, D - 1> tangents;
-  double area;  ///< of the facet [m^2], in 2D its length
+  double area;   ///< of the facet [m^2], in 2D its length
+  double reach;  ///< along the normal between the points, in the mean: the rock in the jump [m]
 };
 
 /// `family`: all bonds of the intact body.
