@@ -88,9 +88,9 @@ double solid_bytes(const Section& scene, double points) {
   const std::string type = scene.word("solid.type");
   if (type == "rigid") return 0.0;
   if (type == "quasi_static" && takes_multigrid(scene, points)) {
-    return (plane ? 2.0 : 5.0) * kilobyte;
+    return (plane ? 1.2 : 3.0) * kilobyte;
   }
-  if (type == "dynamic") return (plane ? 5.0 : 20.0) * kilobyte;
+  if (type == "dynamic") return (plane ? 1.0 : 2.0) * kilobyte;
   return (plane ? 20.0 : 230.0 * fill(points)) * kilobyte;
 }
 
