@@ -77,7 +77,8 @@ class Memory(RunTest):
         """Good to a factor of 1.5 or so, of what a run takes beyond the program itself."""
         own = json.loads(perifrac("check", MANDEL, "--json", *settings(SHORT)).stdout)["forecast"]["peak_memory"]
         for scene, keys in ((MANDEL, {"body.spacing": "0.5 m"}), (CONFIGS / "plate_3d.yaml", {}),
-                            (CONFIGS / "kalthoff.yaml", {})):
+                            (CONFIGS / "mandel_dynamic.yaml", {"body.spacing": "0.1 m"}),
+                            (CONFIGS / "drained_plate.yaml", {"body.spacing": "0.04 m"})):
             with self.subTest(scene=scene.name):
                 said = json.loads(perifrac("check", scene, "--json", "--trial", "0.01", *settings(keys)).stdout)
                 taken = said["forecast"]["peak_memory"] - own
