@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style tidy docs scenes paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
+.PHONY: help install configure perifrac build run test test-slow check-style tidy docs site tutorials scenes paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -17,6 +17,8 @@ help:
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 15 minutes)'
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
+	@echo 'make site       the pages as a site to read and search offline: build/release/site/docs/index.html'
+	@echo 'make tutorials  runs the tutorials and takes their pictures anew'
 	@echo 'make scenes     errors that all shipped scenes reach: docs/scenes.md (some twenty minutes, 5 GB)'
 	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
 	@echo 'make study-quick  error against wall time of explicit and implicit pore flow'
@@ -69,6 +71,14 @@ paper: perifrac
 
 docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md
+
+# Broken links and anchors are errors.
+site: install
+	sphinx-build -q -W --keep-going -c docs/site . $(BUILD)/site
+	@echo $(BUILD)/site/docs/index.html
+
+tutorials: perifrac
+	tests/docs/tutorials.py $(PERIFRAC) --pictures
 
 # Goes on where it was stopped, as studies do.
 scenes: perifrac
