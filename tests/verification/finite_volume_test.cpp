@@ -177,6 +177,8 @@ TEST(FiniteVolume, ConsolidatesTerzaghisColumn) {
     std::printf("Terzaghi %s: %.2e %.2e, settlement %.2e\n", type,
                 run.largest("pressure_error", 0.01, 0.01), run.largest("pressure_error", 0.05, 2.0),
                 run.largest("settlement_error", 0.01, 2.0));
+    EXPECT_LE(run.largest("pressure_error", 0.05, 2.0), 3e-4);
+    EXPECT_LE(run.largest("settlement_error", 0.01, 2.0), 3e-4);
     EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
     EXPECT_LE(run.summary["ledger"]["energy_error"], 5e-4);
   }
@@ -194,6 +196,10 @@ TEST(FiniteVolume, MeetsMandelsSolution) {
                 more.empty() ? "" : more[0].c_str(), run.largest_pressure_error(0.01, 0.01),
                 run.largest_pressure_error(0.05, 2.0), run.largest_plate_error(), run.peak_error,
                 run.energy_error);
+    EXPECT_LE(run.largest_pressure_error(0.01, 0.01), 2.9e-3);
+    EXPECT_LE(run.largest_pressure_error(0.05, 2.0), 6e-4);
+    EXPECT_LE(run.largest_plate_error(), 3e-4);
+    EXPECT_LE(run.peak_error, 7e-4);
     EXPECT_LE(run.mass_error, 1e-12);
   }
 }
