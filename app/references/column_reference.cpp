@@ -24,7 +24,7 @@ Column read_column(const Section& scene, const std::string& problem) {
   const int vertical = scene.integer("dimension") - 1;
   require_word(scene, problem, "body.shape", {"box"});
   require_word(scene, problem, "solid.type", {"quasi_static", "dynamic"});
-  require_word(scene, problem, "pore_flow.type", {"darcy"});
+  require_section(scene, problem, "pore_flow");
   for (const char* const side : {"left", "right", "front", "back"}) {
     if (vertical == 1 && side[0] == 'f') break;
     require_word(scene, problem, fmt::format("solid.boundary.{}.type", side), {"roller"});

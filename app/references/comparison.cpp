@@ -26,6 +26,11 @@ void require_word(const Section& scene, const std::string& problem, const std::s
              fmt::format("{}: {}", path, fmt::join(words, " or ")));
 }
 
+void require_section(const Section& scene, const std::string& problem, const std::string& section) {
+  if (writes(scene, section)) return;
+  scene.fail("reference.type", "this scene is not " + problem, "a section " + section);
+}
+
 void require_absent(const Section& scene, const std::string& problem,
                     std::initializer_list<std::string_view> paths) {
   for (const std::string_view path : paths) {

@@ -18,6 +18,9 @@ bool writes(const Section& scene, std::string_view path);
 void require_word(const Section& scene, const std::string& problem, const std::string& path,
                   std::initializer_list<std::string_view> words);
 
+/// Refuses the scene where it leaves this section out.
+void require_section(const Section& scene, const std::string& problem, const std::string& section);
+
 /// Refuses the scene where it has any of these keys.
 void require_absent(const Section& scene, const std::string& problem,
                     std::initializer_list<std::string_view> paths);

@@ -42,7 +42,7 @@ Piston read_piston(const Section& scene) {
 SeepageProblem read_constant_head(const Section& scene, const Piston& piston) {
   const int vertical = scene.integer("dimension") - 1;
   require_word(scene, constant_head_problem, "body.shape", {"box"});
-  require_word(scene, constant_head_problem, "pore_flow.type", {"darcy"});
+  require_section(scene, constant_head_problem, "pore_flow");
   require_word(scene, constant_head_problem, "pore_flow.boundary.bottom.type", {"pressure"});
   require_absent(scene, constant_head_problem,
                  {"gravity", "pore_flow.regions", "pore_flow.sources", "fluid.inlets",

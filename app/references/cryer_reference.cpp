@@ -20,7 +20,7 @@ CryerProblem read_cryer(const Section& scene) {
   }
   require_word(scene, cryer_problem, "body.shape", {"ball"});
   require_word(scene, cryer_problem, "solid.type", {"quasi_static", "dynamic"});
-  require_word(scene, cryer_problem, "pore_flow.type", {"darcy"});
+  require_section(scene, cryer_problem, "pore_flow");
   require_word(scene, cryer_problem, "solid.boundary.surface.type", {"pressure"});
   require_word(scene, cryer_problem, "pore_flow.boundary.surface.type", {"pressure"});
   require_absent(scene, cryer_problem,

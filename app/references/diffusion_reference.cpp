@@ -62,7 +62,7 @@ void add_weight(const Section& scene, const std::string& face, Slab& slab) {
 
 Slab read_slab(const Section& scene) {
   require_word(scene, diffusion_problem, "body.shape", {"box"});
-  require_word(scene, diffusion_problem, "pore_flow.type", {"darcy"});
+  require_section(scene, diffusion_problem, "pore_flow");
   require_absent(scene, diffusion_problem,
                  {"solid.regions", "pore_flow.regions", "pore_flow.initial_gradient"});
   if (scene.has("solid") && scene.word("solid.type") != "rigid") {

@@ -21,7 +21,7 @@ MandelProblem read_mandel(const Section& scene) {
   }
   require_word(scene, mandel_problem, "body.shape", {"box"});
   require_word(scene, mandel_problem, "solid.type", {"quasi_static", "dynamic"});
-  require_word(scene, mandel_problem, "pore_flow.type", {"darcy"});
+  require_section(scene, mandel_problem, "pore_flow");
   require_word(scene, mandel_problem, "solid.boundary.left.type", {"roller"});
   require_word(scene, mandel_problem, "solid.boundary.bottom.type", {"roller"});
   require_word(scene, mandel_problem, "solid.boundary.top.type", {"rigid_plate"});

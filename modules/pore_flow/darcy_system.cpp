@@ -24,7 +24,7 @@ DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow,
       gravity_(std::move(gravity)),
       held_(std::move(held)),
       held_rate_(held_.size(), 0.0),
-      points_(flow_->family().point_count),
+      points_(flow_->point_count()),
       face_potential_(drive_.faces()),
       potential_(flow_->size()),
       outflow_(flow_->size()),
@@ -36,7 +36,7 @@ DarcySystem<D>::DarcySystem(std::unique_ptr<FlowOperator<D>> flow,
 template <int D>
 std::string DarcySystem<D>::place(std::size_t unknown) const {
   if (unknown < static_cast<std::size_t>(points_)) {
-    return describe_point(unknown, vector_at(flow_->family().position, unknown));
+    return describe_point(unknown, flow_->place(static_cast<Index>(unknown)));
   }
   const std::size_t accumulated = unknown - points_;
   const std::size_t faces = face_potential_.size();
@@ -66,11 +66,11 @@ bool DarcySystem<D>::choose_storage(std::span<const double> slope) {
 
 template <int D>
 bool DarcySystem<D>::follow(const BondState<D>& bonds) {
-  if (bonds_.version() == bonds.version()) return false;
+  if (bond_version_ == bonds.version()) return false;
   const ProfileScope profiled("broken bonds");
-  bonds_.follow(bonds, flow_->family());
-  flow_->take_bonds(bonds_.family(), bonds_.points());
-  if (smoothing_) smoothing_->take_bonds(bonds_.family());
+  bond_version_ = bonds.version();
+  flow_->follow(bonds);
+  if (smoothing_) smoothing_->follow(bonds);
   storage_->take_bonds(bonds.broken());
   ++version_;
   ++pattern_version_;

@@ -15,7 +15,6 @@
 #include "modules/pore_flow/as_published/pressure_smoothing.hpp"
 #include "modules/pore_flow/boundary/flow_drive.hpp"
 #include "modules/pore_flow/boundary/held_point.hpp"
-#include "modules/pore_flow/flux/cut_bonds.hpp"
 #include "modules/pore_flow/flux/flow_operator.hpp"
 #include "modules/pore_flow/mass_exchange.hpp"
 #include "modules/pore_flow/storage/pore_storage.hpp"
@@ -74,7 +73,7 @@ class DarcySystem final : public OdeSystem {
   /// true where any did.
   bool follow(const BondState<D>& bonds);
   /// Of the bonds that flow follows: H is another matrix where it is another.
-  std::uint64_t bond_version() const { return bonds_.version(); }
+  std::uint64_t bond_version() const { return bond_version_; }
   /// Rises where H, or which points storage ties to each other, changes.
   std::uint64_t pattern_version() const { return pattern_version_; }
 
@@ -128,7 +127,7 @@ class DarcySystem final : public OdeSystem {
   double held_pressure(double t, const HeldPoint& held);
 
   Index points() const { return points_; }
-  const std::vector<double>& volume() const { return flow_->family().volume; }
+  const std::vector<double>& volume() const { return flow_->volume(); }
   /// d(zeta)/d(psi) with the dilatation's answer [1/Pa], per point; of the rock at rest where y is
   /// empty. Valid until the next call.
   std::span<const double> effective_storage(double t, std::span<const double> y);
@@ -178,7 +177,7 @@ class DarcySystem final : public OdeSystem {
   std::vector<double> mobility_;   ///< (rho/rho_0)^2; empty for a linear fluid
   std::optional<PressureSmoothing<D>> smoothing_;
   std::uint64_t pattern_version_ = 1;
-  CutBonds<D> bonds_;
+  std::uint64_t bond_version_ = 0;
 };
 
 }  // namespace perifrac

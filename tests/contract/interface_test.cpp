@@ -60,6 +60,10 @@ const std::vector<Scene>& flows() {
        box_2d + rigid + darcy,
        {"body.boundary={left: layer, right: layer, top: layer}",
         "pore_flow.integrator.type=explicit"}},
+      {"finite_volume", box_2d + quasi_static_2d + finite_volume},
+      {"finite_volume_explicit",
+       box_3d + quasi_static_3d + finite_volume,
+       {"pore_flow.integrator.type=explicit"}},
       {"schedule",
        box_2d + rigid + darcy,
        {"pore_flow.boundary.right.schedule={times: [11.3 ms, 12.7 ms, 13 ms], factors: [1, -1, "

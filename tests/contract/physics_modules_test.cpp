@@ -57,6 +57,8 @@ const std::string cracked = "cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]";
 const std::string cracked_3d =
     "cracks=[{name: cut, centre: [4 m, 2 m, 2 m], normal: [0, 0, 1], sides: [4 m, 4 m]}]";
 
+const std::string by_volumes = "pore_flow/finite_volume";
+
 const std::string inlet_3d =
     "crack_fluid.inlets=[{name: pump, at: [2 m, 2 m, 2 m], volume_rate: 5e-5 m^3/s}]";
 
@@ -177,6 +179,32 @@ const std::vector<Variant>& variants() {
       variant("darcy_tait_explicit", "pore_flow/darcy", box_2d + darcy,
               {"pore_flow.fluid.equation_of_state=tait", "pore_flow.fluid.bulk_modulus=22 MPa",
                "pore_flow.integrator.type=explicit"}),
+      variant("finite_volume_cvode_2d", by_volumes, box_2d + finite_volume),
+      variant("finite_volume_cvode_3d", by_volumes, box_3d + finite_volume),
+      variant("finite_volume_krylov", by_volumes, box_2d + finite_volume,
+              {"pore_flow.integrator.linear_solver=krylov"}),
+      variant("finite_volume_explicit", by_volumes, box_2d + finite_volume,
+              {"pore_flow.integrator.type=explicit"}),
+      variant("finite_volume_voronoi", by_volumes, box_3d + finite_volume, {"body.jitter=0.3"}),
+      variant("finite_volume_cracked", by_volumes, box_2d + finite_volume, {cracked}),
+      variant("finite_volume_in_layers", by_volumes, box_2d + finite_volume,
+              {"body.boundary={left: layer, right: layer, top: layer}"}),
+      variant("finite_volume_regions", by_volumes, box_2d + finite_volume,
+              {"body.regions={upper: {from: [0 m, 6 m]}}",
+               "pore_flow.regions={upper: {permeability_tensor: [2e-12 m^2, 1e-12 m^2, 0], "
+               "porosity: 0.1, biot_coefficient: 0.5}}"}),
+      variant("finite_volume_gravity", by_volumes, box_2d + finite_volume,
+              {"gravity=[0 m/s^2, -9.81 m/s^2]", "pore_flow.boundary.right.hydrostatic=true"}),
+      variant("finite_volume_schedule", by_volumes, box_2d + finite_volume,
+              {"pore_flow.boundary.right.schedule={ramp: 5 ms}",
+               "pore_flow.boundary.left.schedule={times: [2 ms, 13 ms], factors: [1, -1]}"}),
+      variant("finite_volume_stabilised", by_volumes, box_2d + quasi_static_2d + finite_volume,
+              {"pore_flow.undrained_stabilisation=0.25", cracked}),
+      variant("finite_volume_tait", by_volumes, box_2d + finite_volume,
+              {"pore_flow.fluid.equation_of_state=tait"}),
+      variant("finite_volume_tait_explicit", by_volumes, box_2d + finite_volume,
+              {"pore_flow.fluid.equation_of_state=tait", "pore_flow.fluid.bulk_modulus=22 MPa",
+               "pore_flow.integrator.type=explicit", cracked}),
       variant("crack_network", "crack_fluid/network", box_2d + crack_network),
       variant(
           "crack_network_filled", "crack_fluid/network", box_2d + crack_network,
@@ -277,7 +305,9 @@ const std::vector<std::vector<std::string>> flow_sections = {
     {"pore_flow.integrator.type=explicit"},
     {"pore_flow.integrator.type=cvode"},
     {"pore_flow.operator=bond"},
-    {"pore_flow.integrator.linear_solver=krylov"}};
+    {"pore_flow.integrator.linear_solver=krylov"},
+    {"pore_flow.type=finite_volume"},
+    {"pore_flow.type=finite_volume", "pore_flow.integrator.type=explicit"}};
 
 /// The splits that the two can use.
 std::vector<std::string> splits_for(const std::string& solid, bool flow) {
@@ -330,32 +360,37 @@ TEST(SwapMatrix, EveryCombinationRunsOrIsRefused) {
 
 /// A solid that fluid in its cracks splits, by one word, with and without pores to leak into.
 TEST(SwapMatrix, CracksBesideTheirFluidRunInEverySolid) {
+  struct LeakOff {
+    const char* word;
+    std::string flow;
+    std::size_t links;
+  };
+  const std::vector<LeakOff> ways = {
+      {"none", "", 3}, {"carter", "", 4}, {"pores", darcy, 8}, {"pores", finite_volume, 8}};
   for (const std::string& solid : {quasi_static_2d, with_lps(quasi_static_2d), dynamic_2d}) {
-    for (const char* leak_off : {"none", "carter", "pores"}) {
-      SCOPED_TRACE(solid + leak_off);
-      const bool pores = leak_off == std::string("pores");
+    for (const auto& [word, flow, links] : ways) {
+      SCOPED_TRACE(solid + word + flow);
       std::vector<std::string> overrides = {
           "cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]",
           "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
-          std::string("crack_fluid.leak_off=") + leak_off, "coupling.iterations.max=20"};
-      if (leak_off == std::string("carter")) {
+          std::string("crack_fluid.leak_off=") + word, "coupling.iterations.max=20"};
+      if (word == std::string("carter")) {
         overrides.push_back("crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)");
       }
-      const Section scene =
-          read_scene_text(box_2d + solid + crack_network + (pores ? darcy : ""), overrides);
-      const std::size_t links = pores ? 8 : leak_off == std::string("carter") ? 4 : 3;
-      expect_to_run(scene, pores ? 3 : 2, links);
+      const Section scene = read_scene_text(box_2d + solid + crack_network + flow, overrides);
+      expect_to_run(scene, flow.empty() ? 2 : 3, links);
     }
   }
 }
 
 TEST(SwapMatrix, CracksIn3DRunBesideTheirFluidInASolidWithoutInertia) {
-  for (const char* leak_off : {"none", "pores"}) {
-    const bool pores = leak_off == std::string("pores");
+  for (const std::string& flow : {std::string(), darcy, finite_volume}) {
+    const bool pores = !flow.empty();
     const std::vector<std::string> overrides = {
         cracked_3d, inlet_3d, "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
-        std::string("crack_fluid.leak_off=") + leak_off, "coupling.iterations.max=20"};
-    const std::string fluids = crack_network + (pores ? darcy : "");
+        std::string("crack_fluid.leak_off=") + (pores ? "pores" : "none"),
+        "coupling.iterations.max=20"};
+    const std::string fluids = crack_network + flow;
     expect_to_run(read_scene_text(box_3d + quasi_static_3d + fluids, overrides), pores ? 3 : 2,
                   pores ? 8 : 3);
     EXPECT_THROW(make_simulation(read_scene_text(box_3d + dynamic_3d + fluids, overrides)),

@@ -93,6 +93,12 @@ pore_flow:
     left: {type: flux, flux: 1 mm/s}
 )";
 
+/// The same pore flow with one word changed.
+inline const std::string finite_volume = [] {
+  std::string text = darcy;
+  return text.replace(text.find("type: darcy"), 11, "type: finite_volume");
+}();
+
 /// Fluid for cracks that a test makes in box_2d.
 inline const std::string crack_network = R"(
 crack_fluid:

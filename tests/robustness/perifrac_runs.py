@@ -29,6 +29,9 @@ VARIANTS = {
                                                   "pore_flow.integrator.type": "explicit"}),
     "tait, cvode": (CONFIGS / "aquifer.yaml", {"pore_flow.fluid.equation_of_state": "tait"}),
     "irregular": (MANDEL, {"body.jitter": "0.2"}),
+    "finite volumes": (CONFIGS / "aquifer.yaml", {"pore_flow.type": "finite_volume",
+                                                  "pore_flow.integrator.type": "explicit"}),
+    "finite volumes, irregular": (MANDEL, {"pore_flow.type": "finite_volume", "body.jitter": "0.2"}),
     "ball": (CONFIGS / "cryer.yaml", {}),
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/body/body.hpp"
 #include "core/bonds/mirror_condition.hpp"
+#include "modules/pore_flow/flux/cut_bonds.hpp"
 
 namespace perifrac {
 
@@ -24,9 +25,10 @@ class PressureSmoothing {
   /// The points that are smoothed.
   std::span<const Index> points() const { return points_; }
 
-  /// Takes a family of the same bonds with other weights.
-  void take_bonds(std::shared_ptr<const Family<D>> family) {
-    family_ = std::move(family);
+  /// No point is averaged with those beyond broken bonds.
+  void follow(const BondState<D>& bonds) {
+    if (!bonds_.follow(bonds, *family_)) return;
+    family_ = bonds_.family();
     mirror_.use(*family_);
   }
 
@@ -37,6 +39,7 @@ class PressureSmoothing {
  private:
   std::shared_ptr<const Family<D>> family_;
   MirrorCondition<D, 1> mirror_;
+  CutBonds<D> bonds_;
   std::vector<Index> points_;
   std::vector<double> pressure_;  ///< workspace: on points and ghosts
   std::vector<double> smoothed_;  ///< by points_

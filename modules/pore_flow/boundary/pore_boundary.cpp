@@ -41,7 +41,12 @@ FaceSet PoreBoundary<D>::faces_with(Condition condition, bool layered) const {
 
 template <int D>
 FaceSet PoreBoundary<D>::mirrored() const {
-  return faces_with(Condition::sealed, false) | faces_with(Condition::pressure, false);
+  return sealed() | faces_with(Condition::pressure, false);
+}
+
+template <int D>
+FaceSet PoreBoundary<D>::sealed() const {
+  return faces_with(Condition::sealed, false);
 }
 
 template <int D>
@@ -114,14 +119,18 @@ bool PoreBoundary<D>::has_sources() const {
 
 template <int D>
 ScheduledVector PoreBoundary<D>::sources(const ForceOfStress& force_of) const {
+  return sources_by(
+      [&](int face) { return face_load<D, 1>(*body_, force_of, mirrored(), face, 0); });
+}
+
+template <int D>
+ScheduledVector PoreBoundary<D>::sources_by(const FaceArea& area_by_point) const {
   const Index points = body_->points().size();
   ScheduledVector rate(points);
   for (int f = 0; f < std::ssize(faces_); ++f) {
     if (faces_[f].condition != Condition::flux) continue;
     const bool layered = !body_->layer(f).empty();
-    rate.add(faces_[f].schedule,
-             faces_[f].value * (layered ? area_in_layer(f)
-                                        : face_load<D, 1>(*body_, force_of, mirrored(), f, 0)));
+    rate.add(faces_[f].schedule, faces_[f].value * (layered ? area_in_layer(f) : area_by_point(f)));
   }
   for (const auto& [point, value, schedule] : sources_) {
     rate.add(schedule, value * Eigen::VectorXd::Unit(points, point));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
@@ -12,6 +14,9 @@
 #include "modules/pore_flow/boundary/held_point.hpp"
 
 namespace perifrac {
+
+/// The area of a face, by point, that inflow through it enters at.
+using FaceArea = std::function<Eigen::VectorXd(int face)>;
 
 /// Where fluid comes from and goes to: conditions of a body's faces and sources inside it.
 /// A face without a condition is sealed. Where a face has a bonded layer, the condition acts on the
@@ -31,6 +36,8 @@ class PoreBoundary {
   /// A sealed face mirrors evenly, one of prescribed pressure oddly. A face with inflow is none: an
   /// even image has no slope there, a linear field would not be exact. Nor is one with a layer.
   FaceSet mirrored() const;
+  /// Sealed faces without a layer.
+  FaceSet sealed() const;
   /// Sealed faces with a layer.
   FaceSet sealed_layers() const;
   /// Faces with a layer that holds their pressure.
@@ -43,6 +50,8 @@ class PoreBoundary {
   /// Volume per time that inflow and sources bring to every point [m^3/s, per metre in 2D];
   /// `force_of`: the operator's force_of_stress().
   ScheduledVector sources(const ForceOfStress& force_of) const;
+  /// The same where the operator spreads a face over the points by `area_by_point` [m^2, m in 2D].
+  ScheduledVector sources_by(const FaceArea& area_by_point) const;
   bool has_sources() const;
 
  private:

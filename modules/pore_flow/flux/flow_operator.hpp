@@ -1,13 +1,13 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <Eigen/SparseCore>
 
-#include "core/bonds/family.hpp"
+#include "core/bonds/bond_state.hpp"
 
 namespace perifrac {
 
@@ -18,7 +18,10 @@ class FlowOperator {
  public:
   virtual ~FlowOperator() = default;
 
-  virtual const Family<D>& family() const = 0;
+  virtual Index point_count() const = 0;
+  /// Of the points first, per metre in 2D [m^3].
+  virtual const std::vector<double>& volume() const = 0;
+  virtual Vector<D> place(Index i) const = 0;
   virtual Index size() const = 0;
 
   /// Of point i, the mean over all directions; the factors of scale_mobility apart [m^2/(Pa s)].
@@ -31,9 +34,8 @@ class FlowOperator {
                            std::to_string(factor.size()) + " factors");
   }
 
-  /// Takes a family of the same bonds in which others are broken, of weight 0, at these points.
-  virtual void take_bonds(std::shared_ptr<const Family<D>> family,
-                          std::span<const Index> points) = 0;
+  /// No fluid crosses what is broken in the body; what mended, as a state was restored, conducts.
+  virtual void follow(const BondState<D>& bonds) = 0;
 
   /// outflow = H p: volume that leaves every point per time, and that enters through every face
   /// value's faces [m^3/s, per metre in 2D].
@@ -42,8 +44,8 @@ class FlowOperator {
   /// Darcy velocity at the points, D blocks [m/s].
   virtual void velocity(std::span<const double> p, std::span<double> velocity) = 0;
 
-  /// How apply() goes over the bonds, and why.
-  virtual std::string path() const { return "bond by bond: not the conservative operator"; }
+  /// How apply() goes over the points and their neighbours, and why.
+  virtual std::string path() const = 0;
 
   /// H as a matrix.
   virtual Eigen::SparseMatrix<double> assemble() const = 0;

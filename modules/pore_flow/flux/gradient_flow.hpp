@@ -5,6 +5,7 @@
 
 #include "core/base/small_vector.hpp"
 #include "core/operators/linear_exact.hpp"
+#include "modules/pore_flow/flux/cut_bonds.hpp"
 #include "modules/pore_flow/flux/flow_operator.hpp"
 
 namespace perifrac {
@@ -16,7 +17,10 @@ class GradientFlow : public FlowOperator<D> {
  public:
   explicit GradientFlow(LinearExactOperator<D, Law> op) : operator_(std::move(op)) {}
 
-  const Family<D>& family() const override { return operator_.family(); }
+  const Family<D>& family() const { return operator_.family(); }
+  Index point_count() const override { return family().point_count; }
+  const std::vector<double>& volume() const override { return family().volume; }
+  Vector<D> place(Index i) const override { return vector_at(family().position, i); }
   Index size() const override { return operator_.size(); }
 
   double mobility(Index i) const override {
@@ -35,7 +39,12 @@ class GradientFlow : public FlowOperator<D> {
     }
   }
 
-  void take_bonds(std::shared_ptr<const Family<D>> family, std::span<const Index> points) override {
+  void follow(const BondState<D>& bonds) override {
+    if (bonds_.follow(bonds, family())) take_bonds(bonds_.family(), bonds_.points());
+  }
+
+  /// Takes a family of the same bonds in which others are broken, of weight 0, at these points.
+  virtual void take_bonds(std::shared_ptr<const Family<D>> family, std::span<const Index> points) {
     operator_.update(std::move(family), points);
   }
 
@@ -47,6 +56,8 @@ class GradientFlow : public FlowOperator<D> {
       set_at(velocity, points, i, -law_at(operator_.law(), i).stress(gradient));
     });
   }
+
+  std::string path() const override { return "bond by bond: not the conservative operator"; }
 
   Eigen::SparseMatrix<double> preconditioner() const override {
     std::vector<double> stiffness(family().point_count);
@@ -63,6 +74,9 @@ class GradientFlow : public FlowOperator<D> {
   }
 
   LinearExactOperator<D, Law> operator_;
+
+ private:
+  CutBonds<D> bonds_;
 };
 
 }  // namespace perifrac

@@ -40,7 +40,7 @@ std::optional<NotCovered> not_covered(const Section& section, const Body<D>& bod
     return NotCovered{"storage after Tait is different at every pressure",
                       "0, or fluid.equation_of_state: linear"};
   }
-  if (section.word("operator") == "nested") {
+  if (section.word("type") == "darcy" && section.word("operator") == "nested") {
     return NotCovered{"operator 'nested' is for comparison as published",
                       "0, or operator conservative or bond"};
   }

@@ -57,8 +57,8 @@ std::unique_ptr<FlowOperator<2>> cracked_flow(FlowScheme scheme, const Body<2>& 
   auto flow = make_flow(scheme, LinearExactOperator<2, DarcyLaw<2>>(intact, mirror, {1.0}));
   const auto family = std::make_shared<Family<2>>(*intact);
   BondState<2> bonds;
-  const std::vector<Index> points = cut(bonds, *family, facets);
-  flow->take_bonds(family, points);
+  cut(bonds, *family, facets);
+  flow->follow(bonds);
   return flow;
 }
 
