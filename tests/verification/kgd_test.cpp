@@ -32,12 +32,6 @@ TEST_P(Kgd, IsWithinThreePercentAtFortyPoints) {
 INSTANTIATE_TEST_SUITE_P(Regimes, Kgd,
                          testing::Values("kgd_viscosity", "kgd_mixed", "kgd_toughness"));
 
-/// One pressure, toughness alone.
-TEST(KgdUniformPressure, IsWithinFivePercentOfTheToughnessSolution) {
-  expect_the_full_solution(run_config("kgd_toughness", {"crack_fluid.type=uniform_pressure"}),
-                           0.05);
-}
-
 /// A history of the run beside that of its reference.
 struct Compared {
   std::vector<double> time, computed, exact;

@@ -20,16 +20,6 @@ TEST(Radial, GrowsAsAPennyShapedCrack) {
   expect_books_closed(run, 0.02);
 }
 
-/// One pressure: the limit of toughness, without a source.
-TEST(Radial, GrowsUnderOnePressure) {
-  const SceneRun run = run_config("radial", {"crack_fluid.type=uniform_pressure"});
-  ASSERT_EQ(run.exit_code, 0);
-  EXPECT_LE(run.figure("radius over the exact, mean of a step"), 0.02);
-  EXPECT_LE(run.figure("opening over the exact, mean of a step"), 0.03);
-  EXPECT_LE(run.figure("pressure over the exact, mean of a step"), 0.05);
-  expect_books_closed(run, 0.02);
-}
-
 /// Viscosity counts: K = 1.8 to 2.3. The balance of energy misses the loss where facets fill.
 TEST(Radial, GrowsAgainstViscosityToo) {
   const SceneRun run = run_config("radial", {"crack_fluid.viscosity=4 cP"});

@@ -1,5 +1,6 @@
 #include "modules/crack_fluid/network/lubrication_newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/solvers/band_lu.hpp"

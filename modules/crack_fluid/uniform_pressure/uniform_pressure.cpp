@@ -12,7 +12,7 @@ namespace perifrac {
 namespace {
 
 constexpr int most_iterations = 60;
-/// From here on steps are halved: pressures of several cracks may chase each other.
+/// From here on every other step is halved: pressures of several cracks may chase each other.
 constexpr int patience = 20;
 constexpr double tolerance = 1e-12;  ///< of what a crack holds when full
 /// Of the fluid's bulk modulus: below this a pressure that an inlet holds is as good as none.
@@ -171,8 +171,12 @@ FlowReport UniformPressure::solve(const CrackStep& step, Eigen::VectorXd& v) {
     if (report.converged) break;
     const Eigen::VectorXd by = change(step, unknown);
     if (!by.allFinite()) break;
-    const double part = report.iterations < patience ? 1.0 : 0.5;
-    for (Index c = 0; c < crack_count(); ++c) unknown[c] = liquid_.moved(unknown[c], part * by[c]);
+    const double part = report.iterations < patience || report.iterations % 2 == 0 ? 1.0 : 0.5;
+    for (Index c = 0; c < crack_count(); ++c) {
+      // A closed crack holds next to nothing: what it is to take would press it by any amount.
+      const double rise = std::min(by[c], liquid_.bulk_modulus);
+      unknown[c] = liquid_.moved(unknown[c], part * rise);
+    }
   }
   v = by_facet(unknown);
   if (report.converged) spread();
