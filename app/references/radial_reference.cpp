@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/crack_viscosity.hpp"
 #include "app/references/growth_step.hpp"
 #include "app/references/reference_types.hpp"
 #include "app/references/rock.hpp"
@@ -68,8 +69,7 @@ RadialProblem read_radial(const Section& scene) {
                "damage, and one inlet with a volume_rate");
   }
   return {read_elastic_rock(scene).plane_strain_modulus(), read_fracture_energy(scene),
-          scene.number("crack_fluid.viscosity"),
-          scene.number("crack_fluid.inlets[0].volume_rate") / share};
+          crack_viscosity(scene), scene.number("crack_fluid.inlets[0].volume_rate") / share};
 }
 
 }  // namespace

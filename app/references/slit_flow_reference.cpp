@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "app/references/comparison.hpp"
+#include "app/references/crack_viscosity.hpp"
 #include "app/references/reference_types.hpp"
 #include "core/body/crack_seeds.hpp"
 
@@ -55,8 +56,8 @@ Slit read_slit(const Section& scene, const PointSet& facets) {
   }
   Slit slit{.from = read_end(scene, "crack_fluid.inlets[0]", facets),
             .to = read_end(scene, "crack_fluid.inlets[1]", facets),
-            .conductivity = std::pow(scene.number("cracks[0].opening"), 3) /
-                            (12.0 * scene.number("crack_fluid.viscosity")),
+            .conductivity =
+                std::pow(scene.number("cracks[0].opening"), 3) / (12.0 * crack_viscosity(scene)),
             .length = 0.0};
   slit.length = std::hypot(slit.to.at[0] - slit.from.at[0], slit.to.at[1] - slit.from.at[1]);
   if (!(slit.flow_rate() > 0.0)) {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "modules/crack_fluid/crack_fluid_type.hpp"
+#include "modules/crack_fluid/network/network_type.hpp"
+#include "modules/crack_fluid/uniform_pressure/uniform_pressure_type.hpp"
 #include "modules/fluid/fluid_type.hpp"
 #include "modules/pore_flow/darcy_type.hpp"
 #include "modules/pore_flow/finite_volume/finite_volume_type.hpp"
@@ -13,8 +14,10 @@ namespace perifrac {
 
 const std::vector<ModuleType>& module_types() {
   static const std::vector<ModuleType> types = {
-      quasi_static_solid_type(), dynamic_solid_type(),   rigid_solid_type(),   darcy_type(),
-      finite_volume_type(),      semi_lagrangian_type(), crack_network_type(),
+      quasi_static_solid_type(), dynamic_solid_type(),
+      rigid_solid_type(),        darcy_type(),
+      finite_volume_type(),      semi_lagrangian_type(),
+      crack_network_type(),      uniform_pressure_type(),
   };
   return types;
 }

@@ -41,16 +41,6 @@ CrackSize viscosity_corner(const KgdProblem& driven, double t) {
           .pressure = 0.5455 * std::cbrt(modulus * modulus * mu / t)};
 }
 
-CrackSize toughness_corner(const KgdProblem& driven, double t) {
-  const double modulus = driven.plane_strain_modulus, toughness = driven.toughness();
-  const double volume = driven.rate * t;
-  return {
-      .length = 0.9324 * std::pow(modulus * volume / toughness, 2.0 / 3.0),
-      .opening = 0.6828 * std::cbrt(toughness * toughness * volume / (modulus * modulus)),
-      .pressure = 0.18307 * std::cbrt(std::pow(toughness, 4) / (modulus * volume)),
-  };
-}
-
 CrackSize storage_solution(const KgdProblem& driven, double t) {
   const double toughness = driven.dimensionless_toughness();
   if (toughness < KgdSolution::least_toughness) return viscosity_corner(driven, t);

@@ -15,16 +15,8 @@ struct HydraulicFracture {
   double closing_stress = 0.0;        ///< across the crack [Pa]
 };
 
-/// Half the crack; opening, and pressure less the closing stress, at its inlet.
-struct CrackSize {
-  double length;    ///< [m]
-  double opening;   ///< [m]
-  double pressure;  ///< [Pa]
-};
-
-/// Where viscosity or toughness alone counts and nothing leaks.
+/// Where viscosity alone counts and nothing leaks.
 CrackSize viscosity_corner(const KgdProblem& driven, double t);
-CrackSize toughness_corner(const KgdProblem& driven, double t);
 /// Between them; a corner where the toughness is beyond KgdSolution's table.
 CrackSize storage_solution(const KgdProblem& driven, double t);
 /// l = Q t^(1/2) / (pi C'), where all but nothing stays in the crack [m].

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/crack_viscosity.hpp"
 #include "app/references/rock.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/body/crack_seeds.hpp"
@@ -138,16 +139,15 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
   const Mouth mouth = find_mouth(scene, inlet);
   // A rate into one wing is half of that into two.
   const bool feeds_both = scene.word("crack_fluid.counts") == "both" || !mouth.at_end;
-  SceneRegime regime{
-      .fracture = {.driven = {rock.plane_strain_modulus(), read_fracture_energy(scene),
-                              scene.number("crack_fluid.viscosity"),
-                              (feeds_both ? 1.0 : 2.0) *
-                                  scene.number("crack_fluid.inlets[0].rate")}},
-      .wings = mouth.at_end ? 1 : 2,
-      .time = pumping_time(scene),
-      .is_as_in_infinite_body = false,
-      .warnings = {},
-      .notes = {}};
+  SceneRegime regime{.fracture = {.driven = {rock.plane_strain_modulus(),
+                                             read_fracture_energy(scene), crack_viscosity(scene),
+                                             (feeds_both ? 1.0 : 2.0) *
+                                                 scene.number("crack_fluid.inlets[0].rate")}},
+                     .wings = mouth.at_end ? 1 : 2,
+                     .time = pumping_time(scene),
+                     .is_as_in_infinite_body = false,
+                     .warnings = {},
+                     .notes = {}};
   if (!(regime.time > 0.0)) return std::nullopt;
   HydraulicFracture& fracture = regime.fracture;
   if (const auto stated = read_stated_stress(scene)) {

@@ -9,7 +9,8 @@
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/time/schedule.hpp"
-#include "modules/crack_fluid/lubrication.hpp"
+#include "modules/crack_fluid/crack_liquid.hpp"
+#include "modules/crack_fluid/crack_step.hpp"
 
 namespace perifrac {
 

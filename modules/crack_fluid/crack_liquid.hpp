@@ -21,6 +21,14 @@ struct CrackLiquid {
   double fill(double v) const { return 1.0 + std::min(v - vapour_pressure, 0.0) / bulk_modulus; }
   double empty() const { return vapour_pressure - bulk_modulus; }  ///< v of a dry facet
 
+  /// v after its change, stopped at the edge between full and not, and where a facet is empty.
+  double moved(double v, double change) const {
+    const double goal = v + change;
+    if (is_full(v) && !is_full(goal)) return vapour_pressure - 1e-13 * bulk_modulus;
+    if (!is_full(v) && is_full(goal)) return vapour_pressure;
+    return std::max(goal, empty());
+  }
+
   /// Of what a facet of this volume holds at v [kg].
   double mass(double volume, double v) const { return density_at(pressure(v)) * volume * fill(v); }
   double density_at(double p) const { return density * (1.0 + p / bulk_modulus); }

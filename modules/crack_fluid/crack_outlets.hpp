@@ -9,7 +9,7 @@
 #include "core/config/section.hpp"
 #include "core/time/schedule.hpp"
 #include "modules/crack_fluid/crack_graph.hpp"
-#include "modules/crack_fluid/lubrication.hpp"
+#include "modules/crack_fluid/crack_step.hpp"
 
 namespace perifrac {
 

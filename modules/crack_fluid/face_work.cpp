@@ -4,7 +4,7 @@
 
 namespace perifrac {
 
-void FaceWork::add_new(const Lubrication& before) {
+void FaceWork::add_new(const CrackFlow& before) {
   for (Index f = static_cast<Index>(facets_.size()); f < before.graph().facet_count(); ++f) {
     const double pressure = before.face_pressure()[f];
     const bool follows = !before.is_full(f) && before.is_beside_full(f);
@@ -12,11 +12,11 @@ void FaceWork::add_new(const Lubrication& before) {
   }
 }
 
-bool FaceWork::knows_all_of(const Lubrication& now) const {
+bool FaceWork::knows_all_of(const CrackFlow& now) const {
   return static_cast<Index>(facets_.size()) == now.graph().facet_count();
 }
 
-double FaceWork::book(const Lubrication& now, Index f) {
+double FaceWork::book(const CrackFlow& now, Index f) {
   Facet& facet = facets_[f];
   const double opening = now.opening()[f], pressure = now.face_pressure()[f];
   if (facet.fluid_follows) {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/state/state_visitor.hpp"
-#include "modules/crack_fluid/lubrication.hpp"
+#include "modules/crack_fluid/crack_flow.hpp"
 
 namespace perifrac {
 
@@ -21,11 +21,11 @@ class FaceWork {
   /// the start does half of what it comes to, and so does the fluid.
   void start(Index count) { facets_.assign(count, {0.0, 0.0, false}); }
   /// Takes facets that are new as they are before the step.
-  void add_new(const Lubrication& before);
-  bool knows_all_of(const Lubrication& now) const;
+  void add_new(const CrackFlow& before);
+  bool knows_all_of(const CrackFlow& now) const;
 
   /// Work on facet f since the last time [J], in 2D per metre.
-  double book(const Lubrication& now, Index f);
+  double book(const CrackFlow& now, Index f);
 
   void visit_state(StateVisitor& visitor);
 

@@ -224,6 +224,21 @@ const std::vector<Variant>& variants() {
                "crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)"}),
       variant("crack_network_in_pores_3d", "crack_fluid/network", box_3d + darcy + crack_network,
               {inlet_3d, "crack_fluid.leak_off=pores"}),
+      variant("uniform_pressure", "crack_fluid/uniform_pressure", box_2d + uniform_pressure),
+      variant("uniform_pressure_filled", "crack_fluid/uniform_pressure", box_2d + uniform_pressure,
+              {"crack_fluid.filled=[{from: [4 m, 4 m], to: [8 m, 8 m], pressure: 10 kPa}]",
+               "crack_fluid.inlets=[{name: well, at: [8 m, 5 m], rate: -1e-3 m^2/s}, {name: tank, "
+               "at: [3 m, 5 m], holds: pressure, pressure: 20 kPa, schedule: {ramp: 5 ms}}]"}),
+      variant("uniform_pressure_from_fluid", "crack_fluid/uniform_pressure",
+              box_2d + uniform_pressure + water_over_box_2d,
+              {"crack_fluid.inlets=[{name: mouth, at: [3 m, 5 m], holds: fluid}]"}),
+      variant("uniform_pressure_carter", "crack_fluid/uniform_pressure", box_2d + uniform_pressure,
+              {"crack_fluid.leak_off=carter", "crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)",
+               "crack_fluid.vapour_pressure=-50 kPa"}),
+      variant("uniform_pressure_in_pores", "crack_fluid/uniform_pressure",
+              box_2d + darcy + uniform_pressure, {"crack_fluid.leak_off=pores"}),
+      variant("uniform_pressure_in_pores_3d", "crack_fluid/uniform_pressure",
+              box_3d + darcy + uniform_pressure, {inlet_3d, "crack_fluid.leak_off=pores"}),
       variant("fluid_2d", "fluid/semi_lagrangian", tank_2d),
       variant("fluid_3d", "fluid/semi_lagrangian", tank_3d),
       variant("fluid_tait", "fluid/semi_lagrangian", tank_2d,
@@ -358,8 +373,13 @@ TEST(SwapMatrix, EveryCombinationRunsOrIsRefused) {
   }
 }
 
+class CrackFluids : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(SwapMatrix, CrackFluids, testing::Values(crack_network, uniform_pressure),
+                         [](const auto& test) { return word_of_type(test.param); });
+
 /// A solid that fluid in its cracks splits, by one word, with and without pores to leak into.
-TEST(SwapMatrix, CracksBesideTheirFluidRunInEverySolid) {
+TEST_P(CrackFluids, RunInEverySolid) {
   struct LeakOff {
     const char* word;
     std::string flow;
@@ -377,20 +397,20 @@ TEST(SwapMatrix, CracksBesideTheirFluidRunInEverySolid) {
       if (word == std::string("carter")) {
         overrides.push_back("crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)");
       }
-      const Section scene = read_scene_text(box_2d + solid + crack_network + flow, overrides);
+      const Section scene = read_scene_text(box_2d + solid + GetParam() + flow, overrides);
       expect_to_run(scene, flow.empty() ? 2 : 3, links);
     }
   }
 }
 
-TEST(SwapMatrix, CracksIn3DRunBesideTheirFluidInASolidWithoutInertia) {
+TEST_P(CrackFluids, RunIn3DInASolidWithoutInertia) {
   for (const std::string& flow : {std::string(), darcy, finite_volume}) {
     const bool pores = !flow.empty();
     const std::vector<std::string> overrides = {
         cracked_3d, inlet_3d, "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
         std::string("crack_fluid.leak_off=") + (pores ? "pores" : "none"),
         "coupling.iterations.max=20"};
-    const std::string fluids = crack_network + flow;
+    const std::string fluids = GetParam() + flow;
     expect_to_run(read_scene_text(box_3d + quasi_static_3d + fluids, overrides), pores ? 3 : 2,
                   pores ? 8 : 3);
     EXPECT_THROW(make_simulation(read_scene_text(box_3d + dynamic_3d + fluids, overrides)),

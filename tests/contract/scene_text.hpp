@@ -109,6 +109,18 @@ crack_fluid:
     - {name: pump, at: [3 m, 5 m], rate: 5e-5 m^2/s}
 )";
 
+/// crack_network with one word changed: a key that the other has no use for may stay.
+inline const std::string uniform_pressure = [] {
+  std::string text = crack_network;
+  const std::string word = "network";
+  return text.replace(text.find(word), word.size(), "uniform_pressure");
+}();
+/// The word at the first `type:` of such a section.
+inline std::string word_of_type(const std::string& section) {
+  const auto begin = section.find("type: ") + 6;
+  return section.substr(begin, section.find_first_of("\n,}", begin) - begin);
+}
+
 /// Free fluid in an open tank, with no body; what else it has comes by overrides.
 inline const std::string tank_2d = R"(
 dimension: 2

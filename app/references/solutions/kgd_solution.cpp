@@ -55,7 +55,18 @@ double KgdProblem::dimensionless_toughness() const {
   return toughness() / std::pow(12.0 * viscosity * rate * std::pow(plane_strain_modulus, 3), 0.25);
 }
 
-KgdSolution::KgdSolution(const KgdProblem& problem) : problem_(problem) {
+CrackSize toughness_corner(const KgdProblem& driven, double t) {
+  const double modulus = driven.plane_strain_modulus;
+  const double toughness = std::sqrt(modulus * driven.fracture_energy);
+  const double length =
+      std::pow(modulus * driven.rate * t / (2.0 * std::sqrt(M_PI) * toughness), 2.0 / 3.0);
+  const double pressure = toughness / std::sqrt(M_PI * length);
+  return {length, 4.0 * pressure * length / modulus, pressure};
+}
+
+KgdSolution::KgdSolution(const KgdProblem& problem)
+    : problem_(problem), is_inviscid_(problem.viscosity == 0.0) {
+  if (is_inviscid_) return;
   const double toughness = problem.dimensionless_toughness();
   if (!(toughness >= least_toughness && toughness <= most_toughness)) {
     throw std::domain_error(fmt::format("a dimensionless toughness of {:.3g}, outside {:g} to {:g}",
@@ -67,17 +78,20 @@ KgdSolution::KgdSolution(const KgdProblem& problem) : problem_(problem) {
 }
 
 double KgdSolution::length(double t) const {
+  if (is_inviscid_) return toughness_corner(problem_, t).length;
   return length_factor_ * std::pow(problem_.plane_strain_modulus * std::pow(problem_.rate, 3) *
                                        std::pow(t, 4) / (12.0 * problem_.viscosity),
                                    1.0 / 6.0);
 }
 
 double KgdSolution::opening(double t) const {
+  if (is_inviscid_) return toughness_corner(problem_, t).opening;
   const double small = 12.0 * problem_.viscosity / (problem_.plane_strain_modulus * t);
   return opening_factor_ / length_factor_ * std::cbrt(small) * length(t);
 }
 
 double KgdSolution::pressure(double t) const {
+  if (is_inviscid_) return toughness_corner(problem_, t).pressure;
   const double small = 12.0 * problem_.viscosity / (problem_.plane_strain_modulus * t);
   return pressure_factor_ * problem_.plane_strain_modulus * std::cbrt(small);
 }

@@ -15,15 +15,26 @@ struct KgdProblem {
   double dimensionless_toughness() const;
 };
 
+/// Half the crack; opening, and pressure less the closing stress, at its inlet.
+struct CrackSize {
+  double length;    ///< [m]
+  double opening;   ///< [m]
+  double pressure;  ///< [Pa]
+};
+
+/// Where toughness alone counts and nothing leaks: one pressure in an elliptic crack,
+///   l^(3/2) = E' Q t / (2 pi^(1/2) K_IC),  p = K_IC / (pi l)^(1/2),  w = 4 p l / E'.
+CrackSize toughness_corner(const KgdProblem& driven, double t);
+
 /// Such a fracture in an infinite impermeable body, without fluid lag: the self-similar solution
 /// for any toughness (Spence and Sharp 1985; Adachi and Detournay 2002), interpolated in a table
-/// computed by tests/references/kgd.py.
+/// computed by tests/references/kgd.py; where there is no viscosity, that of toughness alone.
 class KgdSolution {
  public:
   /// Of the table, dimensionless.
   static constexpr double least_toughness = 0.15, most_toughness = 6.0;
 
-  /// Throws std::domain_error for a toughness beyond the table.
+  /// Throws std::domain_error for a toughness beyond the table, unless it has no end.
   explicit KgdSolution(const KgdProblem& problem);
 
   double length(double t) const;    ///< of one wing at t [s]; [m]
@@ -32,7 +43,8 @@ class KgdSolution {
 
  private:
   KgdProblem problem_;
-  double length_factor_, opening_factor_, pressure_factor_;
+  bool is_inviscid_;
+  double length_factor_ = 0.0, opening_factor_ = 0.0, pressure_factor_ = 0.0;
 };
 
 }  // namespace perifrac

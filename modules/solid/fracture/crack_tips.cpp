@@ -91,7 +91,10 @@ double CrackTips::readiness(Tip& tip, const CrackState<2>& state,
                        needed * energy_to_cut(next_facet(tip.at, 0.0))};
   if (!is_followed(tip, state)) {
     tip.modes.reset();
-    return dry_readiness(tip, tip_law, state, 0.0);
+    const double readiness = dry_readiness(tip, tip_law, state, 0.0);
+    // Fluid without viscosity is at the tip and leaks.
+    const bool leaks = !state.leak_off.empty() && state.leak_off[tip.at.facet] > 0.0;
+    return leaks ? readiness / beyond_mean(tip, state) : readiness;
   }
   tip.modes = followed_modes(tip, tip_law, state, jumps);
   return std::max(kink_intensity(*tip.modes), lagging_readiness(tip, tip_law, state));

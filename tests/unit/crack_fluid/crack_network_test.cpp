@@ -1,5 +1,3 @@
-#include "modules/crack_fluid/crack_network.hpp"
-
 #include <numbers>
 #include <numeric>
 
@@ -8,6 +6,7 @@
 #include "core/base/errors.hpp"
 #include "core/state/snapshot.hpp"
 #include "modules/crack_fluid/carter_leak_off.hpp"
+#include "modules/crack_fluid/crack_fluid.hpp"
 #include "tests/unit/crack_fluid/crack_run.hpp"
 
 namespace perifrac {

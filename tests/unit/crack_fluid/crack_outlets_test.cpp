@@ -15,11 +15,12 @@ using namespace test;
 struct GrownSlit {
   std::shared_ptr<const Body<2>> body = box_body<2>({6, 4}, 1.0);
   BondState<2>& bonds = body->claim_bond_state();
-  CrackNetwork<2> module;
+  CrackFluid<2> module;
 
   GrownSlit(const BehindFace& right, double reach, std::vector<CrackInlet> inlets)
       : module(
-            body, water, CrackInlets(std::move(inlets), water), {}, nullptr,
+            body, water, std::make_unique<Lubrication>(water),
+            CrackInlets(std::move(inlets), water), {}, nullptr,
             std::make_unique<CrackOutlets<2>>(body, std::vector<BehindFace>{{}, right, {}, {}})) {
     for (int k = 0; k < 3; ++k) add(k, k + 1.0);
     module.initialize(0.0);

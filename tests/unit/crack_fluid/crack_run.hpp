@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "modules/crack_fluid/crack_network.hpp"
+#include "modules/crack_fluid/crack_fluid.hpp"
+#include "modules/crack_fluid/network/lubrication.hpp"
 #include "tests/port_named.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
@@ -33,16 +34,18 @@ inline CrackInlet pressure_inlet(const std::string& name, const Vector<2>& at, d
   return {name, {at[0], at[1]}, true, pressure, {}};
 }
 
-/// Fluid in a crack whose facets are given and whose opening is value + slope p.
+/// Fluid in a crack, a network where nothing else is given, whose facets are given and whose
+/// opening is value + slope p.
 class CrackRun {
  public:
   CrackRun(const CrackLiquid& liquid, std::vector<CrackInlet> inlets,
-           std::vector<CrackFilling<2>> fillings = {}, std::unique_ptr<LeakOff> leak_off = nullptr)
+           std::vector<CrackFilling<2>> fillings = {}, std::unique_ptr<LeakOff> leak_off = nullptr,
+           std::unique_ptr<CrackFlow> flow = nullptr)
       : body_(box_body<2>({3, 3}, 1.0)),
         bonds_(body_->claim_bond_state()),
-        module_(std::make_unique<CrackNetwork<2>>(body_, liquid,
-                                                  CrackInlets(std::move(inlets), liquid),
-                                                  std::move(fillings), std::move(leak_off))) {
+        module_(std::make_unique<CrackFluid<2>>(
+            body_, liquid, flow ? std::move(flow) : std::make_unique<Lubrication>(liquid),
+            CrackInlets(std::move(inlets), liquid), std::move(fillings), std::move(leak_off))) {
     module_->initialize(0.0);
   }
 
@@ -52,7 +55,7 @@ class CrackRun {
     }
   }
 
-  CrackNetwork<2>& module() { return *module_; }
+  CrackFluid<2>& module() { return *module_; }
   PortView port(const std::string& name) { return test::port_named(*module_, name); }
   std::vector<double> values(const std::string& name) {
     const auto value = port(name).value;
@@ -95,7 +98,7 @@ class CrackRun {
  private:
   std::shared_ptr<const Body<2>> body_;
   BondState<2>& bonds_;
-  std::unique_ptr<CrackNetwork<2>> module_;
+  std::unique_ptr<CrackFluid<2>> module_;
   double time_ = 0.0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/crack_fluid/network/lubrication.hpp"
+
 namespace perifrac {
 namespace {
 
@@ -10,7 +12,7 @@ struct Crack {
   static constexpr int count = 4;
   static constexpr double length = 1e-3, stress = 1e6;  // [m], [Pa]
   CrackLiquid liquid{.density = 1000.0, .viscosity = 1e-3, .bulk_modulus = 2e9};
-  Lubrication lubrication;
+  Lubrication lubrication{liquid};
   std::vector<double> closed, rate = std::vector<double>(count, 0.0), slope, mass = rate;
   Eigen::MatrixXd compliance{count, count};
 
@@ -30,8 +32,7 @@ struct Crack {
     }
   }
   void at(std::initializer_list<double> unknowns) {
-    const LubricationStep rest{
-        .time = {0.0, 0.0}, .opening = {closed, rate, slope, 0.0}, .mass = mass};
+    const CrackStep rest{.time = {0.0, 0.0}, .opening = {closed, rate, slope, 0.0}, .mass = mass};
     lubrication.evaluate(rest, Eigen::Map<const Eigen::VectorXd>(unknowns.begin(), count));
   }
   /// What the rock holds, and what lifting the stress has cost [J/m].

@@ -1,4 +1,4 @@
-#include "modules/crack_fluid/lubrication_newton.hpp"
+#include "modules/crack_fluid/network/lubrication_newton.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ struct RandomStep {
   }
   bool chance(double part) { return between(0.0, 1.0) < part; }
 
-  LubricationStep step(double length) const {
+  CrackStep step(double length) const {
     return {.time = {0.0, length},
             .opening = {value, rate, {slope.data(), std::size_t(slope.size())}, length},
             .mass = mass,
@@ -125,8 +125,7 @@ TEST(LubricationNewton, ConvergesFromStatesThatPhysicsAllows) {
       const double inflow = random.chance(0.3) ? 0.0 : 0.5 * length;
       random.inflows.push_back({8, inflow, inflow, 0.0});
     }
-    const NewtonReport report =
-        solve(random.lubrication, slickwater, random.step(length), random.v);
+    const FlowReport report = solve(random.lubrication, slickwater, random.step(length), random.v);
     if (!report.converged) ++failed;
     iterations += report.iterations;
   }

@@ -1,4 +1,4 @@
-#include "modules/crack_fluid/lubrication.hpp"
+#include "modules/crack_fluid/network/lubrication.hpp"
 
 #include <random>
 
@@ -122,7 +122,7 @@ struct AnyStep {
     leak_off.match(PointSet{}, lubrication.graph());
     leak_off.begin({0.1, 0.12}, std::vector<double>(15, 0.5));
   }
-  LubricationStep step(double end = 0.12) {
+  CrackStep step(double end = 0.12) {
     return {.time = {0.1, end},
             .opening = {value, rate, slope, 0.13},
             .mass = mass,

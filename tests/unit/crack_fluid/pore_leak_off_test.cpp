@@ -97,10 +97,12 @@ double both_sides(double t) {
   return density * 4.0 * pressure * std::sqrt(mobility * storage * t / std::numbers::pi);
 }
 
+class PoreLeakOffFrom : public testing::TestWithParam<const char*> {};
+
 /// A seventh of a spacing lies between crack and pores; more at first, when the front is within the
 /// horizon.
-TEST(PoreLeakOff, IsThatOfTwoHalfSpaces) {
-  LeakingStrip run;
+TEST_P(PoreLeakOffFrom, IsThatOfTwoHalfSpaces) {
+  LeakingStrip run({std::string("crack_fluid.type=") + GetParam()});
   const double of_a_spacing = 8.0 * density * storage * pressure;
   double lacking_before = INFINITY;
   for (int k = 0; k < 5; ++k) {
@@ -114,6 +116,8 @@ TEST(PoreLeakOff, IsThatOfTwoHalfSpaces) {
   }
   EXPECT_NEAR(lacking_before, of_a_spacing / 7.0, 0.006 * of_a_spacing);
 }
+
+INSTANTIATE_TEST_SUITE_P(Fluids, PoreLeakOffFrom, testing::Values("network", "uniform_pressure"));
 
 /// The pores' answer is in: windows of four times what explicit diffusion bears in one pass, and of
 /// twenty times that where passes are repeated until they agree.

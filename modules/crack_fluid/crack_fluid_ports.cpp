@@ -1,6 +1,6 @@
 // What other modules and the history read of a crack's fluid.
 
-#include "modules/crack_fluid/crack_network.hpp"
+#include "modules/crack_fluid/crack_fluid.hpp"
 
 namespace perifrac {
 
@@ -16,12 +16,13 @@ constexpr const char* volume_unit = D == 2 ? "m^2" : "m^3";
 }  // namespace
 
 template <int D>
-CrackNetwork<D>::CrackNetwork(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid,
-                              CrackInlets inlets, std::vector<CrackFilling<D>> fillings,
-                              std::unique_ptr<LeakOff> leak_off,
-                              std::unique_ptr<CrackOutlets<D>> outlets)
+CrackFluid<D>::CrackFluid(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid,
+                          std::unique_ptr<CrackFlow> flow, CrackInlets inlets,
+                          std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off,
+                          std::unique_ptr<CrackOutlets<D>> outlets)
     : body_(std::move(body)),
       liquid_(liquid),
+      flow_(std::move(flow)),
       inlets_(std::move(inlets)),
       mouths_(inlets_),
       fillings_(std::move(fillings)),
@@ -32,7 +33,7 @@ CrackNetwork<D>::CrackNetwork(std::shared_ptr<const Body<D>> body, const CrackLi
 }
 
 template <int D>
-void CrackNetwork<D>::make_ports() {
+void CrackFluid<D>::make_ports() {
   make_facet_ports();
   make_extent_ports();
   make_inlet_ports();
@@ -46,13 +47,13 @@ void CrackNetwork<D>::make_ports() {
 }
 
 template <int D>
-PortView CrackNetwork<D>::port(PortId id) {
+PortView CrackFluid<D>::port(PortId id) {
   match_facets();
   return ports_.view(id);
 }
 
 template <int D>
-void CrackNetwork<D>::make_facet_ports() {
+void CrackFluid<D>::make_facet_ports() {
   const PointSet& facets = body_->bond_state().facet_points();
   const auto each = [this, &facets](Port port, std::function<double(std::size_t)> value_of) {
     ports_.found(std::move(port), facets, [this, value_of](std::vector<double>& values) {
@@ -79,7 +80,7 @@ void CrackNetwork<D>::make_facet_ports() {
              });
   each({"crack_wetted_fraction", "1"},
        [this](std::size_t f) { return liquid_.fill(facets_.unknown[f]); });
-  if constexpr (D == 2) {
+  if (flow_->knows_rates() && D == 2) {
     ports_.found({"crack_flow_rate", "m^2/s"}, facets,
                  [this](std::vector<double>& rate) { rate = flow_rate(); });
   }
@@ -92,7 +93,7 @@ void CrackNetwork<D>::make_facet_ports() {
 }
 
 template <int D>
-void CrackNetwork<D>::make_extent_ports() {
+void CrackFluid<D>::make_extent_ports() {
   const char* const area = D == 2 ? "m" : "m^2";
   ports_.total({D == 2 ? "wetted_length" : "wetted_area", area}, whole_crack,
                [this] { return extent().wetted_area; });
@@ -104,7 +105,7 @@ void CrackNetwork<D>::make_extent_ports() {
 }
 
 template <int D>
-void CrackNetwork<D>::make_inlet_ports() {
+void CrackFluid<D>::make_inlet_ports() {
   const auto mean = [this](const std::string& name, const char* unit, std::size_t inlet,
                            std::function<double(Index)> value_of) {
     ports_.total({name, unit}, whole_crack, [this, inlet, value_of] {
@@ -127,7 +128,7 @@ void CrackNetwork<D>::make_inlet_ports() {
 }
 
 template <int D>
-void CrackNetwork<D>::make_mass_ports() {
+void CrackFluid<D>::make_mass_ports() {
   if (leak_off_) {
     ports_.total({"leak_off_volume", volume_unit<D>}, whole_crack,
                  [this] { return leak_off_volume(); });
@@ -146,7 +147,7 @@ void CrackNetwork<D>::make_mass_ports() {
 
 /// With the pores, and with the free fluid that cracks open into.
 template <int D>
-void CrackNetwork<D>::make_exchange_ports() {
+void CrackFluid<D>::make_exchange_ports() {
   const std::string kilograms = unit_of_total("kg", D);
   if (pores_ != nullptr) {
     ports_.in(
@@ -179,7 +180,7 @@ void CrackNetwork<D>::make_exchange_ports() {
 }
 
 template <int D>
-void CrackNetwork<D>::make_energy_ports() {
+void CrackFluid<D>::make_energy_ports() {
   ports_.total(total_port("crack_fluid_energy", "J", PortRole::energy_stored, D), whole_crack,
                [this] {
                  CompensatedSum sum;
@@ -195,31 +196,21 @@ void CrackNetwork<D>::make_energy_ports() {
                whole_crack, [this] { return books_.dissipation.value(); });
 }
 
-/// From a facet's first end to its second, per metre.
 template <int D>
-std::vector<double> CrackNetwork<D>::flow_rate() {
-  std::vector<double> rate(facets_.count(), 0.0), pressure(facets_.count());
+std::vector<double> CrackFluid<D>::flow_rate() {
+  std::vector<double> pressure(facets_.count());
   for (std::size_t f = 0; f < pressure.size(); ++f) {
     pressure[f] = liquid_.pressure(facets_.unknown[f]);
   }
-  const auto leaves = [&](const CrackGraph::Branch& at, double flux) {
-    rate[at.facet] += (at.side == 1 ? 0.5 : -0.5) * flux / liquid_.density;
-  };
-  lubrication_.for_each_flux(
-      pressure, facets_.aperture,
-      [&](const CrackGraph::Branch& a, const CrackGraph::Branch& b, double flux) {
-        leaves(a, flux);
-        leaves(b, -flux);
-      });
-  return rate;
+  return flow_->rates(pressure, facets_.aperture);
 }
 
 /// What has been booked is exact as long as it is there. What pressures and apertures hold is known
 /// to rounding; where that is something else, it is what counts, and the ledger shows it.
 template <int D>
-double CrackNetwork<D>::stored_mass() const {
+double CrackFluid<D>::stored_mass() const {
   constexpr double rounding = 1e-9;
-  const CrackGraph& graph = lubrication_.graph();
+  const CrackGraph& graph = flow_->graph();
   CompensatedSum booked, there, off;
   for (Index f = 0; f < graph.facet_count(); ++f) {
     const double mass = liquid_.mass(graph.area(f) * facets_.aperture[f], facets_.unknown[f]);
@@ -230,7 +221,7 @@ double CrackNetwork<D>::stored_mass() const {
   return off.value() <= rounding * booked.value() ? booked.value() : there.value();
 }
 
-template class CrackNetwork<2>;
-template class CrackNetwork<3>;
+template class CrackFluid<2>;
+template class CrackFluid<3>;
 
 }  // namespace perifrac

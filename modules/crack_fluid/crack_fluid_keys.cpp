@@ -1,28 +1,15 @@
-#include "modules/crack_fluid/crack_fluid_type.hpp"
+#include "modules/crack_fluid/crack_fluid_keys.hpp"
 
 #include <fmt/format.h>
 
 #include "core/config/mistakes.hpp"
 #include "modules/crack_fluid/carter_leak_off.hpp"
-#include "modules/crack_fluid/crack_network.hpp"
+#include "modules/crack_fluid/crack_fluid.hpp"
 #include "modules/crack_fluid/crack_places.hpp"
 
 namespace perifrac {
 
 namespace {
-
-CrackLiquid read_liquid(const Section& section) {
-  const CrackLiquid liquid{.density = section.number("density"),
-                           .viscosity = section.number("viscosity"),
-                           .bulk_modulus = section.number("bulk_modulus"),
-                           .vapour_pressure = section.number("vapour_pressure"),
-                           .residual_aperture = section.number("residual_aperture")};
-  if (liquid.vapour_pressure <= -liquid.bulk_modulus) {
-    section.fail("vapour_pressure", "there is no fluid that far under tension",
-                 "above -bulk_modulus");
-  }
-  return liquid;
-}
 
 template <int D>
 std::vector<CrackFilling<D>> read_fillings(const Section& section, const CrackLiquid& liquid) {
@@ -71,10 +58,26 @@ std::unique_ptr<LeakOff> read_leak_off(const Section& section, std::shared_ptr<c
                                             section.number("density"), std::move(sealed));
 }
 
+}  // namespace
+
+CrackLiquid read_crack_liquid(const Section& section, double viscosity) {
+  const CrackLiquid liquid{.density = section.number("density"),
+                           .viscosity = viscosity,
+                           .bulk_modulus = section.number("bulk_modulus"),
+                           .vapour_pressure = section.number("vapour_pressure"),
+                           .residual_aperture = section.number("residual_aperture")};
+  if (liquid.vapour_pressure <= -liquid.bulk_modulus) {
+    section.fail("vapour_pressure", "there is no fluid that far under tension",
+                 "above -bulk_modulus");
+  }
+  return liquid;
+}
+
 template <int D>
-std::unique_ptr<PhysicsModule> make_network(const Section& section,
-                                            std::shared_ptr<const Body<D>> body) {
-  const CrackLiquid liquid = read_liquid(section);
+std::unique_ptr<PhysicsModule> make_crack_fluid(const Section& section,
+                                                std::shared_ptr<const Body<D>> body,
+                                                const CrackLiquid& liquid,
+                                                std::unique_ptr<CrackFlow> flow) {
   std::unique_ptr<LeakOff> leak_off;
   std::vector<CrackInlet> inlets;
   std::vector<CrackFilling<D>> fillings;
@@ -88,24 +91,28 @@ std::unique_ptr<PhysicsModule> make_network(const Section& section,
     outlets = std::make_unique<CrackOutlets<D>>(body, read_behind_faces<D>(section.scene(), *body));
   });
   mistakes.throw_if_any();
-  return std::make_unique<CrackNetwork<D>>(
-      std::move(body), liquid, CrackInlets(std::move(inlets), liquid), std::move(fillings),
-      std::move(leak_off), std::move(outlets));
+  return std::make_unique<CrackFluid<D>>(
+      std::move(body), liquid, std::move(flow), CrackInlets(std::move(inlets), liquid),
+      std::move(fillings), std::move(leak_off), std::move(outlets));
 }
 
+template std::unique_ptr<PhysicsModule> make_crack_fluid<2>(const Section&,
+                                                            std::shared_ptr<const Body<2>>,
+                                                            const CrackLiquid&,
+                                                            std::unique_ptr<CrackFlow>);
+template std::unique_ptr<PhysicsModule> make_crack_fluid<3>(const Section&,
+                                                            std::shared_ptr<const Body<3>>,
+                                                            const CrackLiquid&,
+                                                            std::unique_ptr<CrackFlow>);
+
 // NOLINTNEXTLINE(readability-function-size): a table
-KeyTable network_keys() {
+KeyTable crack_fluid_keys() {
   KeyTable keys = {
       {.path = "density",
        .unit = "kg/m^3",
        .range = "(0, inf)",
        .fallback = "1000 kg/m^3",
        .meaning = "Density at zero pressure."},
-      {.path = "viscosity",
-       .unit = "Pa s",
-       .range = "(0, inf)",
-       .required = true,
-       .meaning = "Dynamic viscosity."},
       {.path = "bulk_modulus",
        .unit = "Pa",
        .range = "(0, inf)",
@@ -160,18 +167,6 @@ KeyTable network_keys() {
   const KeyTable inlets = crack_inlet_keys();
   keys.insert(keys.end(), inlets.begin(), inlets.end());
   return keys;
-}
-
-}  // namespace
-
-ModuleType crack_network_type() {
-  return {.section = "crack_fluid",
-          .name = "network",
-          .meaning = "Fluid in cracks, on the facets that cut broken bonds. Implicit.",
-          .keys = network_keys(),
-          .make = [](const Section& section, const AnyBody& any) {
-            return std::visit([&](const auto& body) { return make_network(section, body); }, any);
-          }};
 }
 
 }  // namespace perifrac

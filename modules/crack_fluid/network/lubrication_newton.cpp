@@ -1,8 +1,10 @@
-#include "modules/crack_fluid/lubrication_newton.hpp"
+#include "modules/crack_fluid/network/lubrication_newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/solvers/band_lu.hpp"
+#include "core/solvers/complementarity.hpp"
 
 namespace perifrac {
 
@@ -72,20 +74,27 @@ Lubrication::Conductances conductances(int iteration) {
   return iteration >= first && (iteration - first) % round_of < calm ? held : follow;
 }
 
-/// v after its change, stopped at the edge between full and not, and where a facet is empty.
-double moved(const CrackLiquid& liquid, double v, double change) {
-  const double goal = v + change;
-  const double edge = liquid.vapour_pressure;
-  if (liquid.is_full(v) && !liquid.is_full(goal)) return edge - 1e-13 * liquid.bulk_modulus;
-  if (!liquid.is_full(v) && liquid.is_full(goal)) return edge;
-  return std::max(goal, liquid.empty());
+/// Another place to begin: facets that are dry are under the largest pressure next to them, as a
+/// new one behind a thin fluid is at once.
+Eigen::VectorXd filled_from_neighbours(const CrackGraph& graph, const CrackLiquid& liquid,
+                                       const Eigen::VectorXd& v) {
+  Eigen::VectorXd guess = v;
+  for (std::size_t k = 0; k < graph.joint_count(); ++k) {
+    for (const CrackGraph::Branch& a : graph.joint(k)) {
+      if (liquid.is_full(v[a.facet])) continue;
+      for (const CrackGraph::Branch& b : graph.joint(k)) {
+        guess[a.facet] = std::max(guess[a.facet], v[b.facet]);
+      }
+    }
+  }
+  return guess;
 }
 
 }  // namespace
 
-NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const LubricationStep& step,
-                   Eigen::VectorXd& v) {
-  NewtonReport report;
+FlowReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const CrackStep& step,
+                 Eigen::VectorXd& v) {
+  FlowReport report;
   const Index count = lubrication.graph().facet_count();
   Eigen::VectorXd pressure_change(count);
   for (; report.iterations < most_iterations; ++report.iterations) {
@@ -99,8 +108,26 @@ NewtonReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const Lu
       pressure_change[f] = liquid.is_full(v[f]) ? change[f] : 0.0;
     }
     const double part = part_allowed(lubrication, liquid, step.opening, pressure_change);
-    for (Index f = 0; f < count; ++f) v[f] = moved(liquid, v[f], part * change[f]);
+    for (Index f = 0; f < count; ++f) v[f] = liquid.moved(v[f], part * change[f]);
   }
+  return report;
+}
+
+FlowReport Lubrication::solve(const CrackStep& step, Eigen::VectorXd& v) {
+  const Eigen::VectorXd begin = v;
+  const auto solved = [&] {
+    try {
+      return perifrac::solve(*this, liquid_, step, v);
+    } catch (const NoContact&) {
+      return FlowReport{};
+    }
+  };
+  FlowReport report = solved();
+  if (report.converged || !(step.time.length() > 0.0)) return report;
+  const int iterations = report.iterations;
+  v = filled_from_neighbours(graph_, liquid_, begin);
+  report = solved();
+  report.iterations += iterations;
   return report;
 }
 

@@ -1,4 +1,4 @@
-#include "modules/crack_fluid/crack_network.hpp"
+#include "modules/crack_fluid/crack_fluid.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -9,13 +9,12 @@
 #include "core/base/require.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/solvers/complementarity.hpp"
-#include "modules/crack_fluid/lubrication_newton.hpp"
 
 namespace perifrac {
 
 namespace {
 
-/// A window that Newton cannot take at once is cut in halves, down to this part of it.
+/// A window that cannot be solved at once is cut in halves, down to this part of it.
 constexpr double shortest_part = 1.0 / 1024.0;
 
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
@@ -26,22 +25,22 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 
 /// Facets are only added; what is new is dry.
 template <int D>
-void CrackNetwork<D>::match_facets() {
+void CrackFluid<D>::match_facets() {
   const BondState<D>& bonds = body_->bond_state();
   if (version_ != bonds.facet_points().version) {
     version_ = bonds.facet_points().version;
-    lubrication_ = Lubrication(liquid_, CrackGraph(bonds.facets()));
-    inlets_.locate(bonds.facet_points(), lubrication_.graph());
-    if (outlets_) outlets_->match(lubrication_.graph());
+    flow_->follow(CrackGraph(bonds.facets()));
+    inlets_.locate(bonds.facet_points(), flow_->graph());
+    if (outlets_) outlets_->match(flow_->graph());
   }
   const std::size_t count = bonds.facets().size();
   facets_.match(count, liquid_);
   opening_.match(count);
-  if (leak_off_) leak_off_->match(bonds.facet_points(), lubrication_.graph());
+  if (leak_off_) leak_off_->match(bonds.facet_points(), flow_->graph());
 }
 
 template <int D>
-void CrackNetwork<D>::initialize(double) {
+void CrackFluid<D>::initialize(double) {
   if (outlets_) outlets_->start();
   match_facets();
   facets_.clear(liquid_);
@@ -53,22 +52,23 @@ void CrackNetwork<D>::initialize(double) {
 }
 
 template <int D>
-double CrackNetwork<D>::stable_time_step() const {
+double CrackFluid<D>::stable_time_step() const {
   return std::numeric_limits<double>::infinity();
 }
 
 /// Where nothing flows, as the window begins.
 template <int D>
-LubricationStep CrackNetwork<D>::at_rest(const TimeWindow& window) const {
-  return {.time = {window.begin, window.begin},
-          .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
-          .mass = facets_.mass};
+void CrackFluid<D>::rest(const TimeWindow& window) {
+  flow_->rest({.time = {window.begin, window.begin},
+               .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
+               .mass = facets_.mass},
+              vector_of(facets_.unknown));
 }
 
 /// Cracks of the start, now that their opening is known. Their fluid counts as injected, with what
 /// it took to open them.
 template <int D>
-void CrackNetwork<D>::fill_at_start(const TimeWindow& window) {
+void CrackFluid<D>::fill_at_start(const TimeWindow& window) {
   has_begun_ = 1;
   const PointSet& facets = body_->bond_state().facet_points();
   for (std::size_t f = 0; f < facets_.count(); ++f) {
@@ -76,12 +76,12 @@ void CrackNetwork<D>::fill_at_start(const TimeWindow& window) {
       if (box.contains(vector_at<D>(facets.position, f))) facets_.unknown[f] = pressure;
     }
   }
-  lubrication_.evaluate(at_rest(window), vector_of(facets_.unknown));
-  face_work_.start(lubrication_.graph().facet_count());
+  rest(window);
+  face_work_.start(flow_->graph().facet_count());
   for (std::size_t f = 0; f < facets_.count(); ++f) {
-    books_.work.add(face_work_.book(lubrication_, static_cast<Index>(f)));
+    books_.work.add(face_work_.book(*flow_, static_cast<Index>(f)));
     if (!liquid_.is_full(facets_.unknown[f])) continue;
-    facets_.mass[f] = lubrication_.residual()[f];
+    facets_.mass[f] = flow_->residual()[f];
     books_.injected.add(facets_.mass[f]);
     books_.work.add(facets_.mass[f] * liquid_.internal_energy(facets_.unknown[f]));
   }
@@ -89,14 +89,14 @@ void CrackNetwork<D>::fill_at_start(const TimeWindow& window) {
 }
 
 template <int D>
-double CrackNetwork<D>::advance(const TimeWindow& window) {
+double CrackFluid<D>::advance(const TimeWindow& window) {
   match_facets();
   if (facets_.count() == 0) return window.end;
   if (has_begun_ == 0) fill_at_start(window);
   if (outlets_) outlets_->tell(window.begin);
-  if (!face_work_.knows_all_of(lubrication_)) {
-    lubrication_.evaluate(at_rest(window), vector_of(facets_.unknown));
-    face_work_.add_new(lubrication_);
+  if (!face_work_.knows_all_of(*flow_)) {
+    rest(window);
+    face_work_.add_new(*flow_);
   }
   if (mouths_.any()) mouths_.begin_window(inlets_);
   if (leak_off_) leak_off_->begin_window(window);
@@ -120,51 +120,26 @@ double CrackNetwork<D>::advance(const TimeWindow& window) {
   return window.end;
 }
 
-/// Another place for Newton to begin: facets that are dry are under the largest pressure next to
-/// them, as a new one behind a thin fluid is at once.
-template <int D>
-std::vector<double> CrackNetwork<D>::filled_from_neighbours() const {
-  std::vector<double> guess = facets_.unknown;
-  const CrackGraph& graph = lubrication_.graph();
-  for (std::size_t k = 0; k < graph.joint_count(); ++k) {
-    for (const CrackGraph::Branch& a : graph.joint(k)) {
-      if (liquid_.is_full(facets_.unknown[a.facet])) continue;
-      for (const CrackGraph::Branch& b : graph.joint(k)) {
-        guess[a.facet] = std::max(guess[a.facet], facets_.unknown[b.facet]);
-      }
-    }
-  }
-  return guess;
-}
-
 /// Tries one step; false where a shorter one is called for. Throws NumericalError where none is.
 template <int D>
-bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
+bool CrackFluid<D>::step(const TimeWindow& time, const TimeWindow& window) {
   require(opening_.fits(facets_.count()), "an opening of other facets than the crack has");
   const auto given = inlets_.inflows(time);
   std::vector<FacetInflow> inflows(given.begin(), given.end());
   if (outlets_) outlets_->append_to(inflows, time, liquid_.vapour_pressure);
-  const LubricationStep step{.time = time,
-                             .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
-                             .mass = facets_.mass,
-                             .inflows = inflows,
-                             .leak_off = leak_off_.get()};
+  const CrackStep step{.time = time,
+                       .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
+                       .mass = facets_.mass,
+                       .inflows = inflows,
+                       .leak_off = leak_off_.get()};
   if (leak_off_) leak_off_->begin(time, facets_.fill(liquid_));
   Eigen::VectorXd v = vector_of(time.length() > 0.0 ? facets_.unknown : facets_.settled);
-  const auto solved = [&] {
-    try {
-      return solve(lubrication_, liquid_, step, v);
-    } catch (const NoContact&) {
-      return NewtonReport{};
-    }
-  };
-  NewtonReport report = solved();
-  iterations_ += report.iterations;
-  if (!report.converged && time.length() > 0.0) {
-    v = vector_of(filled_from_neighbours());
-    report = solved();
-    iterations_ += report.iterations;
+  FlowReport report;
+  try {
+    report = flow_->solve(step, v);
+  } catch (const NoContact&) {
   }
+  iterations_ += report.iterations;
   ++steps_;
   if (report.converged) {
     book(v);
@@ -183,19 +158,19 @@ bool CrackNetwork<D>::step(const TimeWindow& time, const TimeWindow& window) {
 /// has the mean enthalpy of beginning and end; where a facet was not full, what it received by
 /// mass. What inlets bring and facets did not receive has gone into the flow.
 template <int D>
-void CrackNetwork<D>::book(const Eigen::VectorXd& v) {
+void CrackFluid<D>::book(const Eigen::VectorXd& v) {
   const bool is_sink = leak_off_ && leak_off_->is_sink();
   const auto energy_of = [&](double mass, double unknown) {
     return mass * liquid_.internal_energy(liquid_.pressure(unknown));
   };
   for (std::size_t f = 0; f < facets_.count(); ++f) {
-    const double inflow = lubrication_.inflow()[f];
-    const double outflow = lubrication_.outflow()[f];
-    const double leaked = lubrication_.leaked()[f];
+    const double inflow = flow_->inflow()[f];
+    const double outflow = flow_->outflow()[f];
+    const double leaked = flow_->leaked()[f];
     const double more = inflow - outflow - leaked;
     const double received = energy_of(facets_.mass[f] + more, v[f]) -
                             energy_of(facets_.mass[f], facets_.unknown[f]) +
-                            face_work_.book(lubrication_, static_cast<Index>(f));
+                            face_work_.book(*flow_, static_cast<Index>(f));
     const double last = liquid_.enthalpy(liquid_.pressure(v[f]));
     double enthalpy = 0.5 * (liquid_.enthalpy(liquid_.pressure(facets_.unknown[f])) + last);
     if (!liquid_.is_full(facets_.unknown[f])) {
@@ -208,7 +183,7 @@ void CrackNetwork<D>::book(const Eigen::VectorXd& v) {
     books_.work.add(brought);
     books_.dissipation.add(brought - received);
     facets_.unknown[f] = v[f];
-    facets_.aperture[f] = lubrication_.aperture()[f];
+    facets_.aperture[f] = flow_->aperture()[f];
   }
   if (!leak_off_) return;
   const double handed_over =
@@ -218,7 +193,7 @@ void CrackNetwork<D>::book(const Eigen::VectorXd& v) {
 }
 
 template <int D>
-void CrackNetwork<D>::visit_state(StateVisitor& visitor) {
+void CrackFluid<D>::visit_state(StateVisitor& visitor) {
   facets_.visit_state(visitor);
   face_work_.visit_state(visitor);
   mouths_.visit_state(visitor);
@@ -230,11 +205,11 @@ void CrackNetwork<D>::visit_state(StateVisitor& visitor) {
 }
 
 template <int D>
-void CrackNetwork<D>::on_restored(double) {
+void CrackFluid<D>::on_restored(double) {
   match_facets();
 }
 
-template class CrackNetwork<2>;
-template class CrackNetwork<3>;
+template class CrackFluid<2>;
+template class CrackFluid<3>;
 
 }  // namespace perifrac

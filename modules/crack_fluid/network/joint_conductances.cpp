@@ -1,4 +1,4 @@
-#include "modules/crack_fluid/joint_conductances.hpp"
+#include "modules/crack_fluid/network/joint_conductances.hpp"
 
 namespace perifrac {
 

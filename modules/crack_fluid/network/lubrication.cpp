@@ -1,9 +1,8 @@
-#include "modules/crack_fluid/lubrication.hpp"
+#include "modules/crack_fluid/network/lubrication.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "core/profile/profile.hpp"
 #include "core/solvers/complementarity.hpp"
 
 namespace perifrac {
@@ -15,90 +14,33 @@ constexpr double smallest_pressure = 5e-7;
 
 }  // namespace
 
-Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph)
-    : liquid_(liquid), graph_(std::move(graph)) {
-  const Index count = graph_.facet_count();
-  for (Eigen::VectorXd* field :
-       {&pressure_, &fill_, &opening_, &terms_, &aperture_, &capacity_, &residual_, &rounding_,
-        &outflow_, &leaked_.mass, &leaked_.by_fill, &inflow_, &by_fill_}) {
-    field->setZero(count);
-  }
+Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph) : CrackFlow(liquid) {
+  follow(std::move(graph));
 }
 
-void Lubrication::evaluate(const LubricationStep& step, const Eigen::VectorXd& v) {
-  by_pressure_.clear();
-  by_aperture_.clear();
+void Lubrication::evaluate(const CrackStep& step, const Eigen::VectorXd& v) {
+  rest(step, v);
+  opening_slope_ = closed_.empty() ? Eigen::MatrixXd(step.opening.slope)
+                                   : response_with_held(step.opening.slope, closed_);
   flow_by_aperture_.clear();
-  const Index count = graph_.facet_count();
-  for (Index f = 0; f < count; ++f) {
-    pressure_[f] = liquid_.pressure(v[f]);
-    fill_[f] = liquid_.fill(v[f]);
-  }
-  open(step);
-  store(step);
-  if (step.leak_off != nullptr) leak(*step.leak_off);
-  outflow_.setZero();
   if (step.time.length() > 0.0) flow(step.time.length());
   residual_ += outflow_;
   let_in(step, v);
 }
 
-bool Lubrication::is_beside_full(Index f) const {
-  for (std::size_t k = 0; k < graph_.joint_count(); ++k) {
-    const auto joint = graph_.joint(k);
-    const auto is = [&](Index facet) {
-      return std::ranges::any_of(joint, [&](const auto& at) { return at.facet == facet; });
-    };
-    if (!is(f)) continue;
-    for (const auto& at : joint) {
-      if (at.facet != f && is_full(at.facet)) return true;
-    }
-  }
-  return false;
-}
-
-void Lubrication::open(const LubricationStep& step) {
-  const CrackOpening& given = step.opening;
-  opening_.noalias() = given.slope * pressure_;
-  const double largest = opening_.cwiseAbs().maxCoeff();
-  for (Index f = 0; f < graph_.facet_count(); ++f) {
-    const double free = given.value[f] + given.rate[f] * (step.time.end - given.end);
-    terms_[f] = std::abs(free) + std::abs(opening_[f]);
-    opening_[f] += free;
-  }
-  face_pressure_ = pressure_;
-  opening_slope_ = given.slope;
-  if (opening_.minCoeff() >= 0.0) return;
-  const Complementarity contact = solve_complementarity(opening_slope_, opening_, 1e-14 * largest);
-  opening_ = contact.y;
-  face_pressure_ += contact.x;
-  opening_slope_ = response_with_held(opening_slope_, contact.held);
-}
-
-void Lubrication::store(const LubricationStep& step) {
-  for (Index f = 0; f < graph_.facet_count(); ++f) {
-    aperture_[f] = std::max(opening_[f], liquid_.residual_aperture);
-    capacity_[f] = liquid_.density * graph_.area(f) * aperture_[f];
-    const double compression = 1.0 + pressure_[f] / liquid_.bulk_modulus;
-    const double mass = capacity_[f] * compression * fill_[f];
-    residual_[f] = mass - step.mass[f];
-    // An aperture far below what it is the difference of is known no better than that.
-    const bool is_open = opening_[f] > liquid_.residual_aperture;
-    rounding_[f] = mass * (is_open ? terms_[f] / aperture_[f] : 1.0) + std::abs(step.mass[f]);
-    by_fill_[f] = capacity_[f] * compression;
-    by_pressure_.emplace_back(f, f, capacity_[f] * fill_[f] / liquid_.bulk_modulus);
-    by_aperture_.emplace_back(f, f, mass / aperture_[f]);
-  }
-}
-
-void Lubrication::leak(LeakOff& leak_off) {
-  const ProfileScope profiled("leak-off");
-  leaked_.by_pressure.clear();
-  leak_off.evaluate(pressure_, fill_, leaked_);
-  residual_ += leaked_.mass;
-  rounding_ += leaked_.mass.cwiseAbs();
-  by_fill_ += leaked_.by_fill;
-  by_pressure_.insert(by_pressure_.end(), leaked_.by_pressure.begin(), leaked_.by_pressure.end());
+/// Per metre.
+std::vector<double> Lubrication::rates(std::span<const double> pressure,
+                                       std::span<const double> aperture) {
+  std::vector<double> rate(pressure.size(), 0.0);
+  const auto leaves = [&](const CrackGraph::Branch& at, double flux) {
+    rate[at.facet] += (at.side == 1 ? 0.5 : -0.5) * flux / liquid_.density;
+  };
+  for_each_flux(pressure, aperture,
+                [&](const CrackGraph::Branch& a, const CrackGraph::Branch& b, double flux) {
+                  leaves(a, flux);
+                  leaves(b, -flux);
+                });
+  return rate;
 }
 
 void Lubrication::flow(double dt) {
@@ -125,7 +67,7 @@ void Lubrication::flow(double dt) {
 double Lubrication::rounding_of_fall(Index from, Index to) const {
   double wide = 0.0;
   for (const Index f : {from, to}) {
-    if (opening_[f] > liquid_.residual_aperture) wide = std::max(wide, terms_[f] / aperture_[f]);
+    if (is_open(f)) wide = std::max(wide, terms_[f] / aperture_[f]);
   }
   const double from_pressure = pressure_[from], to_pressure = pressure_[to];
   return std::abs(from_pressure) + std::abs(to_pressure) +
@@ -161,9 +103,8 @@ void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint,
   }
 }
 
-void Lubrication::let_in(const LubricationStep& step, const Eigen::VectorXd& v) {
+void Lubrication::let_in(const CrackStep& step, const Eigen::VectorXd& v) {
   held_.clear();
-  inflow_.setZero();
   for (const auto& [f, least, most, target, stiffness] : step.inflows) {
     const double without = residual_[f];
     inflow_[f] = std::clamp(without, least, most);
@@ -189,11 +130,9 @@ Eigen::MatrixXd Lubrication::jacobian(const Eigen::VectorXd& v, Conductances con
   }
   by_pressure.setFromTriplets(by_pressure_.begin(), by_pressure_.end());
   by_aperture.setFromTriplets(of_apertures.begin(), of_apertures.end());
-  Eigen::VectorXd is_open(count);
-  for (Index f = 0; f < count; ++f) {
-    is_open[f] = opening_[f] > liquid_.residual_aperture ? 1.0 : 0.0;
-  }
-  Eigen::MatrixXd jacobian = (by_aperture * is_open.asDiagonal()) * opening_slope_;
+  Eigen::VectorXd follows(count);
+  for (Index f = 0; f < count; ++f) follows[f] = is_open(f) ? 1.0 : 0.0;
+  Eigen::MatrixXd jacobian = (by_aperture * follows.asDiagonal()) * opening_slope_;
   jacobian += by_pressure;
   for (Index f = 0; f < count; ++f) {
     if (liquid_.is_full(v[f])) continue;

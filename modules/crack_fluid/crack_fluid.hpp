@@ -9,13 +9,13 @@
 #include "core/module/port_table.hpp"
 #include "modules/crack_fluid/crack_books.hpp"
 #include "modules/crack_fluid/crack_extent.hpp"
+#include "modules/crack_fluid/crack_flow.hpp"
 #include "modules/crack_fluid/crack_inlets.hpp"
 #include "modules/crack_fluid/crack_mouths.hpp"
 #include "modules/crack_fluid/crack_outlets.hpp"
 #include "modules/crack_fluid/face_work.hpp"
 #include "modules/crack_fluid/facet_fluid.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
-#include "modules/crack_fluid/lubrication.hpp"
 #include "modules/crack_fluid/opening_input.hpp"
 #include "modules/crack_fluid/pore_leak_off.hpp"
 
@@ -28,32 +28,34 @@ struct CrackFilling {
   double pressure;  ///< [Pa]
 };
 
-/// Fluid in the cracks of a body, one unknown a facet, implicit: one backward Euler step a
-/// window, together with what the facets' opening answers to it. Facets that are added are dry.
+/// Fluid in the cracks of a body, implicit: one step a window, together with what the facets'
+/// opening answers to it. How fluid moves within cracks, `flow` says. Facets that are added are
+/// dry.
 ///
 /// Ports, on the facets ("crack"): in `free_crack_opening` [m], takes rate and a slope of count *
 /// count values against `crack_pressure`; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
-/// `crack_wetted_fraction`, `crack_flow_rate` [m^2/s] from a facet's first end to its second, the
-/// properties `crack_viscosity` [Pa s] and, by Carter's law, `crack_leak_off` [m/s^0.5], 0 where
-/// less than half a facet is wet. On its own: `wetted_length` and `fluid_lag` [m], `crack_volume`
-/// [m^2], `mean_crack_pressure` [Pa] (crack_extent.hpp), `inlet_<name>_pressure` [Pa],
-/// `inlet_<name>_opening` [m], with leak-off `leak_off_volume` [m^2] at zero pressure, since the
-/// start, and `leak_off_rate` [m^2/s], the mean of the last window; for the ledger
-/// `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off `leaked_crack_fluid_mass`
-/// (negative, of Carter's) [kg/m], `crack_fluid_energy`, `crack_fluid_work`,
-/// `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on the body's points:
-/// in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`, `pore_mobility`
-/// [m^2/(Pa s)]; out `exchanged_mass` [kg/m]. With inlets from free fluid, on their mouths: in
-/// `mouth_pressure` [Pa], `mouth_stiffness` [Pa m/kg]; out `mouth_intake` [kg/m]; for the ledger
-/// `mass_taken_by_cracks` (negative) [kg/m]. In 3D without the /m of totals, and m^3 for m^2;
-/// `wetted_area` and `dry_area` [m^2] in place of the two lengths, and no `crack_flow_rate`.
+/// `crack_wetted_fraction`, where rates are known `crack_flow_rate` [m^2/s] from a facet's first
+/// end to its second, the properties `crack_viscosity` [Pa s] and, by Carter's law,
+/// `crack_leak_off` [m/s^0.5], 0 where less than half a facet is wet. On its own: `wetted_length`
+/// and `fluid_lag` [m], `crack_volume` [m^2], `mean_crack_pressure` [Pa] (crack_extent.hpp),
+/// `inlet_<name>_pressure` [Pa], `inlet_<name>_opening` [m], with leak-off `leak_off_volume` [m^2]
+/// at zero pressure, since the start, and `leak_off_rate` [m^2/s], the mean of the last window; for
+/// the ledger `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
+/// `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
+/// `crack_fluid_work`, `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on
+/// the body's points: in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`,
+/// `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg/m]. With inlets from free fluid, on their
+/// mouths: in `mouth_pressure` [Pa], `mouth_stiffness` [Pa m/kg]; out `mouth_intake` [kg/m]; for
+/// the ledger `mass_taken_by_cracks` (negative) [kg/m]. In 3D without the /m of totals, and m^3 for
+/// m^2; `wetted_area` and `dry_area` [m^2] in place of the two lengths, and no `crack_flow_rate`.
 template <int D>
-class CrackNetwork final : public PhysicsModule {
+class CrackFluid final : public PhysicsModule {
  public:
   /// `leak_off` and `outlets` may be null; without these a crack that grows to a face stays closed.
-  CrackNetwork(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid, CrackInlets inlets,
-               std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off,
-               std::unique_ptr<CrackOutlets<D>> outlets = nullptr);
+  CrackFluid(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid,
+             std::unique_ptr<CrackFlow> flow, CrackInlets inlets,
+             std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off,
+             std::unique_ptr<CrackOutlets<D>> outlets = nullptr);
 
   std::span<const Port> ports() const override { return ports_.list(); }
   PortView port(PortId id) override;
@@ -74,19 +76,19 @@ class CrackNetwork final : public PhysicsModule {
   void make_energy_ports();
   void match_facets();
   void fill_at_start(const TimeWindow& window);
-  std::vector<double> filled_from_neighbours() const;
   bool step(const TimeWindow& time, const TimeWindow& window);
   void book(const Eigen::VectorXd& v);
-  LubricationStep at_rest(const TimeWindow& window) const;
+  void rest(const TimeWindow& window);
   std::vector<double> flow_rate();
   CrackExtent extent() const {
-    return crack_extent(lubrication_.graph(), liquid_, facets_.unknown, facets_.aperture);
+    return crack_extent(flow_->graph(), liquid_, facets_.unknown, facets_.aperture);
   }
   double stored_mass() const;
   double leak_off_volume() const { return -books_.leaked.value() / liquid_.density; }  ///< [m^2]
 
   std::shared_ptr<const Body<D>> body_;
   CrackLiquid liquid_;
+  std::unique_ptr<CrackFlow> flow_;
   CrackInlets inlets_;
   CrackMouths mouths_;
   std::vector<CrackFilling<D>> fillings_;
@@ -98,7 +100,6 @@ class CrackNetwork final : public PhysicsModule {
   std::int64_t iterations_ = 0;  ///< likewise
 
   std::uint64_t version_ = 0;  ///< of the facets that the graph is made of
-  Lubrication lubrication_;
   FacetFluid facets_;
   FaceWork face_work_;
   std::int64_t has_begun_ = 0;  ///< state: what holds fluid at the start has been filled
