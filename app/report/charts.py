@@ -9,6 +9,7 @@ import numpy as np
 
 from history import Column
 from quantities import Display, display_for, sentence, words
+from reference_words import against, curve_word
 from run import Run
 
 
@@ -43,6 +44,7 @@ class Chart:
     log_x: bool = False
     log_y: bool = False
     groups: list[str] = field(default_factory=list)
+    reference: str = "exact"  # what the curves that markers lie over are called
 
     @property
     def ordered(self) -> bool:
@@ -85,11 +87,11 @@ def start_of_change(chart: Chart) -> float:
     return min(moved, default=0.0)
 
 
-def comparison(label: str, x: np.ndarray, entry: dict[str, Any], group: int) -> list[Series]:
-    """The exact curve first, so that the computed markers lie over it."""
+def comparison(label: str, x: np.ndarray, entry: dict[str, Any], group: int, word: str) -> list[Series]:
+    """The curve of the reference first, so that the computed markers lie over it."""
     computed, exact = array(entry["computed"]), array(entry["exact"])
     return [
-        Series(f"{label}, exact", x, exact, group),
+        Series(f"{label}, {word}", x, exact, group),
         Series(f"{label}, computed", x, computed, group, markers=True),
     ]
 
@@ -101,18 +103,20 @@ def reference_history_charts(reference: dict[str, Any]) -> list[Chart]:
         name, place = place_of(entry["name"])
         gathered.setdefault((name, entry.get("unit", "")), []).append((place, entry))
     charts = []
+    word = curve_word(reference)
     for (name, unit), entries in gathered.items():
-        series = [s for i, (place, e) in enumerate(entries) for s in comparison(place, array(e["time"]), e, i)]
+        series = [s for i, (place, e) in enumerate(entries) for s in comparison(place, array(e["time"]), e, i, word)]
         time = np.concatenate([s.x for s in series])
         charts.append(
             Chart(
-                f"{sentence(words(name))}: computed and exact",
+                f"{sentence(words(name))}: computed and {word}",
                 axis("time", "s", [time]),
                 axis(name, unit, [s.y for s in series]),
                 series,
                 "comparison",
                 log_x=spans_decades(time),
                 groups=[place for place, _ in entries],
+                reference=word,
             )
         )
     return charts
@@ -120,13 +124,14 @@ def reference_history_charts(reference: dict[str, Any]) -> list[Chart]:
 
 def profile_charts(reference: dict[str, Any]) -> list[Chart]:
     charts = []
+    word = curve_word(reference)
     for profile in reference.get("profiles", []):
         times = array(profile["times"])
         shown = [time_label(t) for t in times]
         series: list[Series] = []
         for i, label in enumerate(shown):
             rows = {key: profile[key][i] for key in ("computed", "exact")}
-            series += comparison(label, array(profile["x"][i]), rows, i)
+            series += comparison(label, array(profile["x"][i]), rows, i, word)
         name, _, path = profile["name"].partition(" along ")
         charts.append(
             Chart(
@@ -136,6 +141,7 @@ def profile_charts(reference: dict[str, Any]) -> list[Chart]:
                 series,
                 "profile",
                 groups=shown,
+                reference=word,
             )
         )
     return charts
@@ -163,7 +169,7 @@ def error_charts(reference: dict[str, Any]) -> list[Chart]:
         return []
     return [
         Chart(
-            "Error against the exact solution",
+            f"Error against {against(reference)}",
             axis("time", "s", [s.x for s in series]),
             Axis("relative error", Display(1.0, "")),
             series,
@@ -181,10 +187,17 @@ def shared_words(columns: list[Column]) -> str:
     return " ".join(word for word in first if all(word in other for other in others))
 
 
+# What columns are together that have but their unit in common.
+OF_UNIT = {"m": "lengths", "m^2": "areas", "Pa": "pressures and stresses", "J": "energies", "J/m": "energies",
+           "kg": "masses", "kg/m": "masses", "N": "forces", "N/m": "forces", "m/s": "velocities"}  # fmt: skip
+
+
 def history_title(columns: list[Column]) -> str:
     """The quantity that all `columns` are of, else all their names, or what many have in common."""
     quantities = list(dict.fromkeys(place_of(c.name)[0] for c in columns))
-    return words(", ".join(quantities)) if len(quantities) <= 3 else shared_words(columns) or "several quantities"
+    if len(quantities) <= 3:
+        return words(", ".join(quantities))
+    return shared_words(columns) or OF_UNIT.get(columns[0].unit, "several quantities")
 
 
 def history_charts(run: Run) -> list[Chart]:

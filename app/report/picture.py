@@ -91,7 +91,7 @@ def draw_legend(axes: Axes, chart: Chart, palette: list) -> None:
     handles = [Line2D([], [], color=c, linewidth=2, label=g) for c, g in zip(palette, chart.groups)]
     if chart.kind in ("comparison", "profile"):
         handles += [
-            Line2D([], [], color=FAINT, linewidth=1.4, label="exact"),
+            Line2D([], [], color=FAINT, linewidth=1.4, label=chart.reference),
             Line2D([], [], color=FAINT, linestyle="none", marker="o", markersize=4, markerfacecolor="white",
                    label="computed"),  # fmt: skip
         ]
