@@ -50,12 +50,14 @@ class FieldMap {
   drawLayer(layer) {
     const { frame } = this;
     const ratio = devicePixelRatio || 1;
-    const snapped = (along) => Math.round(along * ratio) / ratio;  // no seams between squares
+    const lower = (along) => Math.floor(along * ratio + 0.02) / ratio;  // squares overlap by a pixel: no seams
+    const upper = (along) => Math.ceil(along * ratio - 0.02) / ratio;
     for (let i = 0; i < layer.count; ++i) {
       if (!this.inSlice(layer, i)) continue;
       const [x, y] = this.at(layer, i);
       const half = layer.points.edge[i] / 2;
-      const [left, right, top, bottom] = [frame.column(x - half), frame.column(x + half), frame.row(y + half), frame.row(y - half)].map(snapped);
+      const left = lower(frame.column(x - half)), right = upper(frame.column(x + half));
+      const top = lower(frame.row(y + half)), bottom = upper(frame.row(y - half));
       frame.context.fillStyle = this.colour(layer.values[i]);
       frame.context.fillRect(left, top, Math.max(right - left, 1.5), Math.max(bottom - top, 1.5));
       this.cells.push({ layer, i, x, y, half });

@@ -58,8 +58,12 @@ def chart_sections(charts: list[Chart], reference: dict[str, Any], shown: list[i
     def figures(*kinds: str) -> list[str]:
         return [figure(i) for i, chart in enumerate(charts) if chart.kind in kinds and i not in shown]
 
-    compared = tables.section("comparison", f"Computed and {curve_word(reference)}", *figures("comparison", "profile", "error"))
-    return compared + tables.section("histories", "Histories", *figures("history"))
+    def grid(kinds: tuple[str, ...]) -> str:
+        found = "".join(figures(*kinds))
+        return f'<div class="charts">{found}</div>' if found else ""
+
+    compared = tables.section("comparison", f"Computed and {curve_word(reference)}", grid(("comparison", "profile", "error")))
+    return compared + tables.section("histories", "Histories", grid(("history",)))
 
 
 def fields_fragment() -> str:
