@@ -70,6 +70,22 @@ def spans_decades(times: np.ndarray) -> bool:
     return bool(np.quantile(steps, 0.9) > 3 * steps[0])
 
 
+def telling_range(chart: Chart) -> tuple[float, float] | None:
+    """Of the axis, as displayed, where a reference leaves what is computed far behind, as pressure at time 0 does."""
+    if chart.kind != "comparison":
+        return None
+    computed, others = (np.concatenate([s.y[np.isfinite(s.y)] for s in chart.series if s.markers == marked] or [np.empty(0)])
+                        for marked in (True, False))  # fmt: skip
+    if not computed.size or not others.size:
+        return None
+    low, high = float(computed.min()), float(computed.max())
+    span = high - low or abs(high)
+    if others.max() <= high + 2 * span and others.min() >= low - 2 * span:
+        return None
+    ends = max(float(others.min()), low - 0.3 * span), min(float(others.max()), high + 0.3 * span)
+    return min(low, ends[0]) * chart.y.display.factor, max(high, ends[1]) * chart.y.display.factor
+
+
 def place_of(name: str) -> tuple[str, str]:
     """`QUANTITY at PLACE` taken apart; a name without a place stands for itself."""
     quantity, _, place = name.partition(" at ")
@@ -111,7 +127,7 @@ def reference_history_charts(reference: dict[str, Any]) -> list[Chart]:
             Chart(
                 f"{sentence(words(name))}: computed and {word}",
                 axis("time", "s", [time]),
-                axis(name, unit, [s.y for s in series]),
+                axis(name, unit, [s.y for s in series if s.markers]),
                 series,
                 "comparison",
                 log_x=spans_decades(time),

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from charts import Axis, Chart, Series, start_of_change
+from charts import Axis, Chart, Series, start_of_change, telling_range
 
 MOST_POINTS = 1200  # of a curve; the widest chart has as many pixels
 DIGITS = 6
@@ -42,6 +42,7 @@ def series_data(series: Series) -> dict[str, Any]:
 
 
 def chart_data(chart: Chart) -> dict[str, Any]:
+    reach = telling_range(chart)
     return {
         "title": chart.title,
         "kind": chart.kind,
@@ -53,6 +54,7 @@ def chart_data(chart: Chart) -> dict[str, Any]:
         "ordered": chart.ordered,
         "groups": len(chart.groups),
         "series": [series_data(s) for s in chart.series],
+        **({"yRange": reach} if reach else {}),
     }
 
 

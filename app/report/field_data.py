@@ -256,19 +256,28 @@ def all_times(found: list[SetFiles]) -> list[float]:
     return sorted({time for one in found for _, time in one.files})
 
 
+def expected_size(found: list[SetFiles], times: list[float], cells: int) -> tuple[int, int]:
+    """Bytes of a page with the last frame alone, and what a further one takes: most frames share their points."""
+    sizes = []
+    for chosen in ([len(times) - 1], sorted({len(times) // 2, len(times) - 1})):
+        trial = Chunks()
+        sizes.append(page_size(build(found, times, chosen, cells, trial), trial))
+    return sizes[0], sizes[1] - sizes[0]
+
+
 def fields_data(folder: Path, budget: int) -> tuple[dict[str, Any] | None, Chunks]:
     """As much of a run's frames as `budget` bytes of a page hold: points are put together and frames left out."""
     found = found_sets(folder)
     if not found:
         return None, Chunks()
     times = all_times(found)
-    sizes: dict[int, int] = {}
+    sizes: dict[int, tuple[int, int]] = {}
     for cells, most in RUNGS:
         chosen = evenly(len(times), most)
-        if cells not in sizes:  # the last frame, less what frames share, tells what all will take
-            trial = Chunks()
-            sizes[cells] = page_size(build(found, times, [len(times) - 1], cells, trial), trial)
-        if sizes[cells] * len(chosen) > 1.25 * budget and (cells, most) != RUNGS[-1]:
+        if cells not in sizes:
+            sizes[cells] = expected_size(found, times, cells)
+        one, further = sizes[cells]
+        if one + further * (len(chosen) - 1) > 1.2 * budget and (cells, most) != RUNGS[-1]:
             continue
         chunks = Chunks()
         data = build(found, times, chosen, cells, chunks)

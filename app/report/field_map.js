@@ -55,7 +55,7 @@ class FieldMap {
     for (let i = 0; i < layer.count; ++i) {
       if (!this.inSlice(layer, i)) continue;
       const [x, y] = this.at(layer, i);
-      const half = layer.points.edge[i] / 2;
+      const half = (layer.points.edge[i] / 2) * (layer.set.velocity.length ? 1.15 : 1);  // what flows has no gaps
       const left = lower(frame.column(x - half)), right = upper(frame.column(x + half));
       const top = lower(frame.row(y + half)), bottom = upper(frame.row(y - half));
       frame.context.fillStyle = this.colour(layer.values[i]);

@@ -75,7 +75,10 @@ class FieldsView {
       this.fill("field", this.view.fields.map((field) => field.label));
       this.box = await this.frames.box(this.view);
       this.flat = this.frames.flatAxis(this.view);
-      if (!this.normalChosen) this.part("normal").value = String(this.naturalNormal());
+      if (!this.normalChosen) {
+        this.part("normal").value = String(this.naturalNormal());
+        this.part("cut").value = String(await this.naturalCut());
+      }
       const sets = this.viewSets;
       this.reveal("arrows", sets.some((set) => set.velocity.length));
       this.reveal("crosses", sets.some((set) => set.stress));
@@ -97,6 +100,16 @@ class FieldsView {
     return edges[1] <= 1.001 * least ? 1 : edges.indexOf(least);
   }
 
+  // Through the middle of the cracks where there are any, else through that of the body: a share of 100.
+  async naturalCut() {
+    const normal = Number(this.part("normal").value);
+    const crack = this.data.sets.find((set) => set.kind === "crack" && set.frames.at(-1));
+    if (!this.is3d || !crack || this.view.sets.includes(crack.name)) return 50;
+    const along = this.frames.pointsFrame(crack, crack.frames.length - 1).points[AXES[normal]];
+    const middle = along.low + along.step * 32767;
+    return Math.round((100 * (middle - this.box.low[normal])) / (this.box.high[normal] - this.box.low[normal]));
+  }
+
   // What is drawn: axes, slice, colours and switches, as FieldMap and SolidView want them.
   how(scene) {
     const { field, box } = this;
@@ -107,7 +120,8 @@ class FieldsView {
     const cut = normal >= 0 ? this.onLayer(scene, normal, box.low[normal] + share * (box.high[normal] - box.low[normal])) : 0;
     let range = { low: field.shown[0], high: field.shown[1] };
     if (this.checked("rescale")) range = rangeOf(...scene.layers.map((layer) => layer.values));
-    const both = range.low < 0 && range.high > 0 && Math.min(-range.low, range.high) > 0.1 * Math.max(-range.low, range.high);
+    const signed = /stress|displacement|velocity/.test(field.name);
+    const both = signed && range.low < 0 && range.high > 0 && Math.min(-range.low, range.high) > 0.1 * Math.max(-range.low, range.high);
     if (both) { const end = Math.max(-range.low, range.high); range = { low: -end, high: end }; }
     const openings = this.data.views.flatMap((view) => view.fields).find((one) => one.name.includes("opening"));
     return {

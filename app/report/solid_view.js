@@ -214,7 +214,13 @@ class SolidView {
       const beyond = [q[0] + 0.06 * (q[0] - p[0]), q[1] + 0.06 * (q[1] - p[1])];
       const text = `${name} ${shortNumber(high[a] * how.length.factor)} ${how.length.unit}`;
       const wide = context.measureText(text).width;
-      context.fillText(text, Math.min(Math.max(beyond[0] - wide / 2, 2), width - wide - 2), Math.min(Math.max(beyond[1] + 4, 12), height - 4));
+      const at = [Math.min(Math.max(beyond[0] - wide / 2, 2), width - wide - 2), Math.min(Math.max(beyond[1] + 4, 12), height - 4)];
+      context.lineWidth = 4;
+      context.strokeStyle = styleValue("--panel");
+      context.strokeText(text, ...at);
+      context.fillText(text, ...at);
+      context.lineWidth = 1;
+      context.strokeStyle = styleValue("--faint");
     });
   }
 
