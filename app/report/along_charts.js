@@ -16,7 +16,7 @@ class AlongCharts {
 
   reach(set) {
     const ends = set.frames.filter((frame) => frame && frame.paths)
-      .map(({ paths: { along } }) => [along.low, along.low + along.step * (along.bytes === 2 ? 65534 : 254)]);
+      .map(({ paths: { along } }) => [along.low, along.low + along.step * along.top]);
     return [Math.min(...ends.map((end) => end[0])), Math.max(...ends.map((end) => end[1]))];
   }
 

@@ -47,6 +47,7 @@ function chartSeries(chart, series, colours) {
     class: compared ? "computed" : "curve",
     stroke: colour,
     width: 1.8,
+    dash: series.dashed ? [7, 4] : undefined,
     spanGaps: true,
     paths: compared ? () => null : undefined,
     points: {

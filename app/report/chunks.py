@@ -1,7 +1,7 @@
 """Numbers as the page holds them: quantised between their ends, differences packed. For looking at, not for computing.
 
-A chunk is told by `{"key", "count", "low", "step", "bytes"}`: value = low + step * code, in codes of 1 or 2 bytes of
-which the largest stands for "not there". Codes are written as differences from the one before, low bytes of all first,
+A chunk is told by `{"key", "count", "low", "step", "top", "bytes"}`: value = low + step * code, with codes up to `top`
+in 1 or 2 bytes, of which the largest stands for "not there". Codes are written as differences from the one before, low bytes of all first,
 then high bytes, by zlib: what varies smoothly along the points packs well.
 """
 
@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 FEW = 3000  # so many values may always have two bytes
+MOST_LEVELS = 65_534
 LEVELS = 120  # the middle nine tenths of a field are shown in at least so many steps
 
 
@@ -34,26 +35,30 @@ class Chunks:
         return {"key": self.places[packed], **described}
 
 
-def needs_two_bytes(values: np.ndarray, low: float, high: float) -> bool:
-    """Few values, or most of them within a small part of the range, as stress away from the tip of a crack."""
-    if values.size <= FEW or high <= low:
-        return values.size <= FEW
+def levels_for(values: np.ndarray, low: float, high: float) -> int:
+    """Steps between the ends: more where most values lie within a small part of the range, as stress off a tip does."""
+    if high <= low:
+        return 0
+    if values.size <= FEW:
+        return MOST_LEVELS
     ends = np.quantile(values[:: max(values.size // 4000, 1)], [0.05, 0.95])
-    return bool((ends[1] - ends[0]) * 254 < LEVELS * (high - low))
+    wanted = LEVELS * (high - low) / max(ends[1] - ends[0], (high - low) * LEVELS / MOST_LEVELS)
+    return int(min(max(wanted, 254), MOST_LEVELS))
 
 
 def pack(values: np.ndarray, fine: bool = False) -> tuple[dict[str, Any], bytes]:
     values = np.asarray(values, dtype=float).ravel()
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
-    size = 2 if fine or needs_two_bytes(known, low, high) else 1
+    top = MOST_LEVELS if fine and high > low else levels_for(known, low, high)
+    size = 1 if top <= 254 else 2
     absent = 256**size - 1
-    step = (high - low) / (absent - 1) if high > low else 0.0
+    step = (high - low) / top if top else 0.0
     codes = np.full(values.size, absent, dtype=np.int64)
     codes[np.isfinite(values)] = np.rint((known - low) / step) if step else 0
     differences = np.diff(codes, prepend=0) % 256**size
     planes = [(differences >> (8 * plane)).astype(np.uint8).tobytes() for plane in range(size)]
-    described = {"count": int(values.size), "low": low, "step": step, "bytes": size}
+    described = {"count": int(values.size), "low": low, "step": step, "top": top, "bytes": size}
     return described, zlib.compress(b"".join(planes), 9)
 
 

@@ -106,7 +106,7 @@ def cross_places(points: Points, dimension: int) -> list[int]:
     cell = cross_gap(points, dimension)
     where = (at - at.min(axis=0)) / cell + 0.5 * float(np.median(points.edges)) / cell
     off = np.linalg.norm(where - np.floor(where) - 0.5, axis=1)
-    order = np.argsort(off.round(6), kind="stable")  # of equals always the same corner
+    order = np.argsort(off.round(3), kind="stable")  # of equals always the same corner
     _, first = np.unique(np.floor(where[order]).astype(int), axis=0, return_index=True)
     return sorted(int(i) for i in order[first])
 

@@ -97,12 +97,12 @@ class FieldFrames {
       for (const frame of this.sets.get(name).frames) {
         if (!frame || !frame.points) continue;
         const edge = frame.points.edge;
-        const half = 0.5 * (edge.low + edge.step * (edge.bytes === 2 ? 65534 : 254));
+        const half = 0.5 * (edge.low + edge.step * edge.top);
         this.axes.forEach((axis, a) => {
           const along = frame.points[axis];
           if (!along.count) return;
           box.low[a] = Math.min(box.low[a], along.low - half);
-          box.high[a] = Math.max(box.high[a], along.low + along.step * 65534 + half);
+          box.high[a] = Math.max(box.high[a], along.low + along.step * along.top + half);
         });
       }
     }
@@ -114,7 +114,7 @@ class FieldFrames {
   flatAxis(view) {
     if (this.axes.length < 3) return -1;
     return this.axes.findIndex((axis) => view.sets.every((name) => this.sets.get(name).frames.every(
-      (frame) => !frame || !frame.points || frame.points[axis].step * 65534 <= 1e-9 * Math.abs(frame.points.edge.low))));
+      (frame) => !frame || !frame.points || frame.points[axis].step * frame.points[axis].top <= 1e-9 * Math.abs(frame.points.edge.low))));
   }
 }
 

@@ -9,6 +9,7 @@ class FieldsView {
   // `root` holds what fields.html has. `onTime(time)` is called as the time shown changes.
   constructor(root, data, store, palettes, onTime) {
     Object.assign(this, { root, palettes, onTime, data });
+    root.view = this;  // for whoever looks into the page, as tests do
     this.frames = new FieldFrames(data, store);
     this.map = new FieldMap(this.part("map"));
     this.along = new AlongCharts(this.part("along"), this.frames, palettes.sequential);
@@ -18,6 +19,7 @@ class FieldsView {
     this.fill("normal", AXES.map((axis) => axis));
     for (const name of ["view", "normal"]) this.part(name).addEventListener("change", () => this.choose(name));
     for (const name of ["field", "rescale", "arrows", "crosses", "cracks", "open"]) this.part(name).addEventListener("change", () => this.show());
+    this.part("field").addEventListener("change", () => this.peer?.follow(this.field.label));
     for (const name of ["time", "magnify", "cut"]) this.part(name).addEventListener("input", () => this.show());
     this.part("play").addEventListener("click", () => this.play(!this.timer));
     this.part("map").addEventListener("pointermove", (event) => this.read(event));
@@ -106,7 +108,7 @@ class FieldsView {
     const crack = this.data.sets.find((set) => set.kind === "crack" && set.frames.at(-1));
     if (!this.is3d || !crack || this.view.sets.includes(crack.name)) return 50;
     const along = this.frames.pointsFrame(crack, crack.frames.length - 1).points[AXES[normal]];
-    const middle = along.low + along.step * 32767;
+    const middle = along.low + 0.5 * along.step * along.top;
     return Math.round((100 * (middle - this.box.low[normal])) / (this.box.high[normal] - this.box.low[normal]));
   }
 
@@ -118,7 +120,8 @@ class FieldsView {
     const [across, up] = [0, 1, 2].filter((axis) => axis !== (normal < 0 ? 2 : normal));
     const share = (Number(this.part("cut").value) + 0.01) / 100.02;
     const cut = normal >= 0 ? this.onLayer(scene, normal, box.low[normal] + share * (box.high[normal] - box.low[normal])) : 0;
-    let range = { low: field.shown[0], high: field.shown[1] };
+    const ofBoth = [field, this.peer?.view.fields.find((one) => one.name === field.name)].filter(Boolean);  // on one scale
+    let range = { low: Math.min(...ofBoth.map((one) => one.shown[0])), high: Math.max(...ofBoth.map((one) => one.shown[1])) };
     if (this.checked("rescale")) range = rangeOf(...scene.layers.map((layer) => layer.values));
     const signed = /stress|displacement|velocity/.test(field.name);
     const both = signed && range.low < 0 && range.high > 0 && Math.min(-range.low, range.high) > 0.1 * Math.max(-range.low, range.high);
@@ -237,6 +240,14 @@ class FieldsView {
   goTo(place, led = false) {
     this.part("time").value = String(place);
     return this.show(led);
+  }
+
+  // Shows beside another run what that shows: the same field, on the same scale.
+  follow(label) {
+    const place = this.view.fields.findIndex((field) => field.label === label);
+    if (place < 0) return;
+    this.part("field").value = String(place);
+    this.show(true);
   }
 
   // The frame nearest to a time [s], as another run shows it.

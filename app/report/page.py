@@ -95,6 +95,7 @@ def page_parts(run: Run) -> dict[str, str]:
     data = page_data(charts, [run])
     return {
         "title": escape(run.title),
+        "width": "",
         "header": header(run),
         "failure": tables.section("failure", "Why it failed", tables.failure(run)),
         "fields": fields_section(bool(data["runs"][0]["fields"]), shown),
@@ -125,6 +126,10 @@ def file_parts(last_script: str) -> dict[str, str]:
     }  # fmt: skip
 
 
-def write_page(run: Run, path: Path) -> None:
+def write_parts(parts: dict[str, str], path: Path) -> None:
     template = Template((HERE / "report.html").read_text(encoding="utf-8"))
-    path.write_text(template.substitute(page_parts(run) | file_parts("report.js")), encoding="utf-8")
+    path.write_text(template.substitute(parts | file_parts("report.js")), encoding="utf-8")
+
+
+def write_page(run: Run, path: Path) -> None:
+    write_parts(page_parts(run), path)

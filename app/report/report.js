@@ -15,12 +15,15 @@ addEventListener("resize", () => {
 });
 
 // One run, or two side by side whose times go together.
-const views = embedded.runs.map((run, place) => {
+const roots = [...document.querySelectorAll("[data-fields]")];
+const views = embedded.runs.map((run) => {
   if (!run.fields) return null;
   const store = new ChunkStore((key) => fromBase64(run.chunks[key]));
-  const root = document.querySelectorAll("[data-fields]")[place];
+  const root = roots.shift();
   return new FieldsView(root, run.fields, store, embedded.palettes, (time, view) => onTime(time, view));
 });
+
+if (views.length === 2 && views[0] && views[1]) [views[0].peer, views[1].peer] = [views[1], views[0]];
 
 function onTime(time, from) {
   charts.forEach((chart) => chart.mark(time));

@@ -41,6 +41,7 @@ class WatchPage {
       await this.take(await askJson("/state"));
     } catch (error) {
       this.lost(error);
+      if (error.refused || !this.goesOn) return;  // nothing more will come
     }
     setTimeout(() => this.look(), document.hidden ? 4000 : 1000);
   }
@@ -119,11 +120,13 @@ class WatchPage {
     }
   }
 
+  get goesOn() { return !this.state || ["running", "waiting"].includes(this.state.outcome); }
+
   lost(error) {
     byId("outcome").textContent = error.refused ? "not allowed" : "no more news";
     byId("answer").textContent = error.refused ? error.message
-      : this.state && !["running", "waiting"].includes(this.state.outcome) ? "" : "The server has ended, with the run that it belonged to or by itself.";
-    if (this.state && !error.refused && this.state.outcome !== "running") byId("outcome").textContent = STATES[this.state.outcome] || this.state.outcome;
+      : !this.goesOn ? "" : "The server has ended, with the run that it belonged to or by itself.";
+    if (!error.refused && !this.goesOn) byId("outcome").textContent = STATES[this.state.outcome] || this.state.outcome;
     for (const button of document.querySelectorAll("[data-wish]")) button.disabled = true;
     if (!(error instanceof TypeError) && !error.refused) console.error(error);
   }
