@@ -257,11 +257,9 @@ class Guarded(WatchTest):
 
 class Refused(WatchTest):
     def test_no_folder_and_no_port(self) -> None:
-        for words, said in (((self.scratch / "none",), "no such folder"), ((self.folder, "--port", "1" * 3), "")):
-            done = subprocess.run([sys.executable, WATCH, *words], capture_output=True, text=True, timeout=PATIENCE) if said else None
-            if done:
-                self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
-                self.assertIn(said, done.stderr)
+        done = subprocess.run([sys.executable, WATCH, self.scratch / "none"], capture_output=True, text=True, timeout=PATIENCE)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+        self.assertIn("no such folder", done.stderr)
         taken = self.serve()
         done = subprocess.run([sys.executable, WATCH, self.folder, "--port", str(taken.port)], capture_output=True, text=True, timeout=PATIENCE)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
@@ -290,10 +288,7 @@ class InTheBrowser(BrowserTest):
         self.assertGreater(self.colours("map"), 20)
         for width in (390, 1400):
             self.open(server.url, width=width, dark=width == 390)
-            self.until("document.querySelector('[data-fields]').dataset.shown")
-            self.assertLessEqual(self.too_wide(), 0)
-        shutil.copytree(scratch / "frames", scratch / "new")
-        shutil.rmtree(scratch / "new")
+            self.until("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
         fractured_run.write_frames(scratch / "new" / "frames", 2, 20, 5e-4, [0.0, 0.5, 1.0])
         for path in sorted((scratch / "new" / "frames").iterdir()):  # lists last, as a run writes them
             path.replace(scratch / "frames" / path.name)
