@@ -19,6 +19,7 @@ import h5py
 import matplotlib.image
 import numpy as np
 
+import fractured_run
 import mandel_run
 import puddle_run
 
@@ -29,6 +30,8 @@ import charts  # noqa: E402
 import chunks  # noqa: E402
 import page  # noqa: E402
 import quantities  # noqa: E402
+from crack_paths import crack_paths  # noqa: E402
+from run import read_run  # noqa: E402
 
 
 def report(folder: Path) -> subprocess.CompletedProcess:
@@ -313,6 +316,61 @@ class BrokenRuns(ReportTest):
         for words in ("Why it failed", "a & b in pressure at point 3", "shorter windows", "one pass <may> not hold"):
             self.assertIn(words, page.text)
         self.assertEqual(page.sections, ["failure", "warnings"])
+
+
+class Sizes(ReportTest):
+    """However much a run leaves, its page opens at once."""
+
+    def size(self, dimension: int, count: int, frames: int) -> tuple[int, Page]:
+        times = list(np.linspace(0.0, 1.0, frames))
+        fractured_run.write_run(self.folder, dimension, count, 1e-2 / count, times)
+        page.write_page(read_run(self.folder), self.folder / "report.html")
+        return (self.folder / "report.html").stat().st_size, Page(self.folder / "report.html")
+
+    def test_a_specimen_of_thirty_thousand_points(self) -> None:
+        size, shown = self.size(2, 173, 21)
+        self.assertLessEqual(size, page.LARGEST_PAGE)
+        self.assertEqual(len(shown.fields["times"]), 21)
+        self.assertEqual(shown.sets["body"]["note"], "", "every point is shown")
+
+    def test_a_block_that_must_be_coarsened(self) -> None:
+        size, shown = self.size(3, 40, 12)
+        self.assertLessEqual(size, page.LARGEST_PAGE)
+        self.assertIn("means of up to 8 points", shown.sets["body"]["note"])
+        damage = shown.numbers(shown.sets["body"]["frames"][-1]["values"]["damage"])
+        self.assertTrue(((damage > 0.05) & (damage < 0.95)).any(), "means")
+        self.assertEqual(damage.size, 20**3)
+
+
+class Packed(unittest.TestCase):
+    def test_what_is_packed_comes_back(self) -> None:
+        random = np.random.default_rng(1)
+        for values in (random.normal(size=5000), np.array([]), np.full(9, 3.5), np.array([np.nan, 1.0, np.inf, 2.0]),
+                       np.concatenate([random.normal(size=9000), [1e6, -1e6]])):  # fmt: skip
+            told, packed = chunks.pack(values)
+            known = np.isfinite(values)
+            back = chunks.unpack(told, packed)
+            self.assertTrue(np.all(np.isnan(back[~known])))
+            np.testing.assert_allclose(back[known], values[known], rtol=0, atol=0.501 * told["step"])
+
+    def test_a_peak_does_not_take_all_steps(self) -> None:
+        values = np.concatenate([np.linspace(0.0, 1.0, 9000), [100.0]])
+        self.assertLess(chunks.pack(values)[0]["step"], 1.0 / 100)
+
+
+class Paths(unittest.TestCase):
+    def test_a_crack_with_two_wings_and_a_branch(self) -> None:
+        wings = [[x, 0.0] for x in (0, 1, -1, 2, -2, 3)] + [[2.0, y] for y in (1.0, 2.0, 3.0)]
+        paths = crack_paths(np.array(wings))
+        np.testing.assert_array_equal(paths.along[:5], [0, 1, -1, 2, -2])
+        self.assertEqual(len(set(paths.branch)), 2)
+        self.assertEqual(len(paths.joined), 1)
+
+    def test_two_cracks(self) -> None:
+        points = np.array([[x, y] for y in (0.0, 50.0) for x in range(5)], dtype=float)
+        paths = crack_paths(points)
+        np.testing.assert_array_equal(paths.branch, [0] * 5 + [1] * 5)
+        np.testing.assert_array_equal(paths.along, [0, 1, 2, 3, 4] * 2)
 
 
 class Refused(ReportTest):
