@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install configure perifrac build run test test-slow check-style tidy docs site tutorials scenes paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
+.PHONY: help install install-browser configure perifrac build run test test-slow check-style tidy docs site tutorials scenes paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -38,6 +38,10 @@ help:
 install:
 	@tools/install
 
+# Report and watch pages are tested in Chromium: 423 MB that running does without.
+install-browser:
+	@tools/install browser
+
 configure: install
 	@cmake --preset release --log-level=WARNING > /dev/null
 
@@ -50,7 +54,7 @@ build: configure
 run: perifrac
 	@$(PERIFRAC) run $(SCENE)
 
-test: build check-style
+test: install-browser build check-style
 	ctest --preset release --label-exclude slow
 
 test-slow: build

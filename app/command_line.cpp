@@ -10,6 +10,7 @@
 
 #include "app/list.hpp"
 #include "app/report/report.hpp"
+#include "app/report/watch.hpp"
 #include "app/run/check.hpp"
 #include "app/run/run.hpp"
 #include "app/run/version.hpp"
@@ -30,7 +31,8 @@ struct Request {
   RunRequest run;
   StudyRequest study;
   int threads = 0;
-  std::string folder;
+  std::vector<std::string> folders;
+  WatchRequest watch;
   bool page = false;
   double trial = 4.0;  ///< [s]
   std::string key, kind, new_scene;
@@ -67,6 +69,7 @@ void add_run_options(CLI::App& verb, Request& request) {
   verb.add_flag("--profile", request.run.profile,
                 "say what time and memory every part of the run took");
   verb.add_flag("!--no-report", request.run.report, "make no picture and no page");
+  verb.add_flag("--watch", request.run.watch, "serve a page on this machine to watch the run on");
 }
 
 void add_check_options(CLI::App& verb, Request& request) {
@@ -96,6 +99,20 @@ void add_study_options(CLI::App& verb, StudyRequest& study) {
   verb.add_flag("--json", study.json, "machine-readable output");
 }
 
+void add_report_options(CLI::App& verb, std::vector<std::string>& folders) {
+  verb.add_option("folder", folders, "folder of a run; of two, a page with both side by side")
+      ->required()
+      ->expected(1, 2)
+      ->type_name("DIR");
+}
+
+void add_watch_options(CLI::App& verb, WatchRequest& watch) {
+  verb.add_option("folder", watch.folder, "folder of a run")->required()->type_name("DIR");
+  verb.add_option("--port", watch.port, "of 127.0.0.1; 0: one that is free")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535));
+}
+
 /// Of verbs that help to write a scene.
 void add_writing_verbs(CLI::App& app, Request& request) {
   CLI::App& fresh = *app.add_subcommand("new", "write a commented scene to begin with");
@@ -117,7 +134,8 @@ int dispatch(const CLI::App& app, const Request& request) {
                         .trial_seconds = request.trial});
   }
   if (app.got_subcommand("study")) return run_study(request.study);
-  if (app.got_subcommand("report")) return make_report(request.folder, false);
+  if (app.got_subcommand("report")) return make_report(request.folders, false);
+  if (app.got_subcommand("watch")) return watch(request.watch);
   if (app.got_subcommand("new")) return write_new_scene(request.kind, request.new_scene);
   if (app.got_subcommand("explain")) return explain(request.key);
   if (app.got_subcommand("schema")) return print_json_schema();
@@ -135,8 +153,9 @@ int parse_and_dispatch(int argc, char** argv) {
   add_study_options(
       *app.add_subcommand("study", "run the variants of a scene; what accuracy costs"),
       request.study);
-  CLI::App& report = *app.add_subcommand("report", "make the picture and the page of a run");
-  report.add_option("folder", request.folder, "folder of a run")->required()->type_name("DIR");
+  add_report_options(*app.add_subcommand("report", "make the picture and the page of a run"),
+                     request.folders);
+  add_watch_options(*app.add_subcommand("watch", "serve a page to watch a run on"), request.watch);
   CLI::App& list = *app.add_subcommand("list", "modules and keys");
   list.add_flag("--json", request.run.json, "machine-readable output");
   list.add_flag("--page", request.page, "the reference page, in Markdown");
@@ -149,8 +168,8 @@ int parse_and_dispatch(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     throw InputError(
-        "perifrac: a verb is missing; expected run, check, study, report, list, new, "
-        "explain or schema");
+        "perifrac: a verb is missing; expected run, check, study, report, watch, list, "
+        "new, explain or schema");
   }
   return dispatch(app, request);
 }

@@ -10,7 +10,7 @@ function seriesColour(chart, group, colours) {
   const dark = matchMedia("(prefers-color-scheme: dark)").matches;
   const [first, last] = dark ? [0.3, 1.0] : [0.05, 0.85];
   const at = first + ((last - first) * group) / Math.max(chart.groups - 1, 1);
-  return `rgb(${colours[Math.round(255 * at)].join(",")})`;
+  return colours[Math.round(255 * at)];
 }
 
 // Curves with their own places along x become one table, as uPlot wants it.
@@ -47,6 +47,7 @@ function chartSeries(chart, series, colours) {
     class: compared ? "computed" : "curve",
     stroke: colour,
     width: 1.8,
+    dash: series.dashed ? [7, 4] : undefined,
     spanGaps: true,
     paths: compared ? () => null : undefined,
     points: {
@@ -75,13 +76,31 @@ function chartAxis(axis, log, size) {
   };
 }
 
-function chartOptions(chart, colours, width, logX) {
+// A line at the time that the fields show.
+function drawMark(plot, time) {
+  const { min, max } = plot.scales.x;
+  if (time === undefined || time < min || time > max) return;
+  const { ctx, bbox } = plot;
+  const x = Math.round(plot.valToPos(time, "x", true));
+  ctx.save();
+  ctx.strokeStyle = styleValue("--focus");
+  ctx.lineWidth = 1.5 * (devicePixelRatio || 1);
+  ctx.setLineDash([5, 4].map((length) => length * (devicePixelRatio || 1)));
+  ctx.beginPath();
+  ctx.moveTo(x, bbox.top);
+  ctx.lineTo(x, bbox.top + bbox.height);
+  ctx.stroke();
+  ctx.restore();
+}
+
+function chartOptions(chart, colours, width, logX, mark) {
   return {
     width,
-    height: Math.max(280, Math.min(420, 0.5 * width)),
+    height: chart.height || Math.max(280, Math.min(420, 0.5 * width)),
+    hooks: { draw: [(plot) => drawMark(plot, mark())] },
     scales: {
-      x: { time: false, distr: logX ? 3 : 1 },
-      y: { distr: chart.logY ? 3 : 1 },
+      x: { time: false, distr: logX ? 3 : 1, ...(chart.xRange ? { range: () => chart.xRange } : {}) },
+      y: { distr: chart.logY ? 3 : 1, ...(chart.yRange ? { range: () => chart.yRange } : {}) },
     },
     axes: [chartAxis(chart.x, logX, 36), chartAxis(chart.y, chart.logY, 58)],
     series: [
@@ -160,9 +179,23 @@ class ChartView {
 
   draw() {
     if (this.plot) this.plot.destroy();
-    const width = this.holder.clientWidth;
-    const options = chartOptions(this.chart, this.colours, width, this.logX);
+    const width = Math.max(this.holder.clientWidth, 200);
+    const options = chartOptions(this.chart, this.colours, width, this.logX, () => this.time);
     this.plot = new uPlot(options, chartTable(this.chart, this.logX), this.area);
     makeLegendReachable(this.plot);
+  }
+
+  // Another state of the same curves, as of a run that goes on.
+  update(chart) {
+    this.chart = chart;
+    this.holder.querySelector("h3").textContent = chart.title;
+    this.draw();
+  }
+
+  // Shows `time` [s] as a line, where the chart is over time.
+  mark(time) {
+    if (this.chart.kind === "profile" || this.chart.kind === "along") return;
+    this.time = time * this.chart.x.factor;
+    this.plot.redraw(false);
   }
 }

@@ -9,6 +9,7 @@ import numpy as np
 
 from history import Column
 from quantities import Display, display_for, sentence, words
+from reference_words import against, curve_word
 from run import Run
 
 
@@ -43,6 +44,7 @@ class Chart:
     log_x: bool = False
     log_y: bool = False
     groups: list[str] = field(default_factory=list)
+    reference: str = "exact"  # what the curves that markers lie over are called
 
     @property
     def ordered(self) -> bool:
@@ -68,6 +70,22 @@ def spans_decades(times: np.ndarray) -> bool:
     return bool(np.quantile(steps, 0.9) > 3 * steps[0])
 
 
+def telling_range(chart: Chart) -> tuple[float, float] | None:
+    """Of the axis, as displayed, where a reference leaves what is computed far behind, as pressure at time 0 does."""
+    if chart.kind != "comparison":
+        return None
+    computed, others = (np.concatenate([s.y[np.isfinite(s.y)] for s in chart.series if s.markers == marked] or [np.empty(0)])
+                        for marked in (True, False))  # fmt: skip
+    if not computed.size or not others.size:
+        return None
+    low, high = float(computed.min()), float(computed.max())
+    span = high - low or abs(high)
+    if others.max() <= high + 2 * span and others.min() >= low - 2 * span:
+        return None
+    ends = max(float(others.min()), low - 0.3 * span), min(float(others.max()), high + 0.3 * span)
+    return min(low, ends[0]) * chart.y.display.factor, max(high, ends[1]) * chart.y.display.factor
+
+
 def place_of(name: str) -> tuple[str, str]:
     """`QUANTITY at PLACE` taken apart; a name without a place stands for itself."""
     quantity, _, place = name.partition(" at ")
@@ -85,11 +103,11 @@ def start_of_change(chart: Chart) -> float:
     return min(moved, default=0.0)
 
 
-def comparison(label: str, x: np.ndarray, entry: dict[str, Any], group: int) -> list[Series]:
-    """The exact curve first, so that the computed markers lie over it."""
+def comparison(label: str, x: np.ndarray, entry: dict[str, Any], group: int, word: str) -> list[Series]:
+    """The curve of the reference first, so that the computed markers lie over it."""
     computed, exact = array(entry["computed"]), array(entry["exact"])
     return [
-        Series(f"{label}, exact", x, exact, group),
+        Series(f"{label}, {word}", x, exact, group),
         Series(f"{label}, computed", x, computed, group, markers=True),
     ]
 
@@ -101,18 +119,20 @@ def reference_history_charts(reference: dict[str, Any]) -> list[Chart]:
         name, place = place_of(entry["name"])
         gathered.setdefault((name, entry.get("unit", "")), []).append((place, entry))
     charts = []
+    word = curve_word(reference)
     for (name, unit), entries in gathered.items():
-        series = [s for i, (place, e) in enumerate(entries) for s in comparison(place, array(e["time"]), e, i)]
+        series = [s for i, (place, e) in enumerate(entries) for s in comparison(place, array(e["time"]), e, i, word)]
         time = np.concatenate([s.x for s in series])
         charts.append(
             Chart(
-                f"{sentence(words(name))}: computed and exact",
+                f"{sentence(words(name))}: computed and {word}",
                 axis("time", "s", [time]),
-                axis(name, unit, [s.y for s in series]),
+                axis(name, unit, [s.y for s in series if s.markers]),
                 series,
                 "comparison",
                 log_x=spans_decades(time),
                 groups=[place for place, _ in entries],
+                reference=word,
             )
         )
     return charts
@@ -120,13 +140,14 @@ def reference_history_charts(reference: dict[str, Any]) -> list[Chart]:
 
 def profile_charts(reference: dict[str, Any]) -> list[Chart]:
     charts = []
+    word = curve_word(reference)
     for profile in reference.get("profiles", []):
         times = array(profile["times"])
         shown = [time_label(t) for t in times]
         series: list[Series] = []
         for i, label in enumerate(shown):
             rows = {key: profile[key][i] for key in ("computed", "exact")}
-            series += comparison(label, array(profile["x"][i]), rows, i)
+            series += comparison(label, array(profile["x"][i]), rows, i, word)
         name, _, path = profile["name"].partition(" along ")
         charts.append(
             Chart(
@@ -136,6 +157,7 @@ def profile_charts(reference: dict[str, Any]) -> list[Chart]:
                 series,
                 "profile",
                 groups=shown,
+                reference=word,
             )
         )
     return charts
@@ -163,7 +185,7 @@ def error_charts(reference: dict[str, Any]) -> list[Chart]:
         return []
     return [
         Chart(
-            "Error against the exact solution",
+            f"Error against {against(reference)}",
             axis("time", "s", [s.x for s in series]),
             Axis("relative error", Display(1.0, "")),
             series,
@@ -181,10 +203,17 @@ def shared_words(columns: list[Column]) -> str:
     return " ".join(word for word in first if all(word in other for other in others))
 
 
+# What columns are together that have but their unit in common.
+OF_UNIT = {"m": "lengths", "m^2": "areas", "Pa": "pressures and stresses", "J": "energies", "J/m": "energies",
+           "kg": "masses", "kg/m": "masses", "N": "forces", "N/m": "forces", "m/s": "velocities"}  # fmt: skip
+
+
 def history_title(columns: list[Column]) -> str:
     """The quantity that all `columns` are of, else all their names, or what many have in common."""
     quantities = list(dict.fromkeys(place_of(c.name)[0] for c in columns))
-    return words(", ".join(quantities)) if len(quantities) <= 3 else shared_words(columns) or "several quantities"
+    if len(quantities) <= 3:
+        return words(", ".join(quantities))
+    return shared_words(columns) or OF_UNIT.get(columns[0].unit, "several quantities")
 
 
 def history_charts(run: Run) -> list[Chart]:

@@ -9,12 +9,13 @@
 
 namespace perifrac {
 
-int draw(const std::string& script, const std::filesystem::path& folder, bool quiet) {
+int draw(const std::string& script, const std::vector<std::string>& folders, bool quiet) {
   // Debian's own Python: another one first on the path may lack matplotlib and h5py.
   const std::string python = "/usr/bin/python3";
+  std::vector<std::string> words{python, script};
+  words.insert(words.end(), folders.begin(), folders.end());
   try {
-    const ProcessEnd end =
-        Process({.words = {python, script, folder.string()}, .quiet = quiet}).wait();
+    const ProcessEnd end = Process({.words = words, .quiet = quiet}).wait();
     if (end.signal == 0) return end.exit_code;
   } catch (const std::system_error&) {
   }

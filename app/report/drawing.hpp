@@ -1,12 +1,12 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace perifrac {
 
-/// Runs a drawing script of ours on a folder. It prints the paths of what it made, unless `quiet`.
+/// Runs a drawing script of ours on folders. It prints the paths of what it made, unless `quiet`.
 /// Returns its exit code. A missing Python is a warning: the results are there anyway.
-int draw(const std::string& script, const std::filesystem::path& folder, bool quiet);
+int draw(const std::string& script, const std::vector<std::string>& folders, bool quiet);
 
 }  // namespace perifrac

@@ -15,7 +15,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from charts import Chart, Series, all_charts, start_of_change, time_label
+from charts import Chart, Series, all_charts, start_of_change, telling_range, time_label
 from frames import Field, Frame, FrameSeries
 from quantities import described, display_for, quantity, sentence, words
 from run import Run
@@ -91,7 +91,7 @@ def draw_legend(axes: Axes, chart: Chart, palette: list) -> None:
     handles = [Line2D([], [], color=c, linewidth=2, label=g) for c, g in zip(palette, chart.groups)]
     if chart.kind in ("comparison", "profile"):
         handles += [
-            Line2D([], [], color=FAINT, linewidth=1.4, label="exact"),
+            Line2D([], [], color=FAINT, linewidth=1.4, label=chart.reference),
             Line2D([], [], color=FAINT, linestyle="none", marker="o", markersize=4, markerfacecolor="white",
                    label="computed"),  # fmt: skip
         ]
@@ -124,6 +124,8 @@ def set_scales(axes: Axes, chart: Chart) -> None:
         axes.set_xlim(left=max(start, axes.get_xlim()[0]) or None)
     if chart.log_y:
         axes.set_yscale("log")
+    elif reach := telling_range(chart):
+        axes.set_ylim(*reach)
     elif min(np.nanmin(s.y) for s in chart.series) >= 0:
         axes.set_ylim(0, 1.12 * axes.get_ylim()[1])
 

@@ -1,6 +1,6 @@
 """Writes DIR/report.png and DIR/report.html for a run folder; what `perifrac report DIR` calls.
 
-Exit 0 done, 2 the folder holds no run.
+Of two folders it writes A/compared_with_B.html, both side by side. Exit 0 done, 2 a folder holds no run.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 try:
+    from compare import write_comparison
     from page import write_page
     from picture import write_picture
     from no_run import NoRun
@@ -20,15 +21,21 @@ except ModuleNotFoundError as missing:
 
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="perifrac report", description="Write a picture and a page about a run.")
-    parser.add_argument("folder", type=Path, metavar="DIR", help="the folder that 'perifrac run' wrote")
-    folder = parser.parse_args(arguments).folder
+    parser.add_argument("folders", type=Path, nargs="+", metavar="DIR", help="the folder that 'perifrac run' wrote; or two")
+    folders = parser.parse_args(arguments).folders
+    if len(folders) > 2:
+        parser.error("more than two folders; expected one, or two to be compared")
     try:
-        run = read_run(folder)
+        runs = [read_run(folder) for folder in folders]
     except NoRun as error:
         print(f"perifrac: {error}", file=sys.stderr)
         return 2
-    write_picture(run, folder / "report.png")
-    write_page(run, folder / "report.html")
+    if len(runs) == 2:
+        print(write_comparison(*runs))
+        return 0
+    folder = folders[0]
+    write_picture(runs[0], folder / "report.png")
+    write_page(runs[0], folder / "report.html")
     print(folder / "report.png")
     print(folder / "report.html")
     return 0

@@ -58,10 +58,15 @@ def read_summary(path: Path) -> dict[str, Any]:
         raise NoRun(f"{path}:{error.lineno}:{error.colno}: not JSON ({error.msg}); run the scene again") from error
 
 
+def without_outcome(progress: dict[str, Any]) -> dict[str, Any]:
+    """What a run says of itself while it goes on: whether it still does, its files do not tell."""
+    return {name: entry for name, entry in progress.items() if name != "outcome"}
+
+
 def read_run(folder: Path) -> Run:
     if not folder.is_dir():
         raise NoRun(f"{folder}: no such folder; expected the folder that 'perifrac run' wrote")
-    summary = read_summary(folder / "summary.json")
+    summary = read_summary(folder / "summary.json") or without_outcome(read_summary(folder / "progress.json"))
     history = read_history(folder / "history.csv")
     series = read_all_series(folder / "frames")
     if not summary and not history.columns and not series:

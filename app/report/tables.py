@@ -7,6 +7,7 @@ from typing import Any, Iterable
 
 from charts import error_columns, time_label
 from quantities import described, number, quantity, words
+from reference_words import curve_word
 from run import Run
 
 Row = list[str]
@@ -79,7 +80,8 @@ def error_summary(reference: dict[str, Any]) -> str:
         error = quantity(entry["max_error"], entry.get("unit", ""), 3)
         shown = [described(entry[key], 6) if key in entry else "" for key in values]
         rows.append([words(entry["name"]), *shown, error, where(entry.get("at", {}))])
-    return table(["quantity", *values, "max error", "at"], rows) if rows else ""
+    names = {"computed": "computed", "exact": curve_word(reference)}
+    return table(["quantity", *(names[key] for key in values), "max error", "at"], rows) if rows else ""
 
 
 def error_table(reference: dict[str, Any]) -> str:
@@ -116,18 +118,3 @@ def cost(run: Run) -> str:
         name = f"{words(module['name'])} ({words(module['type'])})" if "type" in module else words(module["name"])
         rows.append([name, quantity(module["wall_time"], "s", 3), f"{share:.0f} %", advances, statistics])
     return table(["module", "wall time", "share", "advances", "statistics"], rows)
-
-
-def scene(run: Run) -> str:
-    described_scene = run.summary.get("scene", {})
-    text = described_scene.get("text", "")
-    build = [[words(n), described(v)] for n, v in run.summary.get("build", {}).items()]
-    if "version" in run.summary:
-        build.insert(0, ["perifrac", run.summary["version"]])
-    parts = []
-    if text:
-        name = escape(described_scene.get("path", "scene"))
-        parts.append(f"<details><summary>{name}</summary><pre tabindex=\"0\">{escape(text)}</pre></details>")
-    if build:
-        parts.append(f"<details><summary>build</summary>{table(['part', 'is'], build)}</details>")
-    return "\n".join(parts)

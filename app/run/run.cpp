@@ -9,9 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/report.hpp"
+#include "app/report/watch.hpp"
 #include "app/run/memory.hpp"
 #include "app/run/output_times.hpp"
 #include "app/run/profile_report.hpp"
+#include "app/run/progress_file.hpp"
 #include "app/run/recorder.hpp"
 #include "app/run/scene_echo.hpp"
 #include "app/run/scene_keys.hpp"
@@ -132,9 +134,10 @@ void require_balance(const CouplingManager& manager) {
 
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
 int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& watch,
-                   std::span<const double> outputs) {
+                   ProgressFile& file, std::span<const double> outputs) {
   CouplingManager& manager = *simulation.manager;
   Progress progress(manager.time(), simulation.end);
+  file.update(manager.time(), manager.step());
   auto output = std::ranges::upper_bound(outputs, manager.time());
   while (output != outputs.end()) {
     if (const int signal = received_signal()) return signal;
@@ -156,8 +159,9 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& wa
       ++output;
     }
     if (is_restart_point) recorder.restart_point();
-    recorder.write_checkpoint(true);
+    recorder.write_checkpoint(!checkpoint_requested());
     progress.update(manager.time(), manager.step());
+    file.update(manager.time(), manager.step());
   }
   return 0;
 }
@@ -274,13 +278,20 @@ int run_scene(const RunRequest& request) {
   if (!restart) replace_earlier_results(folder);
   if (!request.json) fmt::print("{}\n", fmt::join(what_was_read(scene, simulation), "\n"));
   log_all(warnings);
+  std::optional<Watcher> watcher;
+  if (request.watch) watcher.emplace(folder.path());
+  std::optional<ProgressFile> progress;
 
   ValidityWatch watch(scene, simulation);
   int signal = 0;
   const RunEnd end = go(
       [&] {
         start(scene, simulation, recorder, folder, restart);
-        signal = advance_to_end(simulation, recorder, watch, outputs);
+        progress.emplace(folder.path(), simulation.manager->time(), simulation.end, [&] {
+          return summarize(scene, request.scene, text, simulation, nullptr, {},
+                           {.whole = 0.0, .output = recorder.seconds()});
+        });
+        signal = advance_to_end(simulation, recorder, watch, *progress, outputs);
         if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
         if (const auto warning = filling_warning(scene, simulation)) log_warning(*warning);
         const double reached = simulation.manager->time();

@@ -18,6 +18,7 @@ struct RunRequest {
   std::string until;     ///< where to end; empty: the scene's time.end
   bool json = false;     ///< summary on standard output as JSON
   bool profile = false;  ///< a table of time and memory by part
+  bool watch = false;    ///< serve a page to watch it on while it runs
   bool report = true;    ///< make the picture and the page at the end
 };
 

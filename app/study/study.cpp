@@ -92,7 +92,7 @@ int run_study(const StudyRequest& request) {
     for (const std::string& sentence : said) fmt::print("{}\n", sentence);
   }
   std::fflush(stdout);
-  if (request.report && draw(PERIFRAC_STUDY_SCRIPT, options.folder, request.json) != 0) {
+  if (request.report && draw(PERIFRAC_STUDY_SCRIPT, {options.folder.string()}, request.json) != 0) {
     log_warning("no picture was made of the study; the same command tries again");
   }
   return 0;

@@ -44,4 +44,14 @@ void write_atomically(const std::filesystem::path& target, std::string_view cont
   }
 }
 
+bool replace_at_once(const std::filesystem::path& target, std::string_view content) {
+  std::filesystem::path temporary = target;
+  temporary += temporary_suffix;
+  {
+    const FileDescriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    if (!file.is_open() || !file.write(content)) return false;
+  }
+  return std::rename(temporary.c_str(), target.c_str()) == 0;
+}
+
 }  // namespace perifrac

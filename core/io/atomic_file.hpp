@@ -13,4 +13,8 @@ inline constexpr std::string_view temporary_suffix = ".tmp";
 /// then renamed. Throws OutputError; `target` is then as it was and the temporary gone.
 void write_atomically(const std::filesystem::path& target, std::string_view content);
 
+/// The same but for the disk: after a crash of the machine `target` may be empty. For what is soon
+/// written anew. Returns whether it was.
+bool replace_at_once(const std::filesystem::path& target, std::string_view content);
+
 }  // namespace perifrac

@@ -53,8 +53,9 @@ std::string_view stem_of_numbered(std::string_view name, std::string_view ending
 }
 
 bool is_result(std::string_view name) {
-  return name == "history.csv" || name == "summary.json" || name == "report.png" ||
-         name == "report.html" || stem_of_numbered(name, ".h5") == "checkpoint";
+  return name == "history.csv" || name == "summary.json" || name == "progress.json" ||
+         name == "report.png" || name == "report.html" ||
+         stem_of_numbered(name, ".h5") == "checkpoint";
 }
 
 bool is_frame(std::string_view name) {

@@ -27,9 +27,9 @@ class OutputFolder {
 
   /// For a run that starts anew: removes what an earlier run wrote here, so that old and new
   /// results never mix, and returns how many files that were. Only names that runs write
-  /// (history.csv, summary.json, report.png, report.html, checkpoint_<number>.h5,
-  /// frames/<name>_<number>.hdf, frames/<name>.hdf.series) are touched, nothing else in the folder.
-  /// Throws OutputError.
+  /// (history.csv, summary.json, progress.json, report.png, report.html,
+  /// checkpoint_<number>.h5, frames/<name>_<number>.hdf, frames/<name>.hdf.series) are touched,
+  /// nothing else in the folder. Throws OutputError.
   int remove_earlier_results() const;
 
  private:

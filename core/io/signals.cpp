@@ -1,5 +1,6 @@
 #include "core/io/signals.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <ctime>
 
@@ -16,21 +17,32 @@ sigset_t stopping_signals() {
   return signals;
 }
 
+sigset_t checkpoint_signal() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGUSR1);
+  return signals;
+}
+
+/// The one of `signals` that waits; it does no more. Not positive: none.
+int take_waiting(const sigset_t& signals) {
+  const timespec at_once{};
+  return sigtimedwait(&signals, nullptr, &at_once);
+}
+
 }  // namespace
 
 void hold_back_signals() {
-  const sigset_t signals = stopping_signals();
+  sigset_t signals = stopping_signals();
+  sigaddset(&signals, SIGUSR1);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
 int received_signal() {
-  const sigset_t signals = stopping_signals();
-  const timespec at_once{};
-  if (signal_seen == 0) {
-    const int signal = sigtimedwait(&signals, nullptr, &at_once);
-    if (signal > 0) signal_seen = signal;
-  }
+  if (signal_seen == 0) signal_seen = std::max(take_waiting(stopping_signals()), 0);
   return signal_seen;
 }
+
+bool checkpoint_requested() { return take_waiting(checkpoint_signal()) > 0; }
 
 }  // namespace perifrac

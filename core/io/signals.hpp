@@ -9,6 +9,10 @@ namespace perifrac {
 /// are other threads, which inherit it, as programs do that this one starts (Process undoes it).
 void hold_back_signals();
 
+/// As for stopping signals, SIGUSR1 waits until `checkpoint_requested` looks for it: a wish for a
+/// checkpoint, after which the run goes on.
+bool checkpoint_requested();
+
 /// The first signal that was seen, 0 if none came. Of two that came since the last look, SIGINT.
 int received_signal();
 

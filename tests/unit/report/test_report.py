@@ -19,6 +19,7 @@ import h5py
 import matplotlib.image
 import numpy as np
 
+import fractured_run
 import mandel_run
 import puddle_run
 
@@ -26,8 +27,11 @@ REPORT = Path(__file__).resolve().parents[3] / "app" / "report"
 sys.path.insert(0, str(REPORT))
 
 import charts  # noqa: E402
+import chunks  # noqa: E402
 import page  # noqa: E402
 import quantities  # noqa: E402
+from crack_paths import crack_paths  # noqa: E402
+from run import read_run  # noqa: E402
 
 
 def report(folder: Path) -> subprocess.CompletedProcess:
@@ -70,9 +74,29 @@ class Page(HTMLParser):
     def chart(self, title: str) -> dict:
         return next(c for c in self.data["charts"] if c["title"] == title)
 
+    @property
+    def fields(self) -> dict:
+        return self.data["runs"][0]["fields"]
 
-def floats(text: str) -> np.ndarray:
-    return np.frombuffer(base64.b64decode(text), dtype="<f4")
+    @property
+    def sets(self) -> dict[str, dict]:
+        return {one["name"]: one for one in self.fields["sets"]}
+
+    @property
+    def views(self) -> dict[str, dict[str, dict]]:
+        return {view["name"]: {field["name"]: field for field in view["fields"]} for view in self.fields["views"]}
+
+    def numbers(self, chunk: dict) -> np.ndarray:
+        return chunks.unpack(chunk, base64.b64decode(self.data["runs"][0]["chunks"][chunk["key"]]))
+
+
+def assert_shown(test: unittest.TestCase, page: Page, chunk: dict, values: np.ndarray) -> None:
+    """As in the page: within half a step of what a byte or two can tell of the range."""
+    shown = page.numbers(chunk)
+    test.assertEqual(len(shown), len(values))
+    np.testing.assert_allclose(shown, values, rtol=0, atol=0.501 * chunk["step"] + 1e-12 * np.abs(values).max(initial=0))
+    if len(values) and np.ptp(values) > 0:
+        test.assertLess(chunk["step"], np.ptp(values) / 250)
 
 
 def check_picture(test: unittest.TestCase, path: Path) -> None:
@@ -133,42 +157,48 @@ class WithReference(unittest.TestCase):
         for history in summary["reference"]["histories"]:
             place = history["name"].split(" at ")[1]
             for kind in ("computed", "exact"):
-                self.assertEqual(drawn[f"{place}, {kind}"]["y"], history[kind])
-                self.assertEqual(drawn[f"{place}, {kind}"]["x"], history["time"])
+                np.testing.assert_allclose(drawn[f"{place}, {kind}"]["y"], history[kind], rtol=5e-6)
+                np.testing.assert_allclose(drawn[f"{place}, {kind}"]["x"], history["time"], rtol=5e-6)
         profile = summary["reference"]["profiles"][0]
         drawn_rows = page.chart("Pore pressure along x")["series"]
-        self.assertEqual([s["y"] for s in drawn_rows if s["markers"]], profile["computed"])
-        self.assertEqual([s["y"] for s in drawn_rows if not s["markers"]], profile["exact"])
+        for marked, kind in ((True, "computed"), (False, "exact")):
+            np.testing.assert_allclose([s["y"] for s in drawn_rows if s["markers"] == marked], profile[kind], rtol=5e-6)
         errors = page.chart("Error against the exact solution")["series"]
-        self.assertEqual(errors[0]["y"], [row["max_error"] for row in summary["reference"]["table"]])
+        np.testing.assert_allclose(errors[0]["y"], [row["max_error"] for row in summary["reference"]["table"]], rtol=5e-6)
 
     def test_page_holds_every_frame(self) -> None:
         page = self.page
-        series = page.data["series"][0]
-        self.assertEqual([f["time"] for f in series["frames"]], mandel_run.FRAME_TIMES)
-        for number, frame in enumerate(series["frames"]):
+        frames = page.sets["rock"]["frames"]
+        self.assertEqual([t["time"] for t in page.fields["times"]], mandel_run.FRAME_TIMES)
+        for number, frame in enumerate(frames):
             with h5py.File(self.folder / "frames" / f"rock_{number:06d}.hdf") as file:
                 group = file["VTKHDF"]
-                pressure = group["PointData/pore_pressure"][()].astype("f4")
-                moved = group["PointData/displacement"][()].astype("f4")
-                points = group["Points"][()].astype("f4")
-            np.testing.assert_array_equal(floats(frame["values"]["pore_pressure"]), pressure)
-            np.testing.assert_array_equal(floats(frame["values"]["displacement y"]), moved[:, 1])
+                pressure = group["PointData/pore_pressure"][()]
+                moved = group["PointData/displacement"][()]
+                points = group["Points"][()]
+            assert_shown(self, page, frame["values"]["pore_pressure"], pressure)
+            assert_shown(self, page, frame["values"]["displacement y"], moved[:, 1])
             self.assertEqual("points" in frame, number == 0, "points are written once while they rest")
             if number == 0:
-                np.testing.assert_array_equal(floats(frame["points"]["x"]), points[:, 0])
-        np.testing.assert_allclose(floats(series["frames"][0]["points"]["edge"]), 1.0, rtol=1e-6)
-        self.assertEqual(series["velocity"], [], "points at rest have no arrows")
-        units = {field["name"]: (field["unit"], field["factor"]) for field in series["fields"]}
-        self.assertEqual(units["pore_pressure"], ("Pa", 1.0))
-        self.assertEqual(units["displacement x"][0], "µm")
+                assert_shown(self, page, frame["points"]["x"], points[:, 0])
+        np.testing.assert_allclose(page.numbers(frames[0]["points"]["edge"]), 1.0, rtol=1e-6)
+        self.assertEqual(page.sets["rock"]["velocity"], [], "points at rest have no arrows")
+        fields = page.views["rock"]
+        self.assertEqual((fields["pore_pressure"]["unit"], fields["pore_pressure"]["factor"]), ("Pa", 1.0))
+        self.assertEqual(fields["displacement x"]["unit"], "µm")
+        self.assertEqual(fields["displacement (magnitude)"]["of"], {"rock": ["displacement x", "displacement y"]})
 
     def test_tables_tell_outcome_errors_ledger_and_cost(self) -> None:
         page = self.page
         for expected in ("Mandel's problem", "done", "solid: quasi static", "1.27 × 10⁻³", "time = 1.653 s, x = 39.5 m",
                          "0.0712 kg/m", "−0.0519 kg/m", "387 ms", "59 %", "41.3 MB"):  # fmt: skip
             self.assertIn(expected, page.text)
-        self.assertEqual(page.sections, ["errors", "comparison", "histories", "map", "ledger", "cost", "scene"])
+        self.assertEqual(page.sections, ["fields", "comparison", "histories", "errors", "setup", "ledger", "cost", "reproduce"])
+
+    def test_inputs_and_the_command_that_runs_it_again(self) -> None:
+        for expected in ("set-up", "dimension2", "perifrac run configs/mandel.yaml"):
+            self.assertIn(expected.lower(), self.page.text.lower())
+
 
     def test_scene_text_cannot_break_out_of_the_page(self) -> None:
         page, summary = self.page, self.summary
@@ -189,41 +219,39 @@ class WithoutReference(ReportTest):
 class MovingPoints(ReportTest):
     """A body and a fluid whose points move and vanish, in one picture."""
 
-    def series(self) -> dict[str, dict]:
+    def pool(self) -> Page:
         puddle_run.write_run(self.folder)
-        return {series["name"]: series for series in self.reported().data["series"]}
+        return self.reported()
 
     def test_all_points_stand_in_one_map_on_one_scale(self) -> None:
-        series = self.series()
-        self.assertEqual(list(series), ["all", "body", "fluid"])
-        fields = {field["name"]: field for field in series["all"]["fields"]}
-        self.assertIn("pressure", fields)
+        page = self.pool()
+        self.assertEqual(list(page.views), ["all", "body", "fluid"])
+        fields = page.views["all"]
+        self.assertEqual(fields["pressure"]["of"], {"body": ["pore_pressure"], "fluid": ["fluid_pressure"]})
+        self.assertEqual(fields["velocity x"]["of"], {"fluid": ["fluid_velocity x"]})
         self.assertNotIn("displacement x", fields, "the body's alone, and it does not move")
-        for step, frame in enumerate(series["all"]["frames"]):
-            self.assertEqual(frame["time"], puddle_run.TIMES[step])
-            points = np.concatenate([puddle_run.ground(), puddle_run.water(step)])
-            np.testing.assert_allclose(floats(frame["points"]["x"]), points[:, 0], rtol=1e-6)
-            np.testing.assert_allclose(floats(frame["points"]["y"]), points[:, 1], rtol=1e-6)
-            pressure = np.concatenate([puddle_run.pore_pressure(step), puddle_run.fluid_pressure(step)])
-            np.testing.assert_allclose(floats(frame["values"]["pressure"]), pressure, rtol=1e-6)
-            speed = floats(frame["values"]["velocity x"])
-            rock = len(puddle_run.ground())
-            self.assertTrue(np.all(np.isnan(speed[:rock])))
-            np.testing.assert_allclose(speed[rock:], puddle_run.velocity(step)[:, 0], rtol=1e-6)
+        for step in range(len(puddle_run.TIMES)):
+            self.assertEqual(page.fields["times"][step]["time"], puddle_run.TIMES[step])
+            body, fluid = (page.sets[name]["frames"][step] for name in ("body", "fluid"))
+            for place, axis in enumerate("xy"):
+                assert_shown(self, page, fluid["points"][axis], puddle_run.water(step)[:, place])
+            assert_shown(self, page, body["values"]["pore_pressure"], puddle_run.pore_pressure(step))
+            assert_shown(self, page, fluid["values"]["fluid_pressure"], puddle_run.fluid_pressure(step))
+            assert_shown(self, page, fluid["values"]["fluid_velocity x"], puddle_run.velocity(step)[:, 0])
         pressures = [puddle_run.pore_pressure(3).max(), *(puddle_run.fluid_pressure(s).max() for s in range(4))]
         self.assertEqual(fields["pressure"]["high"], max(pressures))
 
     def test_fluid_points_are_as_large_as_their_volume(self) -> None:
-        for step, frame in enumerate(self.series()["fluid"]["frames"]):
+        page = self.pool()
+        for step, frame in enumerate(page.sets["fluid"]["frames"]):
             edge = puddle_run.SPACING * np.sqrt(1.0 - 0.2 * step)
-            self.assertEqual(len(floats(frame["points"]["x"])), len(puddle_run.water(step)))
-            np.testing.assert_allclose(floats(frame["points"]["edge"]), edge, rtol=1e-6)
+            self.assertEqual(len(page.numbers(frame["points"]["x"])), len(puddle_run.water(step)))
+            np.testing.assert_allclose(page.numbers(frame["points"]["edge"]), edge, rtol=1e-6)
 
     def test_arrows_are_of_what_moves(self) -> None:
-        series = self.series()
-        self.assertEqual(series["body"]["velocity"], [])
-        self.assertEqual(series["fluid"]["velocity"], ["fluid_velocity x", "fluid_velocity y"])
-        self.assertEqual(series["all"]["velocity"], ["velocity x", "velocity y"])
+        page = self.pool()
+        self.assertEqual(page.sets["body"]["velocity"], [])
+        self.assertEqual(page.sets["fluid"]["velocity"], ["fluid_velocity x", "fluid_velocity y"])
 
     def test_picture_and_history_show_them(self) -> None:
         puddle_run.write_run(self.folder)
@@ -237,9 +265,9 @@ class MovingPoints(ReportTest):
         puddle_run.write_run(self.folder)
         nothing = {name: (unit, values[:0]) for name, (unit, values) in puddle_run.fluid_frame(3)[1].items()}
         puddle_run.write_frame(self.folder / "frames" / "fluid_000003.hdf", np.empty((0, 3)), nothing)
-        series = {series["name"]: series for series in self.reported().data["series"]}
-        self.assertEqual(len(floats(series["fluid"]["frames"][-1]["points"]["x"])), 0)
-        self.assertEqual(len(floats(series["all"]["frames"][-1]["points"]["x"])), len(puddle_run.ground()))
+        page = self.reported()
+        self.assertEqual(page.sets["fluid"]["frames"][-1]["points"]["x"]["count"], 0)
+        self.assertEqual(page.sets["body"]["frames"][-1]["values"]["pore_pressure"]["count"], len(puddle_run.ground()))
 
 
 class BrokenRuns(ReportTest):
@@ -266,7 +294,7 @@ class BrokenRuns(ReportTest):
         (self.folder / "frames" / "rock_000008.hdf").write_bytes(b"cut short")
         page = self.reported()
         self.assertIn("unfinished", page.text)
-        self.assertEqual(len(page.data["series"][0]["frames"]), 8)
+        self.assertEqual(len(page.fields["times"]), 8)
         self.assertEqual(page.data["charts"][0]["series"][0]["x"][-1], 100.0)
 
     def test_summary_alone_is_enough(self) -> None:
@@ -288,6 +316,61 @@ class BrokenRuns(ReportTest):
         for words in ("Why it failed", "a & b in pressure at point 3", "shorter windows", "one pass <may> not hold"):
             self.assertIn(words, page.text)
         self.assertEqual(page.sections, ["failure", "warnings"])
+
+
+class Sizes(ReportTest):
+    """However much a run leaves, its page opens at once."""
+
+    def size(self, dimension: int, count: int, frames: int) -> tuple[int, Page]:
+        times = list(np.linspace(0.0, 1.0, frames))
+        fractured_run.write_run(self.folder, dimension, count, 1e-2 / count, times)
+        page.write_page(read_run(self.folder), self.folder / "report.html")
+        return (self.folder / "report.html").stat().st_size, Page(self.folder / "report.html")
+
+    def test_a_specimen_of_thirty_thousand_points(self) -> None:
+        size, shown = self.size(2, 173, 21)
+        self.assertLessEqual(size, page.LARGEST_PAGE)
+        self.assertEqual(len(shown.fields["times"]), 21)
+        self.assertEqual(shown.sets["body"]["note"], "", "every point is shown")
+
+    def test_a_block_that_must_be_coarsened(self) -> None:
+        size, shown = self.size(3, 40, 12)
+        self.assertLessEqual(size, page.LARGEST_PAGE)
+        self.assertIn("means of up to 8 points", shown.sets["body"]["note"])
+        damage = shown.numbers(shown.sets["body"]["frames"][-1]["values"]["damage"])
+        self.assertTrue(((damage > 0.05) & (damage < 0.95)).any(), "means")
+        self.assertEqual(damage.size, 20**3)
+
+
+class Packed(unittest.TestCase):
+    def test_what_is_packed_comes_back(self) -> None:
+        random = np.random.default_rng(1)
+        for values in (random.normal(size=5000), np.array([]), np.full(9, 3.5), np.array([np.nan, 1.0, np.inf, 2.0]),
+                       np.concatenate([random.normal(size=9000), [1e6, -1e6]])):  # fmt: skip
+            told, packed = chunks.pack(values)
+            known = np.isfinite(values)
+            back = chunks.unpack(told, packed)
+            self.assertTrue(np.all(np.isnan(back[~known])))
+            np.testing.assert_allclose(back[known], values[known], rtol=0, atol=0.501 * told["step"])
+
+    def test_a_peak_does_not_take_all_steps(self) -> None:
+        values = np.concatenate([np.linspace(0.0, 1.0, 9000), [100.0]])
+        self.assertLess(chunks.pack(values)[0]["step"], 1.0 / 100)
+
+
+class Paths(unittest.TestCase):
+    def test_a_crack_with_two_wings_and_a_branch(self) -> None:
+        wings = [[x, 0.0] for x in (0, 1, -1, 2, -2, 3)] + [[2.0, y] for y in (1.0, 2.0, 3.0)]
+        paths = crack_paths(np.array(wings))
+        np.testing.assert_array_equal(paths.along[:5], [0, 1, -1, 2, -2])
+        self.assertEqual(len(set(paths.branch)), 2)
+        self.assertEqual(len(paths.joined), 1)
+
+    def test_two_cracks(self) -> None:
+        points = np.array([[x, y] for y in (0.0, 50.0) for x in range(5)], dtype=float)
+        paths = crack_paths(points)
+        np.testing.assert_array_equal(paths.branch, [0] * 5 + [1] * 5)
+        np.testing.assert_array_equal(paths.along, [0, 1, 2, 3, 4] * 2)
 
 
 class Refused(ReportTest):
