@@ -206,6 +206,7 @@ Eigen::SparseMatrix<double> TwoPointFlow<D>::assemble() const {
   const Index points = point_count();
   std::vector<Eigen::Triplet<double>> entries;
   for (Index i = 0; i < points; ++i) {
+    entries.emplace_back(i, i, 0.0);  // a cell without walls, within a layer, stores all the same
     for (Index side = offset_[i]; side < offset_[i + 1]; ++side) {
       entries.emplace_back(i, i, transmissibility_[side]);
       entries.emplace_back(i, other_[side], -transmissibility_[side]);
