@@ -1,5 +1,6 @@
 #include "app/report/drawing.hpp"
 
+#include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,10 +12,11 @@ namespace perifrac {
 
 int draw(const std::string& script, const std::filesystem::path& folder, bool quiet) {
   // Debian's own Python: another one first on the path may lack matplotlib and h5py.
-  const std::string python = "/usr/bin/python3";
+  const char* const chosen = std::getenv("PERIFRAC_PYTHON");
+  const std::string python = chosen != nullptr ? chosen : "/usr/bin/python3";
   try {
     const ProcessEnd end =
-        Process({.words = {python, script, folder.string()}, .quiet = quiet}).wait();
+        Process({.words = {python, "-B", script, folder.string()}, .quiet = quiet}).wait();
     if (end.signal == 0) return end.exit_code;
   } catch (const std::system_error&) {
   }

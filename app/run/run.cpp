@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/report.hpp"
+#include "app/run/live_line.hpp"
 #include "app/run/memory.hpp"
 #include "app/run/output_times.hpp"
 #include "app/run/profile_report.hpp"
@@ -135,6 +136,7 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& wa
                    std::span<const double> outputs) {
   CouplingManager& manager = *simulation.manager;
   Progress progress(manager.time(), simulation.end);
+  const auto words = live_words(manager);
   auto output = std::ranges::upper_bound(outputs, manager.time());
   while (output != outputs.end()) {
     if (const int signal = received_signal()) return signal;
@@ -157,7 +159,7 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& wa
     }
     if (is_restart_point) recorder.restart_point();
     recorder.write_checkpoint(true);
-    progress.update(manager.time(), manager.step());
+    progress.update(manager.time(), manager.step(), words);
   }
   return 0;
 }
@@ -235,8 +237,10 @@ void conclude(const RunRequest& request, const Section& scene, const std::string
   if (request.json) {
     fmt::print("{}", json_text(summary));
   } else {
-    fmt::print("{}", summary_text(summary));
-    if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
+    const std::string crack = crack_size(*simulation.manager);
+    fmt::print("{}{}", outcome_text(summary), crack.empty() ? "" : "  " + crack + "\n");
+    if (recorder.reference()) fmt::print("{}", recorder.reference()->table());
+    fmt::print("{}", work_text(summary));
   }
   std::fflush(stdout);
   if (ending.profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
