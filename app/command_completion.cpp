@@ -142,7 +142,7 @@ std::string zsh(const CLI::App& app) {
       text += fmt::format(" '*--{}[{}]", option->get_lnames()[0], said);
       const std::string values = values_of(option->get_lnames()[0]);
       if (option->get_type_size() > 0) {
-        text += fmt::format(":{}:{}", option->get_type_name(),
+        text += fmt::format(":{}:{}", type_of(*option),
                             values.empty() ? "_files" : "_perifrac_" + values);
       }
       text += '\'';

@@ -28,7 +28,7 @@ std::string option_heading(const CLI::Option& option) {
   }
   if (text.empty()) text = fmt::format("\\fI{}\\fR", roff(option.get_name(true)));
   const bool takes_value = !option.get_lnames().empty() && option.get_type_size() > 0;
-  if (takes_value) text += fmt::format(" \\fI{}\\fR", roff(option.get_type_name()));
+  if (takes_value) text += fmt::format(" \\fI{}\\fR", roff(type_of(option)));
   return text;
 }
 

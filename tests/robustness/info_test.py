@@ -87,6 +87,7 @@ class Pages(unittest.TestCase):
             self.assertIn(f".SS perifrac {verb}", page)
             for option in re.findall(r"--[a-z-]+", perifrac(verb, "--help").stdout):
                 self.assertIn(option, page + "--help")
+        self.assertIn("\\fIN\\fR\n", perifrac("man").stdout, "no range in the word for a value")
         formatted = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=perifrac("man").stdout,
                                    capture_output=True, text=True, check=False)  # fmt: skip
         self.assertEqual((formatted.returncode, formatted.stderr), (0, ""))
