@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install install-browser configure perifrac build run test test-slow check-style tidy docs site tutorials scenes paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
+.PHONY: help install install-tests configure configure-tests package install-package perifrac build run test test-slow check-style tidy docs site tutorials scenes paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -14,6 +14,8 @@ help:
 	@echo 'make run        install, build, run $(SCENE), say where the picture is'
 	@echo 'make test       install, build, run all tests but the slow ones'
 	@echo 'make test-slow  the slow verification runs'
+	@echo 'make package    a Debian package, and a folder that runs from anywhere (docs/install.md)'
+	@echo 'make install-package  makes the package and installs it'
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 15 minutes)'
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md anew'
@@ -35,32 +37,47 @@ help:
 	@echo 'make mutants    physics changed by the patches of tests/mutants: the tests named there must fail'
 	@echo 'make sanitize   unit and contract tests under the address, undefined and thread sanitizers, and cracks that cut rock free (clang 16)'
 
+# What running needs; tests need more.
 install:
-	@tools/install
+	@tools/install run
 
-# Report and watch pages are tested in Chromium: 423 MB that running does without.
-install-browser:
-	@tools/install browser
+install-tests:
+	@tools/install test
 
+# Tests are part of the build where what they need is there.
 configure: install
+	@cmake --preset $$(tools/install --is-there test && echo release || echo program) --log-level=WARNING > /dev/null
+
+configure-tests: install-tests
 	@cmake --preset release --log-level=WARNING > /dev/null
 
 perifrac: configure
 	@cmake --build --preset release --target perifrac
 
-build: configure
+build: configure-tests
 	@cmake --build --preset release
+
+# One build for each instruction set: docs/install.md.
+package:
+	@tools/install package
+	@cmake --preset package $(PACKAGE_OPTIONS) --log-level=WARNING > /dev/null
+	@cmake --build build/package --target perifrac_launcher perifrac_pages all
+	@cd build/package && cpack > cpack.log || { cat cpack.log; exit 1; }
+	@ls -sh build/package/packages/*.deb build/package/packages/*.tar.gz
+
+install-package: package
+	$$([ $$(id -u) = 0 ] || echo sudo) apt-get install -y ./build/package/packages/perifrac*.deb
 
 run: perifrac
 	@$(PERIFRAC) run $(SCENE)
 
-test: install-browser build check-style
+test: build check-style
 	ctest --preset release --label-exclude slow
 
 test-slow: build
 	ctest --preset release --label-regex slow
 
-check-style:
+check-style: install-tests
 	@tools/check_style
 
 tidy:
@@ -77,7 +94,7 @@ docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md
 
 # Broken links and anchors are errors.
-site: install
+site: install-tests
 	sphinx-build -q -W --keep-going -c docs/site . $(BUILD)/site
 	@echo $(BUILD)/site/docs/index.html
 
@@ -103,7 +120,7 @@ effects: perifrac
 	bench/effects/effects.py $(PERIFRAC) --page docs/effects.md
 
 # valgrind knows no AVX-512: a build of its own.
-instructions: install
+instructions: install-tests
 	@cmake -S . -B build/portable -G Ninja -DPERIFRAC_NATIVE=OFF -DPERIFRAC_TESTS=OFF -DPERIFRAC_BENCH=ON > /dev/null
 	@cmake --build build/portable --target perifrac perifrac_solid_step
 	bench/effects/instructions.py build/portable
@@ -130,17 +147,17 @@ fuzz-many: perifrac
 	cmake --build build/fuzz --target fuzz_checkpoint
 	tests/fuzz/fuzz.py $(PERIFRAC) build/fuzz/bin --only checkpoint --inputs $(FUZZ_INPUTS)
 
-sanitize: install
+sanitize: install-tests
 	@tools/install clang
 	for preset in sanitize sanitize-thread; do \
 	  cmake --preset $$preset --log-level=WARNING > /dev/null && cmake --build --preset $$preset && \
 	  ctest --preset $$preset || exit; done
 	OMP_WAIT_POLICY=passive tests/robustness/cut_free_test.py build/sanitize/bin/perifrac --times 20
 
-mutants: configure
+mutants: configure-tests
 	tests/mutants/mutants.py
 
-toughness: configure
+toughness: configure-tests
 	@cmake --build --preset release --target verification_slow
 	$(BUILD)/bin/verification_slow --gtest_filter=*Toughness*
 

@@ -8,6 +8,9 @@
 #include <CLI/CLI.hpp>
 #include <omp.h>
 
+#include "app/command_pages.hpp"
+#include "app/info/info.hpp"
+#include "app/installation/examples.hpp"
 #include "app/list.hpp"
 #include "app/report/report.hpp"
 #include "app/report/watch.hpp"
@@ -36,10 +39,14 @@ struct Request {
   bool page = false;
   double trial = 4.0;  ///< [s]
   std::string key, kind, new_scene;
+  std::string example, file, shell;
 };
 
 void add_scene_options(CLI::App& verb, Request& request) {
-  verb.add_option("scene", request.run.scene, "scene file (YAML)")->required();
+  CLI::Option* const scene = verb.add_option("scene", request.run.scene, "scene file (YAML)");
+  verb.add_option("--example", request.example, "a scene that comes with the program, as in mandel")
+      ->type_name("NAME")
+      ->excludes(scene);
   verb.add_option("--set", request.run.overrides,
                   "replace a key of the scene, as in pore_flow.porosity=0.2")
       ->type_name("KEY=VALUE")
@@ -124,6 +131,33 @@ void add_writing_verbs(CLI::App& app, Request& request) {
   app.add_subcommand("schema", "JSON Schema of scenes, for editors that complete and check");
 }
 
+/// Of verbs about files, and about the command line itself.
+void add_helping_verbs(CLI::App& app, Request& request) {
+  CLI::App& info = *app.add_subcommand("info", "what a file that the program wrote holds");
+  info.add_option("file", request.file, "a file of a run or a study, or its folder")->required();
+  info.add_flag("--json", request.run.json, "machine-readable output");
+  CLI::App& completion =
+      *app.add_subcommand("completion", "a script by which a shell completes the command line");
+  completion.add_option("shell", request.shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  app.add_subcommand("man", "the page of the manual, as man reads it");
+}
+
+/// The scene's file, from its name where that was given.
+void find_scene(const CLI::App& app, Request& request) {
+  if (!app.got_subcommand("run") && !app.got_subcommand("check")) return;
+  if (!request.example.empty()) request.run.scene = example_scene(request.example);
+  if (request.run.scene.empty()) {
+    throw InputError("perifrac: scene is required; expected a file, or --example NAME");
+  }
+}
+
+int print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
 int dispatch(const CLI::App& app, const Request& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);
@@ -139,6 +173,9 @@ int dispatch(const CLI::App& app, const Request& request) {
   if (app.got_subcommand("new")) return write_new_scene(request.kind, request.new_scene);
   if (app.got_subcommand("explain")) return explain(request.key);
   if (app.got_subcommand("schema")) return print_json_schema();
+  if (app.got_subcommand("info")) return print_info(request.file, request.run.json);
+  if (app.got_subcommand("man")) return print(man_page(app));
+  if (app.got_subcommand("completion")) return print(completion_script(app, request.shell));
   return request.page ? print_reference_page() : list_modules(request.run.json);
 }
 
@@ -160,6 +197,7 @@ int parse_and_dispatch(int argc, char** argv) {
   list.add_flag("--json", request.run.json, "machine-readable output");
   list.add_flag("--page", request.page, "the reference page, in Markdown");
   add_writing_verbs(app, request);
+  add_helping_verbs(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -168,9 +206,10 @@ int parse_and_dispatch(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     throw InputError(
-        "perifrac: a verb is missing; expected run, check, study, report, watch, list, "
-        "new, explain or schema");
+        "perifrac: a verb is missing; expected run, check, study, report, watch, info, list, new, "
+        "explain, schema, completion or man");
   }
+  find_scene(app, request);
   return dispatch(app, request);
 }
 

@@ -1,5 +1,6 @@
 #include "app/report/drawing.hpp"
 
+#include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,8 +12,8 @@ namespace perifrac {
 
 int draw(const std::string& script, const std::vector<std::string>& folders, bool quiet) {
   // Debian's own Python: another one first on the path may lack matplotlib and h5py.
-  const std::string python = "/usr/bin/python3";
-  std::vector<std::string> words{python, script};
+  const char* const chosen = std::getenv("PERIFRAC_PYTHON");
+  std::vector<std::string> words{chosen != nullptr ? chosen : "/usr/bin/python3", "-B", script};
   words.insert(words.end(), folders.begin(), folders.end());
   try {
     const ProcessEnd end = Process({.words = words, .quiet = quiet}).wait();

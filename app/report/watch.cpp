@@ -1,9 +1,11 @@
 #include "app/report/watch.hpp"
 
 #include <csignal>
+#include <cstdlib>
 #include <system_error>
 #include <vector>
 
+#include "app/installation/data_folder.hpp"
 #include "core/io/log.hpp"
 
 namespace perifrac {
@@ -11,7 +13,9 @@ namespace perifrac {
 namespace {
 
 std::vector<std::string> command(const std::filesystem::path& folder) {
-  return {"/usr/bin/python3", PERIFRAC_WATCH_SCRIPT, folder.string()};
+  const char* const chosen = std::getenv("PERIFRAC_PYTHON");
+  return {chosen != nullptr ? chosen : "/usr/bin/python3", "-B",
+          data_folder() / "app/report/watch.py", folder.string()};
 }
 
 }  // namespace

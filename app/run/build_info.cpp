@@ -4,9 +4,11 @@
 #include <string>
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <omp.h>
 
+#include "core/base/packet.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 
 namespace perifrac {
@@ -30,8 +32,24 @@ std::string host() {
 
 }  // namespace
 
+std::string instruction_set() {
+#if defined(__AVX512F__)
+  constexpr const char* name = "AVX-512";
+#elif defined(__AVX2__)
+  constexpr const char* name = "AVX2";
+#elif defined(__AVX__)
+  constexpr const char* name = "AVX";
+#elif defined(__SSE2__)
+  constexpr const char* name = "SSE2";
+#else
+  constexpr const char* name = "plain";
+#endif
+  return fmt::format("{}, {} numbers at once", name, packet_size);
+}
+
 nlohmann::json build_info() {
   return {{"sparse factor", SparseCholesky::backend()},
+          {"instructions", instruction_set()},
           {"compiler", __VERSION__},
           {"type", PERIFRAC_BUILD_TYPE},
           {"flags", PERIFRAC_FLAGS},

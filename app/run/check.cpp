@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/run/array_list.hpp"
+#include "app/run/build_info.hpp"
 #include "app/run/coarse_twin.hpp"
 #include "app/run/forecast.hpp"
 #include "app/run/memory.hpp"
@@ -147,6 +148,9 @@ void print(const nlohmann::json& result) {
   for (const auto& [name, path] : loops.items()) {
     fmt::print("  bonds of {}: {}\n", name, path.get<std::string>());
   }
+  if (result.contains("instructions")) {
+    fmt::print("  instructions: {}\n", result["instructions"].get<std::string>());
+  }
   if (result.contains("family_bytes")) {
     fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
                counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
@@ -193,6 +197,7 @@ nlohmann::json built(const CheckRequest& request, const Section& scene) {
                            {"read", what_was_read(scene, simulation)},
                            {"links", links_of(manager)},
                            {"bond_loops", paths_of(manager)},
+                           {"instructions", instruction_set()},
                            {"counts", counts(simulation)},
                            {"family_bytes", family_bytes(simulation.body)},
                            {"arrays", list.arrays},

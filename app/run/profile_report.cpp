@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/run/array_list.hpp"
+#include "app/run/build_info.hpp"
 #include "app/run/summary.hpp"
 
 namespace perifrac {
@@ -107,6 +108,7 @@ Json profile_json(Profile& profile, const Simulation& simulation) {
           {"cpu_seconds", whole.cpu_seconds},
           {"parts", named},
           {"bond_loops", loops},
+          {"instructions", instruction_set()},
           {"unaccounted",
            {{"seconds", whole.seconds - named_seconds},
             {"share", share(whole.seconds - named_seconds, whole.seconds)}}},
@@ -132,6 +134,7 @@ std::string profile_text(const Json& profile) {
   for (const auto& [name, path] : profile["bond_loops"].items()) {
     text += fmt::format("  bonds of {}: {}\n", name, path.get<std::string>());
   }
+  text += fmt::format("  instructions: {}\n", profile["instructions"].get<std::string>());
   const Json& memory = profile["memory"];
   const auto mb = [&](const char* key) { return memory[key].get<double>() / 1e6; };
   text += fmt::format(

@@ -10,6 +10,7 @@
 
 #include "app/report/report.hpp"
 #include "app/report/watch.hpp"
+#include "app/run/live_line.hpp"
 #include "app/run/memory.hpp"
 #include "app/run/output_times.hpp"
 #include "app/run/profile_report.hpp"
@@ -138,6 +139,7 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& wa
   CouplingManager& manager = *simulation.manager;
   Progress progress(manager.time(), simulation.end);
   file.update(manager.time(), manager.step());
+  const auto words = live_words(manager);
   auto output = std::ranges::upper_bound(outputs, manager.time());
   while (output != outputs.end()) {
     if (const int signal = received_signal()) return signal;
@@ -160,7 +162,7 @@ int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& wa
     }
     if (is_restart_point) recorder.restart_point();
     recorder.write_checkpoint(!checkpoint_requested());
-    progress.update(manager.time(), manager.step());
+    progress.update(manager.time(), manager.step(), words);
     file.update(manager.time(), manager.step());
   }
   return 0;
@@ -239,8 +241,10 @@ void conclude(const RunRequest& request, const Section& scene, const std::string
   if (request.json) {
     fmt::print("{}", json_text(summary));
   } else {
-    fmt::print("{}", summary_text(summary));
-    if (recorder.reference()) fmt::print("\n{}", recorder.reference()->table());
+    const std::string crack = crack_size(*simulation.manager);
+    fmt::print("{}{}", outcome_text(summary), crack.empty() ? "" : "  " + crack + "\n");
+    if (recorder.reference()) fmt::print("{}", recorder.reference()->table());
+    fmt::print("{}", work_text(summary));
   }
   std::fflush(stdout);
   if (ending.profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));

@@ -162,16 +162,20 @@ void write_summary(const std::filesystem::path& folder, const nlohmann::json& su
   write_atomically(folder / "summary.json", json_text(summary));
 }
 
-std::string summary_text(const nlohmann::json& summary) {
+std::string outcome_text(const nlohmann::json& summary) {
   long points = 0;
   for (const auto& [name, count] : summary["counts"].items()) {
     if (name.ends_with("points")) points += count.get<long>();
   }
-  std::string text = fmt::format(
+  return fmt::format(
       "{}: {} at t = {:g} s; {} points, {} windows, {:.2f} s, {:.0f} MB\n",
       summary["scene"]["path"].get<std::string>(), summary["outcome"].get<std::string>(),
       summary["time"]["value"].get<double>(), points, summary["counts"]["windows"].get<long>(),
       summary["wall_time"].get<double>(), summary["peak_memory"].get<double>() / 1e6);
+}
+
+std::string work_text(const nlohmann::json& summary) {
+  std::string text;
   for (const auto& module : summary["modules"]) {
     text += fmt::format("  {:<10} {:<14} {:6d} advances {:8.3f} s\n",
                         module["name"].get<std::string>(), module["type"].get<std::string>(),

@@ -38,8 +38,11 @@ std::string json_text(const nlohmann::json& json);
 /// Writes DIR/summary.json atomically. Throws OutputError.
 void write_summary(const std::filesystem::path& folder, const nlohmann::json& summary);
 
-/// The plain summary at the end of a run.
-std::string summary_text(const nlohmann::json& summary);
+/// The first line at the end of a run: how it ended, and what it took.
+std::string outcome_text(const nlohmann::json& summary);
+
+/// What modules did, and how well mass and energy were kept.
+std::string work_text(const nlohmann::json& summary);
 
 /// `<physics>: <type>` of everything that the scene calls for, and no more.
 std::vector<std::string> effects(const Section& scene);

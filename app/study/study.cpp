@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/installation/data_folder.hpp"
 #include "app/report/drawing.hpp"
 #include "app/run/summary.hpp"
 #include "app/study/sentences.hpp"
@@ -92,7 +93,8 @@ int run_study(const StudyRequest& request) {
     for (const std::string& sentence : said) fmt::print("{}\n", sentence);
   }
   std::fflush(stdout);
-  if (request.report && draw(PERIFRAC_STUDY_SCRIPT, {options.folder.string()}, request.json) != 0) {
+  if (request.report && draw(data_folder() / "app/study/drawing/study.py",
+                             {options.folder.string()}, request.json) != 0) {
     log_warning("no picture was made of the study; the same command tries again");
   }
   return 0;

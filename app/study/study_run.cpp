@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "app/installation/data_folder.hpp"
 #include "core/base/errors.hpp"
 #include "core/io/log.hpp"
 #include "core/io/output_folder.hpp"
@@ -54,7 +55,7 @@ class Queue {
  public:
   Queue(const Study& study, const std::vector<Variant>& variants, const StudyOptions& options)
       : study_(study), variants_(variants), options_(options) {
-    program_ = std::filesystem::read_symlink("/proc/self/exe").string();
+    program_ = program_file().string();
     for (std::size_t i = 0; i < variants.size(); ++i) take_up(i);
   }
 

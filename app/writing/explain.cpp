@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/installation/data_folder.hpp"
 #include "app/run/scene_keys.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/names.hpp"
@@ -81,7 +82,8 @@ using Scenes = std::vector<std::pair<std::string, YamlNode>>;
 Scenes shipped_scenes() {
   Scenes scenes;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(PERIFRAC_SCENES, ignored)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(data_folder() / "configs", ignored)) {
     if (entry.path().extension() != ".yaml") continue;
     scenes.emplace_back(entry.path().stem(), parse_yaml_file(entry.path()));
   }

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "app/installation/data_folder.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/names.hpp"
 #include "core/io/input_file.hpp"
@@ -31,19 +32,21 @@ void write_new_file(const fs::path& path, const std::string& text) {
   }
 }
 
-std::vector<std::string> kinds() {
+fs::path templates() { return data_folder() / "app/writing/templates"; }
+
+}  // namespace
+
+std::vector<std::string> scene_kinds() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(PERIFRAC_TEMPLATES)) {
+  for (const auto& entry : fs::directory_iterator(templates())) {
     if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
   }
   std::ranges::sort(names);
   return names;
 }
 
-}  // namespace
-
 int write_new_scene(const std::string& kind, const std::string& output) {
-  const std::vector<std::string> known = kinds();
+  const std::vector<std::string> known = scene_kinds();
   if (std::ranges::find(known, kind) == known.end()) {
     const std::string near = nearest_name(kind, known);
     throw InputError(fmt::format("perifrac new: unknown kind {}; expected one of: {}{}",
@@ -51,9 +54,8 @@ int write_new_scene(const std::string& kind, const std::string& output) {
                                  near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
   const fs::path scene = output.empty() ? fs::path(kind + ".yaml") : fs::path(output);
-  std::vector<std::pair<fs::path, fs::path>> files = {
-      {fs::path(PERIFRAC_TEMPLATES) / (kind + ".yaml"), scene}};
-  const fs::path points = fs::path(PERIFRAC_TEMPLATES) / (kind + ".csv");
+  std::vector<std::pair<fs::path, fs::path>> files = {{templates() / (kind + ".yaml"), scene}};
+  const fs::path points = templates() / (kind + ".csv");
   if (fs::exists(points)) files.emplace_back(points, scene.parent_path() / points.filename());
   for (const auto& [from, to] : files) {
     if (!fs::exists(fs::symlink_status(to))) continue;

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace perifrac {
+
+/// What `perifrac new` can write, in alphabetical order.
+std::vector<std::string> scene_kinds();
 
 /// `perifrac new KIND`: writes a commented scene to begin with, and the files that it reads, beside
 /// `output` (`KIND.yaml` where empty). Throws InputError for a kind that there is none of, and

@@ -1,5 +1,9 @@
 #include "core/io/log.hpp"
 
+#include <cstdlib>
+#include <string>
+#include <unistd.h>
+
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -8,14 +12,33 @@
 namespace perifrac {
 namespace {
 
+/// On a terminal that has not been told to be without (https://no-color.org).
+bool is_coloured() {
+  const char* const none = std::getenv("NO_COLOR");
+  return isatty(STDERR_FILENO) != 0 && (none == nullptr || *none == '\0');
+}
+
+/// `warning`, in yellow, as a terminal has it.
+std::string word(spdlog::level::level_enum level) {
+  const auto name = spdlog::level::to_string_view(level);
+  std::string text(name.data(), name.size());
+  if (!is_coloured()) return text;
+  const char* const colour = level == spdlog::level::err    ? "\x1b[1;31m"
+                             : level == spdlog::level::warn ? "\x1b[33m"
+                                                            : "\x1b[2m";
+  return colour + text + "\x1b[0m";
+}
+
 void log(spdlog::level::level_enum level, std::string_view message) {
   static spdlog::logger logger = [] {
     spdlog::logger made("perifrac", std::make_shared<spdlog::sinks::stderr_sink_st>());
-    made.set_pattern("%H:%M:%S %l: %v");
+    made.set_pattern("%H:%M:%S %v");
     return made;
   }();
   clear_progress_line();
-  logger.log(level, message);
+  std::string line = word(level) + ": ";
+  line += message;
+  logger.log(level, spdlog::string_view_t(line.data(), line.size()));
 }
 
 std::vector<std::string> warnings;

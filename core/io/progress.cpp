@@ -73,7 +73,7 @@ Progress::Progress(double begin, double end)
 
 Progress::~Progress() { clear_progress_line(); }
 
-void Progress::update(double time, std::int64_t step) {
+void Progress::update(double time, std::int64_t windows, const std::function<std::string()>& more) {
   if (!shown_) {
     return;
   }
@@ -84,8 +84,9 @@ void Progress::update(double time, std::int64_t step) {
   next_ = now + std::chrono::milliseconds(200);
   time_left_.record(duration<double>(now - start_).count(), time);
   const double part = end_ > begin_ ? (time - begin_) / (end_ - begin_) : 1.0;
-  std::string line = fmt::format("{:3.0f} %   t = {:.4g} s of {:.4g} s   {} steps",
-                                 std::floor(100.0 * part), time, end_, step);
+  std::string line = fmt::format("{:3.0f} %   t = {:.4g} s of {:.4g} s   {} windows",
+                                 std::floor(100.0 * part), time, end_, windows);
+  if (more) line += more();
   if (const auto left = time_left_.until(end_)) {
     line += fmt::format("   {} left", wall_time(*left));
   }

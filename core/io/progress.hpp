@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 
 namespace perifrac {
 
@@ -23,8 +25,9 @@ class TimeLeft {
   double weight_ = 0.0;  ///< of what went into speed_; tends to 1
 };
 
-/// A line on the terminal: percentage, simulated time, steps, time left. Shown only where standard
-/// error is a terminal, at most five times a second, and taken away at the end.
+/// A line on the terminal: percentage, simulated time, windows, what else there is to say, time
+/// left. Shown only where standard error is a terminal, at most five times a second, and taken away
+/// at the end.
 class Progress {
  public:
   /// The simulation goes from time `begin` to `end` [s].
@@ -33,8 +36,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Cheap enough to be called after every window.
-  void update(double time, std::int64_t step);
+  /// Cheap enough to be called after every window; `more` is asked only where a line is shown.
+  void update(double time, std::int64_t windows, const std::function<std::string()>& more = {});
 
  private:
   double begin_;

@@ -36,7 +36,7 @@ class Terminal(RunTest):
         printed, _ = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 0)
         text = shown.decode()
-        self.assertRegex(text, r"\d+ %   t = [\d.e+-]+ s of 1500 s   \d+ steps")
+        self.assertRegex(text, r"\d+ %   t = [\d.e+-]+ s of 1500 s   \d+ windows, 1 pass each")
         self.assertRegex(text, r"\d+ (s|min|h).* left")
         percentages = [int(number) for number in re.findall(r"(\d+) %", text)]
         self.assertEqual(percentages, sorted(percentages))

@@ -67,7 +67,7 @@ TEST(Progress, ShowsALineOnATerminalAndTakesItAway) {
               Progress progress(0.0, 100.0);
               progress.update(42.0, 7);
             }),
-            "\r 42 %   t = 42 s of 100 s   7 steps\x1b[K" + erase_line);
+            "\r 42 %   t = 42 s of 100 s   7 windows\x1b[K" + erase_line);
 }
 
 TEST(Progress, FitsTheTerminal) {

@@ -1,0 +1,6 @@
+# The folder that runs from anywhere has no prefix, and brings its libraries along; it is of use to
+# nobody who compiles.
+if(CPACK_GENERATOR STREQUAL TGZ)
+  set(CPACK_PACKAGING_INSTALL_PREFIX "/")
+  set(CPACK_COMPONENTS_ALL program set libraries)
+endif()
