@@ -5,6 +5,8 @@
 
 #include "modules/crack_fluid/crack_fluid_type.hpp"
 #include "modules/fluid/fluid_type.hpp"
+#include "modules/fluid/semi_lagrangian/semi_lagrangian_method.hpp"
+#include "modules/fluid/sph/sph_method.hpp"
 #include "modules/pore_flow/darcy_type.hpp"
 #include "modules/solid/solid_types.hpp"
 
@@ -12,8 +14,13 @@ namespace perifrac {
 
 const std::vector<ModuleType>& module_types() {
   static const std::vector<ModuleType> types = {
-      quasi_static_solid_type(), dynamic_solid_type(), rigid_solid_type(), darcy_type(),
-      semi_lagrangian_type(),    crack_network_type(),
+      quasi_static_solid_type(),
+      dynamic_solid_type(),
+      rigid_solid_type(),
+      darcy_type(),
+      fluid_type<semi_lagrangian_method>(),
+      fluid_type<sph_method>(),
+      crack_network_type(),
   };
   return types;
 }
