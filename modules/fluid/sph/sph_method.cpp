@@ -40,7 +40,7 @@ FluidMethodType sph_method() {
           .meaning =
               "Free fluid by smoothed particle hydrodynamics, weakly compressible, with the "
               "density diffusion of delta-SPH; explicit.",
-          .fallbacks = {{"horizon_ratio", "3"}},
+          .fallbacks = {{"horizon_ratio", "3"}, {"particle_shifting", "0.5"}},
           .make = {make_method<2>, make_method<3>}};
 }
 
