@@ -9,7 +9,7 @@
 #include "modules/fluid/sph/sph_momentum.hpp"
 
 /// The sums of smoothed particle hydrodynamics on points with given fields.
-namespace perifrac {
+namespace perifrac::sph_operators {
 namespace {
 
 constexpr double spacing = 0.1;
@@ -229,4 +229,4 @@ TEST(SphOperators, DiffuseNoLinearDensityAndKeepTheRest) {
 }
 
 }  // namespace
-}  // namespace perifrac
+}  // namespace perifrac::sph_operators
