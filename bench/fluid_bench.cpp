@@ -7,6 +7,7 @@
 #include <omp.h>
 
 #include "modules/fluid/fluid_dynamics.hpp"
+#include "modules/fluid/semi_lagrangian/semi_lagrangian_method.hpp"
 #include "modules/fluid/walls/two_sided_wall_force.hpp"
 
 namespace perifrac::bench {
@@ -39,9 +40,11 @@ FluidDynamics<D> stirred_water(int count) {
   Region<D> everywhere;
   everywhere.from.fill(-std::numeric_limits<double>::infinity());
   everywhere.to.fill(std::numeric_limits<double>::infinity());
-  return FluidDynamics<D>(water, scheme, Vector<D>{}, period, std::move(points), WallCloud<D>{}, {},
-                          0, {nullptr, nullptr, FluidDomain<D>(everywhere, 0)},
-                          std::make_unique<TwoSidedWallForce<D>>(), nullptr);
+  return FluidDynamics<D>(
+      water, scheme, std::get<FluidMethodType::Maker<D>>(semi_lagrangian_method().make)(scheme),
+      Vector<D>{}, period, std::move(points), WallCloud<D>{}, {}, 0,
+      {nullptr, nullptr, FluidDomain<D>(everywhere, 0)}, std::make_unique<TwoSidedWallForce<D>>(),
+      nullptr);
 }
 
 /// Whole steps, the search for neighbours included: points times steps per second.

@@ -6,6 +6,8 @@
 #include "modules/crack_fluid/network/network_type.hpp"
 #include "modules/crack_fluid/uniform_pressure/uniform_pressure_type.hpp"
 #include "modules/fluid/fluid_type.hpp"
+#include "modules/fluid/semi_lagrangian/semi_lagrangian_method.hpp"
+#include "modules/fluid/sph/sph_method.hpp"
 #include "modules/pore_flow/darcy_type.hpp"
 #include "modules/pore_flow/finite_volume/finite_volume_type.hpp"
 #include "modules/solid/solid_types.hpp"
@@ -16,8 +18,9 @@ const std::vector<ModuleType>& module_types() {
   static const std::vector<ModuleType> types = {
       quasi_static_solid_type(), dynamic_solid_type(),
       rigid_solid_type(),        darcy_type(),
-      finite_volume_type(),      semi_lagrangian_type(),
-      crack_network_type(),      uniform_pressure_type(),
+      finite_volume_type(),      fluid_type<semi_lagrangian_method>(),
+      fluid_type<sph_method>(),  crack_network_type(),
+      uniform_pressure_type(),
   };
   return types;
 }

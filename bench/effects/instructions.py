@@ -35,12 +35,12 @@ RECORDED_RATIO = 1.0904
 # the names of files. The calls themselves are counted.
 HEAP = r"^(_int_malloc|_int_free|_int_memalign|malloc_consolidate|unlink_chunk\S*|alloc_perturb)\b"
 
-ABSENT = r"CriticalStretch|StretchBudget|CrackDynamics|CrackTips|CrackFront|DynamicFracture|Darcy|FluidDynamics|SemiLagrangian|" \
+ABSENT = r"CriticalStretch|StretchBudget|CrackDynamics|CrackTips|CrackFront|DynamicFracture|Darcy|FluidDynamics|FreeFluid|" \
          r"WallMotion|Lubrication|CrackNetwork|LeakOff|perifrac::Link::|Mapping"
 
 # Scenes of activity.py, short: until when, and the function whose instructions are the effect's own.
 OWN = {"strip.yaml": ("400 us", "*CriticalStretch<2>::break_stretched*"),
-       "film.yaml": ("0.2 s", "*SemiLagrangianFluid<2>::advance*"),
+       "film.yaml": ("0.2 s", "*FreeFluid<2>::advance*"),
        "slits.yaml": ("1 ms", "*CrackNetwork<2>::advance*")}
 WHOLE = "perifrac::CouplingManager::advance(double)"
 FOLLOWS_AS_A_WHOLE = ("film.yaml",)

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/base/packet.hpp"
-#include "core/geometry/gaussian_influence.hpp"
 #include "core/geometry/neighbours.hpp"
+#include "core/geometry/pair_influence.hpp"
 
 namespace perifrac {
 
@@ -15,11 +15,11 @@ template <class Term, int D>
 inline constexpr bool takes_packets =
     std::is_invocable_v<Term, const Index*, const PacketVector<D>&, const Packet&>;
 
-template <int K, int D, class Term>
+template <int K, int D, class Influence, class Term>
 inline std::array<double, K> sum_over_packets(const Neighbours& neighbours, Index i,
                                               const Vector<D>& x,
                                               const std::array<std::vector<double>, D>& position,
-                                              const GaussianInfluence& influence, Term&& term) {
+                                              const Influence& influence, Term&& term) {
   // Sums stay in registers only where the loops over them are unrolled.
   std::array<Packet, K> sum;
 #pragma GCC unroll 64
@@ -51,11 +51,11 @@ inline std::array<double, K> sum_over_packets(const Neighbours& neighbours, Inde
   return result;
 }
 
-template <int K, int D, class Term>
+template <int K, int D, class Influence, class Term>
 inline std::array<double, K> sum_one_by_one(const Neighbours& neighbours, Index i,
                                             const Vector<D>& x,
                                             const std::array<std::vector<double>, D>& position,
-                                            const GaussianInfluence& influence, Term&& term) {
+                                            const Influence& influence, Term&& term) {
   std::array<double, K> sum{};
   const Index end = neighbours.offset[i + 1];
   for (Index n = neighbours.offset[i]; n < end; ++n) {
@@ -79,12 +79,16 @@ inline std::array<double, K> sum_one_by_one(const Neighbours& neighbours, Index 
 /// `(const Index* j, const PacketVector<D>& y, const Packet& omega)`: j points to their indices,
 /// for gather(values, j). A packet may hold more than the list does. What is surplus, or beyond the
 /// horizon, has omega = 0, and every part of a term must have it as a factor.
-template <int K, int D, class Term>
+template <int K, int D, class Influence, class Term>
 inline std::array<double, K> sum_over_neighbours(const Neighbours& neighbours, Index i,
                                                  const Vector<D>& x,
                                                  const std::array<std::vector<double>, D>& position,
-                                                 const GaussianInfluence& influence, Term&& term) {
-  if constexpr (takes_packets<Term, D>) {
+                                                 const Influence& influence, Term&& term) {
+  if constexpr (std::is_same_v<Influence, PairInfluence>) {
+    return influence.with([&](const auto& own) {
+      return sum_over_neighbours<K, D>(neighbours, i, x, position, own, term);
+    });
+  } else if constexpr (takes_packets<Term, D>) {
     return sum_over_packets<K, D>(neighbours, i, x, position, influence, term);
   } else {
     return sum_one_by_one<K, D>(neighbours, i, x, position, influence, term);

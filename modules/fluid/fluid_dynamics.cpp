@@ -7,7 +7,6 @@
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/profile/profile.hpp"
-#include "modules/fluid/fluid_momentum.hpp"
 #include "modules/fluid/particle_shifting.hpp"
 #include "modules/fluid/points/merge_points.hpp"
 #include "modules/fluid/points/split_points.hpp"
@@ -37,7 +36,8 @@ constexpr double remnant = 1e-6;
 }  // namespace
 
 template <int D>
-FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vector<D> gravity,
+FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme,
+                                std::unique_ptr<FluidMethod<D>> method, Vector<D> gravity,
                                 Period<D> period, FluidPoints<D> points, WallCloud<D> cloud,
                                 std::vector<RigidWall<D>> rigid, std::size_t body_points,
                                 FluidOpenings<D> openings, std::unique_ptr<WallForce<D>> wall_force,
@@ -45,8 +45,8 @@ FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vecto
                                 std::unique_ptr<DamagedWalls<D>> damaged_walls)
     : fluid_(fluid),
       scheme_(scheme),
+      method_(std::move(method)),
       gravity_(gravity),
-      influence_(scheme.horizon),
       points_(std::move(points)),
       wall_motion_(std::move(cloud), std::move(rigid), body_points),
       openings_(std::move(openings)),
@@ -54,7 +54,7 @@ FluidDynamics<D>::FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vecto
       exchange_{.law = std::move(exchange)},
       damaged_walls_(std::move(damaged_walls)),
       neighbours_(scheme.horizon, skin * scheme.spacing, std::move(period)) {
-  moments_.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon);
+  moments_.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon, method_->influence());
 }
 
 template <int D>
@@ -115,7 +115,7 @@ void FluidDynamics<D>::step(double t, double length) {
   if (neighbours_.outdated(points_, walls_)) find_neighbours(middle);
   copy_to_images();
   if (exchange_.law || openings_.mouths) remove_small_points(middle);
-  find_moments<D>(points_, walls_, neighbours_, influence_, moments_);
+  method_->find_moments(points_, walls_, neighbours_, moments_);
   find_densities(middle, length);
   kick(middle, length);
   if (scheme_.shifting > 0.0) {
@@ -131,7 +131,8 @@ void FluidDynamics<D>::remove_small_points(double t) {
   const Index soaked = exchange_.law ? soak_points<D>(step_view(), walls_, remnant * whole, points_,
                                                       exchange_.mass, impulse_)
                                      : 0;
-  const Index merged = merge_points(points_, neighbours_, influence_, scheme_.merge_below * whole);
+  const Index merged =
+      merge_points(points_, neighbours_, method_->influence(), scheme_.merge_below * whole);
   if (soaked + merged == 0) return;
   points_.remove_if([&](Index i) { return points_.mass[i] == 0.0; });
   merged_ += merged;
@@ -179,7 +180,7 @@ void FluidDynamics<D>::copy_to_images() {
 template <int D>
 FluidStep<D> FluidDynamics<D>::step_view() const {
   return {points_, wall_motion_.cloud(), neighbours_, moments_, fluid_,
-          scheme_, influence_,           gravity_,    stress_};
+          scheme_, method_->influence(), gravity_,    stress_};
 }
 
 template <int D>
@@ -221,7 +222,7 @@ void FluidDynamics<D>::feed_cracks(double length) {
   if (!exchange_.law) even_masses_.step(step_view(), length, points_);
 }
 
-/// Continuity (paper Eq 20), diffusion of density, and what passes into the pores; then pressures.
+/// Continuity, diffusion of density, and what passes into the pores; then pressures.
 template <int D>
 void FluidDynamics<D>::find_densities(double t, double length) {
   const PeriodicImages<D>& images = neighbours_.images();
@@ -253,7 +254,7 @@ void FluidDynamics<D>::find_densities(double t, double length) {
 template <int D>
 void FluidDynamics<D>::kick(double t, double length) {
   const FluidStep<D> view = step_view();
-  find_pair_forces<D>(view, force_);
+  method_->find_forces(view, force_);
   {
     const ProfileScope profiled("walls");
     wall_force_->add(view, walls_, force_);

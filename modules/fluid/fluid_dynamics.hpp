@@ -9,6 +9,7 @@
 #include "modules/fluid/as_published/damaged_walls.hpp"
 #include "modules/fluid/even_masses.hpp"
 #include "modules/fluid/exchange/exchange.hpp"
+#include "modules/fluid/method/fluid_method.hpp"
 #include "modules/fluid/openings/fluid_openings.hpp"
 #include "modules/fluid/points/fluid_neighbours.hpp"
 #include "modules/fluid/walls/wall_force.hpp"
@@ -23,9 +24,9 @@ namespace perifrac {
 template <int D>
 class FluidDynamics {
  public:
-  FluidDynamics(FluidProperties fluid, FluidScheme scheme, Vector<D> gravity, Period<D> period,
-                FluidPoints<D> points, WallCloud<D> cloud, std::vector<RigidWall<D>> rigid,
-                std::size_t body_points, FluidOpenings<D> openings,
+  FluidDynamics(FluidProperties fluid, FluidScheme scheme, std::unique_ptr<FluidMethod<D>> method,
+                Vector<D> gravity, Period<D> period, FluidPoints<D> points, WallCloud<D> cloud,
+                std::vector<RigidWall<D>> rigid, std::size_t body_points, FluidOpenings<D> openings,
                 std::unique_ptr<WallForce<D>> wall_force, std::unique_ptr<Exchange<D>> exchange,
                 std::unique_ptr<DamagedWalls<D>> damaged_walls = nullptr);
 
@@ -84,8 +85,8 @@ class FluidDynamics {
 
   FluidProperties fluid_;
   FluidScheme scheme_;
+  std::unique_ptr<FluidMethod<D>> method_;
   Vector<D> gravity_;
-  GaussianInfluence influence_;
   FluidPoints<D> points_;
   WallMotion<D> wall_motion_;
   FluidOpenings<D> openings_;

@@ -9,8 +9,8 @@
 #include "modules/fluid/as_published/smoothed_exchange.hpp"
 #include "modules/fluid/exchange/bond_flux_exchange.hpp"
 #include "modules/fluid/fluid_scene_checks.hpp"
+#include "modules/fluid/free_fluid.hpp"
 #include "modules/fluid/points/fluid_blocks.hpp"
-#include "modules/fluid/semi_lagrangian_fluid.hpp"
 #include "modules/fluid/walls/fluid_walls.hpp"
 #include "modules/fluid/walls/two_sided_wall_force.hpp"
 
@@ -38,21 +38,23 @@ double read_spacing(const Section& section, const Body<D>* body) {
 /// Null where no mass passes between fluid and body.
 template <int D>
 std::unique_ptr<Exchange<D>> make_exchange(const Section& scene, const Body<D>* body,
-                                           const FluidWalls<D>& walls, const FluidScheme& scheme) {
+                                           const FluidWalls<D>& walls, const FluidScheme& scheme,
+                                           const PairInfluence& influence) {
   if (body == nullptr || !scene.has("pore_flow")) return nullptr;
   const std::string word = scene.word("interface.exchange");
   if (word == "none") return nullptr;
   std::unique_ptr<Exchange<D>> exchange;
   if (word == "paper") {
-    exchange = std::make_unique<PaperExchange<D>>(*body, walls.cloud, walls.period, scheme.horizon);
+    exchange = std::make_unique<PaperExchange<D>>(*body, walls.cloud, walls.period, scheme.horizon,
+                                                  influence);
   } else {
     exchange = std::make_unique<BondFluxExchange<D>>(*body, walls.cloud, walls.rigid, walls.period,
-                                                     scheme.horizon);
+                                                     scheme.horizon, influence);
   }
   const double smoothing = scene.number("interface.smoothing");
   if (smoothing == 0.0) return exchange;
   return std::make_unique<SmoothedExchange<D>>(std::move(exchange), smoothing, scheme.spacing,
-                                               scheme.horizon);
+                                               scheme.horizon, influence);
 }
 
 /// Null where damaged points of the body are walls as intact ones; else all its points are.
@@ -85,7 +87,7 @@ std::unique_ptr<WallForce<D>> make_wall_force(const Section& scene) {
 }
 
 template <int D>
-std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
+std::unique_ptr<PhysicsModule> make_fluid(const FluidMethodType& type, const Section& section,
                                           std::shared_ptr<const Body<D>> body) {
   const Section scene = section.scene();
   const FluidProperties fluid = read_properties(section);
@@ -97,6 +99,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
                      .density_diffusion = section.number("density_diffusion"),
                      .shifting = section.number("particle_shifting"),
                      .courant = section.number("courant")};
+  auto method = std::get<FluidMethodType::Maker<D>>(type.make)(scheme);
   Vector<D> gravity{};
   if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
   check_fluid_scene(section, body.get(), fluid, spacing);
@@ -105,7 +108,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
   FluidWalls<D> walls =
       read_fluid_walls<D>(section, body.get(), body_slips, spacing, scheme.horizon);
   const std::size_t body_points = body ? body->points().size() : 0;
-  auto exchange = make_exchange<D>(scene, body.get(), walls, scheme);
+  auto exchange = make_exchange<D>(scene, body.get(), walls, scheme, method->influence());
   auto damaged_walls = make_damaged_walls<D>(scene, body.get(), walls.cloud);
   const bool exchanges = exchange != nullptr;
   const std::vector<Vector<D>> mouths = read_mouths<D>(scene, body.get());
@@ -115,15 +118,17 @@ std::unique_ptr<PhysicsModule> make_fluid(const Section& section,
     openings.mouths = std::make_unique<FluidMouths<D>>(mouths, *body, scheme.horizon);
   }
   auto dynamics = std::make_unique<FluidDynamics<D>>(
-      fluid, scheme, gravity, std::move(walls.period), std::move(points), std::move(walls.cloud),
-      std::move(walls.rigid), body_points, std::move(openings), make_wall_force<D>(scene),
-      std::move(exchange), std::move(damaged_walls));
+      fluid, scheme, std::move(method), gravity, std::move(walls.period), std::move(points),
+      std::move(walls.cloud), std::move(walls.rigid), body_points, std::move(openings),
+      make_wall_force<D>(scene), std::move(exchange), std::move(damaged_walls));
   check_fluid_steps(section, *dynamics);
-  return std::make_unique<SemiLagrangianFluid<D>>(std::move(body), exchanges, std::move(dynamics));
+  return std::make_unique<FreeFluid<D>>(std::move(body), exchanges, std::move(dynamics));
 }
 
+}  // namespace
+
 // NOLINTNEXTLINE(readability-function-size): a table
-KeyTable fluid_keys() {
+KeyTable fluid_keys(const FluidMethodType& method) {
   KeyTable keys = {
       {.path = "spacing",
        .unit = "m",
@@ -186,10 +191,12 @@ KeyTable fluid_keys() {
        {fluid_block_keys(), fluid_wall_keys(), inlet_keys(), outlet_keys(), fluid_domain_keys()}) {
     keys.insert(keys.end(), part.begin(), part.end());
   }
+  for (Key& key : keys) {
+    const auto own = method.fallbacks.find(key.path);
+    if (own != method.fallbacks.end()) key.fallback = own->second;
+  }
   return keys;
 }
-
-}  // namespace
 
 const KeyTable& interface_keys() {
   static const KeyTable keys = {
@@ -237,16 +244,9 @@ const KeyTable& interface_keys() {
   return keys;
 }
 
-ModuleType semi_lagrangian_type() {
-  return {.section = "fluid",
-          .name = "semi_lagrangian",
-          .meaning = "Free fluid on moving points, weakly compressible; explicit.",
-          .keys = fluid_keys(),
-          .make =
-              [](const Section& section, const AnyBody& any) {
-                return std::visit([&](const auto& body) { return make_fluid(section, body); }, any);
-              },
-          .needs_body = false};
+std::unique_ptr<PhysicsModule> make_fluid(const FluidMethodType& method, const Section& section,
+                                          const AnyBody& body) {
+  return std::visit([&](const auto& of_one) { return make_fluid(method, section, of_one); }, body);
 }
 
 }  // namespace perifrac

@@ -54,6 +54,7 @@ std::unique_ptr<PhysicsModule> make_module(const std::string& text, const std::s
 const std::string nested_left = "pore_flow.boundary.left={type: sealed}";
 
 const std::string cracked = "cracks=[{name: cut, path: [2 m, 4 m, 6 m, 4 m]}]";
+const std::string cracked_at_top = "cracks=[{name: cut, path: [5 m, 11 m, 5 m, 7 m]}]";
 const std::string cracked_3d =
     "cracks=[{name: cut, centre: [4 m, 2 m, 2 m], normal: [0, 0, 1], sides: [4 m, 4 m]}]";
 
@@ -67,8 +68,8 @@ struct Variant {
   ModuleCase contract;
 };
 
-Variant variant(std::string name, std::string type, std::string text,
-                std::vector<std::string> overrides = {}) {
+Variant make_variant(std::string name, std::string type, std::string text,
+                     std::vector<std::string> overrides) {
   const std::string physics = type.substr(0, type.find('/'));
   ModuleCase contract{.name = std::move(name),
                       .make = [=] { return make_module(text, physics, overrides); },
@@ -87,8 +88,70 @@ Variant variant(std::string name, std::string type, std::string text,
   return {std::move(type), std::move(contract)};
 }
 
-const std::vector<Variant>& variants() {
-  static const std::vector<Variant> all = {
+/// Every method for the free fluid, by its word, is asked the same.
+std::vector<Variant> fluid_variants(const std::string& method) {
+  const auto variant = [&](const std::string& name, const std::string& text,
+                           std::vector<std::string> overrides = {}) {
+    overrides.push_back("fluid.type=" + method);
+    return make_variant((method == "semi_lagrangian" ? "fluid_" : method + "_") + name,
+                        "fluid/" + method, text, std::move(overrides));
+  };
+  return {
+      variant("2d", tank_2d),
+      variant("3d", tank_3d),
+      variant("tait", tank_2d, {"fluid.equation_of_state=tait", "fluid.container.slip=free"}),
+      variant("plain", tank_2d,
+              {"fluid.particle_shifting=0", "fluid.artificial_viscosity=0",
+               "fluid.density_diffusion=0"}),
+      variant("free_fall", tank_2d,
+              {"fluid.container.faces={left: open, right: open, bottom: open, top: open}"}),
+      variant("periodic", tank_2d,
+              {"fluid.container.faces={left: periodic, right: periodic, top: open}"}),
+      variant("periodic_3d", tank_3d,
+              {"fluid.container.faces={left: periodic, right: periodic, back: periodic, front: "
+               "periodic, top: open}"}),
+      variant("walls", tank_2d,
+              {"fluid.walls=[{name: sill, from: [0.9 m, 0 m], to: [1.1 m, 0.3 m]}, {name: step, "
+               "from: [1 m, 0 m], to: [1.2 m, 0.2 m], slip: free}]"}),
+      variant("moving_wall", tank_2d,
+              {"fluid.walls=[{name: gate, from: [0.7 m, 0 m], to: [0.9 m, 0.8 m], motion: moving, "
+               "velocity: [-0.5 m/s, 1 m/s], schedule: {ramp: 5 ms}}]"}),
+      variant("piston", tank_2d,
+              {"fluid.walls=[{name: lid, from: [0 m, 0.6 m], to: [0.7 m, 0.9 m], motion: piston, "
+               "force: [0 N/m, -1 kN/m], mass: 100 kg/m, schedule: {ramp: 5 ms}}]"}),
+      // So much at once that points split, are made and removed in every window.
+      variant("inlet_and_outlet", tank_2d,
+              {"fluid.inlets=[{name: pump, from: [0.2 m, 0.1 m], to: [0.4 m, 0.3 m], rate: 1e4 "
+               "kg/(m s)}, {name: spray, from: [0.9 m, 0.5 m], to: [1 m, 0.6 m], rate: 1e4 kg/(m "
+               "s), schedule: {ramp: 1 ms}}]",
+               "fluid.outlets=[{name: drain, from: [0.6 m, 0 m], to: [1.2 m, 0.2 m]}]"}),
+      variant(
+          "inlet_and_outlet_3d", tank_3d,
+          {"fluid.inlets=[{name: pump, from: [0.2 m, 0.1 m, 0.1 m], to: [0.4 m, 0.3 m, 0.3 m], "
+           "rate: 2e3 kg/s}]",
+           "fluid.outlets=[{name: drain, from: [0.4 m, 0 m, 0 m], to: [0.8 m, 0.4 m, 0.2 m]}]"}),
+      variant("lost", tank_2d, {"fluid.domain={to: [0.65 m, 1 m], most_lost: 1000}"}),
+      variant("beside_body", box_2d + quasi_static_2d + water_over_box_2d),
+      variant("beside_body_3d", box_3d + quasi_static_3d + water_over_box_3d,
+              {"interface.slip=free"}),
+      variant("at_a_mouth", box_2d + crack_network + water_over_box_2d,
+              {"crack_fluid.inlets=[{name: mouth, at: [5 m, 11 m], holds: fluid}]"}),
+      variant("one_sided", box_2d + quasi_static_2d + water_over_box_2d,
+              {"interface.force=one_sided"}),
+      variant("beside_pores", box_2d + darcy + water_over_box_2d),
+      variant("beside_pores_3d", box_3d + darcy + water_over_box_3d),
+      variant("smoothed_into_pores", box_2d + darcy + water_over_box_2d,
+              {"interface.smoothing=0.1"}),
+      variant("paper_exchange", box_2d + darcy + water_over_box_2d, {"interface.exchange=paper"}),
+  };
+}
+
+std::vector<Variant> make_variants() {
+  const auto variant = [](const std::string& name, const std::string& type, const std::string& text,
+                          std::vector<std::string> overrides = {}) {
+    return make_variant(name, type, text, std::move(overrides));
+  };
+  std::vector<Variant> all = {
       variant("quasi_static_2d", "solid/quasi_static", box_2d + quasi_static_2d),
       variant("quasi_static_3d", "solid/quasi_static", box_3d + quasi_static_3d),
       variant("quasi_static_scheduled", "solid/quasi_static", box_2d + quasi_static_2d,
@@ -239,58 +302,17 @@ const std::vector<Variant>& variants() {
               box_2d + darcy + uniform_pressure, {"crack_fluid.leak_off=pores"}),
       variant("uniform_pressure_in_pores_3d", "crack_fluid/uniform_pressure",
               box_3d + darcy + uniform_pressure, {inlet_3d, "crack_fluid.leak_off=pores"}),
-      variant("fluid_2d", "fluid/semi_lagrangian", tank_2d),
-      variant("fluid_3d", "fluid/semi_lagrangian", tank_3d),
-      variant("fluid_tait", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.equation_of_state=tait", "fluid.container.slip=free"}),
-      variant("fluid_plain", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.particle_shifting=0", "fluid.artificial_viscosity=0",
-               "fluid.density_diffusion=0"}),
-      variant("fluid_free_fall", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.container.faces={left: open, right: open, bottom: open, top: open}"}),
-      variant("fluid_periodic", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.container.faces={left: periodic, right: periodic, top: open}"}),
-      variant("fluid_periodic_3d", "fluid/semi_lagrangian", tank_3d,
-              {"fluid.container.faces={left: periodic, right: periodic, back: periodic, front: "
-               "periodic, top: open}"}),
-      variant("fluid_walls", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.walls=[{name: sill, from: [0.9 m, 0 m], to: [1.1 m, 0.3 m]}, {name: step, "
-               "from: [1 m, 0 m], to: [1.2 m, 0.2 m], slip: free}]"}),
-      variant("fluid_moving_wall", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.walls=[{name: gate, from: [0.7 m, 0 m], to: [0.9 m, 0.8 m], motion: moving, "
-               "velocity: [-0.5 m/s, 1 m/s], schedule: {ramp: 5 ms}}]"}),
-      variant("fluid_piston", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.walls=[{name: lid, from: [0 m, 0.6 m], to: [0.7 m, 0.9 m], motion: piston, "
-               "force: [0 N/m, -1 kN/m], mass: 100 kg/m, schedule: {ramp: 5 ms}}]"}),
-      // So much at once that points split, are made and removed in every window.
-      variant("fluid_inlet_and_outlet", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.inlets=[{name: pump, from: [0.2 m, 0.1 m], to: [0.4 m, 0.3 m], rate: 1e4 "
-               "kg/(m s)}, {name: spray, from: [0.9 m, 0.5 m], to: [1 m, 0.6 m], rate: 1e4 kg/(m "
-               "s), schedule: {ramp: 1 ms}}]",
-               "fluid.outlets=[{name: drain, from: [0.6 m, 0 m], to: [1.2 m, 0.2 m]}]"}),
-      variant(
-          "fluid_inlet_and_outlet_3d", "fluid/semi_lagrangian", tank_3d,
-          {"fluid.inlets=[{name: pump, from: [0.2 m, 0.1 m, 0.1 m], to: [0.4 m, 0.3 m, 0.3 m], "
-           "rate: 2e3 kg/s}]",
-           "fluid.outlets=[{name: drain, from: [0.4 m, 0 m, 0 m], to: [0.8 m, 0.4 m, 0.2 m]}]"}),
-      variant("fluid_lost", "fluid/semi_lagrangian", tank_2d,
-              {"fluid.domain={to: [0.65 m, 1 m], most_lost: 1000}"}),
-      variant("fluid_beside_body", "fluid/semi_lagrangian",
-              box_2d + quasi_static_2d + water_over_box_2d),
-      variant("fluid_beside_body_3d", "fluid/semi_lagrangian",
-              box_3d + quasi_static_3d + water_over_box_3d, {"interface.slip=free"}),
-      variant("fluid_at_a_mouth", "fluid/semi_lagrangian",
-              box_2d + crack_network + water_over_box_2d,
-              {"crack_fluid.inlets=[{name: mouth, at: [5 m, 11 m], holds: fluid}]"}),
-      variant("fluid_one_sided", "fluid/semi_lagrangian",
-              box_2d + quasi_static_2d + water_over_box_2d, {"interface.force=one_sided"}),
-      variant("fluid_beside_pores", "fluid/semi_lagrangian", box_2d + darcy + water_over_box_2d),
-      variant("fluid_beside_pores_3d", "fluid/semi_lagrangian", box_3d + darcy + water_over_box_3d),
-      variant("fluid_smoothed_into_pores", "fluid/semi_lagrangian",
-              box_2d + darcy + water_over_box_2d, {"interface.smoothing=0.1"}),
-      variant("fluid_paper_exchange", "fluid/semi_lagrangian", box_2d + darcy + water_over_box_2d,
-              {"interface.exchange=paper"}),
   };
+  for (const ModuleType& type : module_types()) {
+    if (type.section != "fluid") continue;
+    const std::vector<Variant> of_method = fluid_variants(type.name);
+    all.insert(all.end(), of_method.begin(), of_method.end());
+  }
+  return all;
+}
+
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all = make_variants();
   return all;
 }
 
@@ -467,6 +489,39 @@ TEST(StabilisedPoreFlow, LeavesFluidAtRest) {
   }
 }
 
+/// Every method for the free fluid, by one word, on every solid and every pore flow, and at a
+/// crack's mouth, in 2D and 3D.
+TEST(SwapMatrix, EveryFluidRunsBesideEverything) {
+  const std::string mouth = "crack_fluid.inlets=[{name: mouth, at: [5 m, 11 m], holds: fluid}]";
+  for (const ModuleType& type : module_types()) {
+    if (type.section != "fluid") continue;
+    const std::string word = "fluid.type=" + type.name;
+    for (const std::string& solid : {std::string(), rigid, quasi_static_2d, dynamic_2d}) {
+      for (const auto& flow : flow_sections) {
+        if (solid.empty() && flow.empty()) continue;
+        SCOPED_TRACE(word + solid + (flow.empty() ? "no pore flow" : flow[0]));
+        std::vector<std::string> overrides = flow;
+        overrides.push_back(word);
+        const bool moves = !solid.empty() && solid != rigid;
+        // Displacement and impulse; pressure, mobility and mass; dilatation and pore stress.
+        const int links = 2 * moves + 3 * !flow.empty() + 2 * (moves && !flow.empty());
+        expect_to_run(
+            read_scene_text(box_2d + solid + (flow.empty() ? "" : darcy) + water_over_box_2d,
+                            overrides),
+            1 + !solid.empty() + !flow.empty(), links);
+      }
+    }
+    SCOPED_TRACE(word + " in 3D");
+    expect_to_run(read_scene_text(tank_3d, {word}), 1, 0);
+    expect_to_run(read_scene_text(box_3d + quasi_static_3d + darcy + water_over_box_3d, {word}), 3,
+                  7);
+    expect_to_run(read_scene_text(box_2d + quasi_static_2d + crack_network + water_over_box_2d,
+                                  {word, mouth, cracked_at_top,
+                                   "damage={type: energy_release, fracture_energy: 1 kJ/m^2}"}),
+                  3, 8);
+  }
+}
+
 TEST(SwapMatrix, WindowsOfOneStepAreTheShortestExplicitStep) {
   for (const char* type : {"explicit", "cvode"}) {
     const Section scene = read_scene_text(
@@ -522,6 +577,16 @@ TEST(PhysicsRestart, DynamicSolidBesidePoreFlow) {
           box_2d + dynamic_2d + darcy, {std::string("coupling.window.type=") + window,
                                         std::string("pore_flow.integrator.type=") + type}));
     }
+  }
+}
+
+TEST(PhysicsRestart, EveryFluidOnPoresOfASolid) {
+  for (const ModuleType& type : module_types()) {
+    if (type.section != "fluid") continue;
+    SCOPED_TRACE(type.name);
+    expect_same_after_restart(read_scene_text(box_2d + quasi_static_2d + darcy + water_over_box_2d,
+                                              {"fluid.type=" + type.name}));
+    expect_same_after_restart(read_scene_text(tank_3d, {"fluid.type=" + type.name}));
   }
 }
 

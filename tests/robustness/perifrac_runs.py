@@ -37,6 +37,7 @@ VARIANTS = {
 
 # Points that move, come and go: split, made, removed at an outlet, lost, merged.
 FLUIDS = {"tank": HERE / "tank.yaml", "seeping pool": HERE / "seeping_pool.yaml"}
+METHODS = ("semi_lagrangian", "sph")
 
 
 # A program that takes longer hangs [s]; no run here takes a hundredth of it, on a machine that is not busy.

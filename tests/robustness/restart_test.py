@@ -3,9 +3,10 @@
 import shutil
 import tempfile
 import unittest
+from itertools import product
 from pathlib import Path
 
-from perifrac_runs import CONFIGS, FLUIDS, MANDEL, SMALL, VARIANTS, RunTest, checkpoints, perifrac, settings
+from perifrac_runs import CONFIGS, FLUIDS, MANDEL, METHODS, SMALL, VARIANTS, RunTest, checkpoints, perifrac, settings
 
 SCHEMES = {
     "explicit": {"pore_flow.integrator.type": "explicit"},
@@ -102,12 +103,13 @@ class Restart(RunTest):
         self.assert_same_results(whole, parts)
 
     def test_fluids_in_parts(self):
-        for name, scene in FLUIDS.items():
-            with self.subTest(name):
-                whole = self.run_scene({}, f"{name}/whole", scene=scene)
-                parts = self.run_scene({}, f"{name}/parts", "--until", "0.1 s", scene=scene)
+        for name, method in product(FLUIDS, METHODS):
+            with self.subTest(name, method=method):
+                scene, keys, folder = FLUIDS[name], {"fluid.type": method}, f"{name}/{method}"
+                whole = self.run_scene(keys, f"{folder}/whole", scene=scene)
+                parts = self.run_scene(keys, f"{folder}/parts", "--until", "0.1 s", scene=scene)
                 for end in ("0.2 s", "0.3 s"):
-                    self.run_scene({}, parts, "--restart", checkpoints(parts)[-1], "--until", end, scene=scene)
+                    self.run_scene(keys, parts, "--restart", checkpoints(parts)[-1], "--until", end, scene=scene)
                 self.assert_same_results(whole, parts)
 
     def test_beyond_the_scenes_end(self):

@@ -2,8 +2,9 @@
 """Results are the same bits at any number of threads."""
 import json
 import unittest
+from itertools import product
 
-from perifrac_runs import CONFIGS, FLUIDS, RunTest, SMALL, VARIANTS
+from perifrac_runs import CONFIGS, FLUIDS, METHODS, RunTest, SMALL, VARIANTS
 
 # Enough points for every loop to be shared out.
 FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.times": "[0.01 s]",
@@ -50,12 +51,13 @@ class Threads(RunTest):
         self.assert_same_results(one, other)
 
     def test_nor_where_points_move_come_and_go(self):
-        for name, keys in FINE_FLUIDS.items():
+        for name, method in product(FINE_FLUIDS, METHODS):
             scene = FLUIDS[name]
-            keys = keys | {"time.end": "0.6 ms", "output.times": "[0.3 ms]", "output.history_interval": "0 s"}
-            one = self.run_scene(keys, f"{name}/1", "--threads", "1", scene=scene)
-            other = self.run_scene(keys, f"{name}/4", "--threads", "4", scene=scene)
-            with self.subTest(name):
+            keys = FINE_FLUIDS[name] | {"time.end": "0.6 ms", "output.times": "[0.3 ms]",
+                                        "output.history_interval": "0 s", "fluid.type": method}
+            one = self.run_scene(keys, f"{name}/{method}/1", "--threads", "1", scene=scene)
+            other = self.run_scene(keys, f"{name}/{method}/4", "--threads", "4", scene=scene)
+            with self.subTest(name, method=method):
                 self.assert_same_results(one, other)
                 self.assertGreater(json.loads((one / "summary.json").read_text())["counts"]["fluid_points"], 8000)
 

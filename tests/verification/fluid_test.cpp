@@ -85,5 +85,36 @@ TEST(DamBreak, ComesToRestInItsTank) {
   }
 }
 
+/// The other method, by one word: three spacings against the series, before its points lie in
+/// disorder; from then on the error falls more slowly (docs/theory.md).
+TEST(Sph, StartsFlowBetweenPlatesWithSecondOrder) {
+  std::vector<double> error;
+  for (const char* spacing : {"1 mm", "0.5 mm", "0.25 mm"}) {
+    const SceneRun run =
+        run_fluid("poiseuille", {"fluid.type=sph", std::string("fluid.spacing=") + spacing,
+                                 "time.end=0.2 s", "output.times=[0.1 s]"});
+    error.push_back(run.largest("velocity_error", 0.0, 1.0));
+    EXPECT_LE(run.largest("cross_velocity_error", 0.0, 1.0), 5e-4);
+  }
+  EXPECT_GT(error[0], 3.4 * error[1]);
+  EXPECT_GT(error[1], 3.4 * error[2]);
+  EXPECT_LE(error[2], 1.4e-3);
+}
+
+TEST(Sph, BearsItsWeightAndStaysAtRest) {
+  const SceneRun run = run_fluid("hydrostatic", {"fluid.type=sph"});
+  EXPECT_LE(run.largest("pressure_error", 0.0, 20.0), 1.2e-2);
+  EXPECT_LE(run.largest("velocity_error", 0.0, 20.0), 1e-3);
+  EXPECT_LE(run.history("height at the surface"), 0.025) << "half a spacing";
+  const SceneRun coarse = run_fluid("hydrostatic", {"fluid.type=sph", "fluid.spacing=0.1 m"});
+  EXPECT_GT(coarse.largest("pressure_error", 0.0, 20.0),
+            1.5 * run.largest("pressure_error", 0.0, 20.0));
+}
+
+TEST(Sph, FrontRunsAsMeasured) {
+  const SceneRun run = run_fluid("dam_break", {"fluid.type=sph"});
+  EXPECT_LE(run.largest("front_error", 0.0, 3.33), 0.13);
+}
+
 }  // namespace
 }  // namespace perifrac::test

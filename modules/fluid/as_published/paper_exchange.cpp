@@ -54,9 +54,9 @@ double divergence(const std::array<std::vector<double>, D>& q_own, Index i,
 
 template <int D>
 PaperExchange<D>::PaperExchange(const Body<D>& body, const WallCloud<D>& cloud,
-                                const Period<D>& period, double horizon)
+                                const Period<D>& period, double horizon,
+                                const PairInfluence& influence)
     : solid_(body, cloud, {}, period, horizon) {
-  const GaussianInfluence influence(horizon);
   for (auto& values : solid_shape_) values.resize(cloud.size());
   for (Index w = cloud.rigid_count; w < cloud.size(); ++w) {
     const auto shape = sum_over_neighbours<symmetric_size<D>, D>(

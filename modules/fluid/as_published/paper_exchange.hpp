@@ -15,7 +15,7 @@ template <int D>
 class PaperExchange final : public Exchange<D> {
  public:
   PaperExchange(const Body<D>& body, const WallCloud<D>& cloud, const Period<D>& period,
-                double horizon);
+                double horizon, const PairInfluence& influence);
 
   bool keeps_mass() const override { return false; }
   void find(const FluidStep<D>& step, const PoreInput& pores, double t, NearWalls<D>& walls,

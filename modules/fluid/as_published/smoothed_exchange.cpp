@@ -6,9 +6,10 @@ namespace perifrac {
 
 template <int D>
 SmoothedExchange<D>::SmoothedExchange(std::unique_ptr<Exchange<D>> exchange, double coefficient,
-                                      double spacing, double horizon)
+                                      double spacing, double horizon,
+                                      const PairInfluence& influence)
     : exchange_(std::move(exchange)),
-      coefficient_(coefficient / (spacing * lattice_weight<D>(spacing, horizon))) {}
+      coefficient_(coefficient / (spacing * lattice_weight<D>(spacing, horizon, influence))) {}
 
 template <int D>
 void SmoothedExchange<D>::find(const FluidStep<D>& step, const PoreInput& pores, double t,

@@ -19,7 +19,7 @@ class SmoothedExchange final : public Exchange<D> {
  public:
   /// `coefficient`: C.
   SmoothedExchange(std::unique_ptr<Exchange<D>> exchange, double coefficient, double spacing,
-                   double horizon);
+                   double horizon, const PairInfluence& influence);
 
   bool keeps_mass() const override { return exchange_->keeps_mass(); }
   void find(const FluidStep<D>& step, const PoreInput& pores, double t, NearWalls<D>& walls,

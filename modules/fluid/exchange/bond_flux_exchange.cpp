@@ -45,10 +45,9 @@ void find_fluid_moments(const FluidStep<D>& step, NearWalls<D>& walls) {
 template <int D>
 BondFluxExchange<D>::BondFluxExchange(const Body<D>& body, const WallCloud<D>& cloud,
                                       std::span<const RigidWall<D>> rigid, const Period<D>& period,
-                                      double horizon)
+                                      double horizon, const PairInfluence& influence)
     : solid_moment_(cloud.size()), inverse_depth_(cloud.size()) {
   const BodyNeighbours<D> solid(body, cloud, points_at_rest<D>(cloud, rigid), period, horizon);
-  const GaussianInfluence influence(horizon);
   for (Index w = cloud.rigid_count; w < cloud.size(); ++w) {
     solid_moment_[w] =
         sum_over_neighbours<1, D>(solid.near, w, body.points().at(cloud.owner[w]), solid.position,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/body/body.hpp"
+#include "core/geometry/pair_influence.hpp"
 #include "modules/fluid/exchange/exchange.hpp"
 #include "modules/fluid/points/periodic_images.hpp"
 #include "modules/fluid/walls/rigid_wall.hpp"
@@ -21,7 +22,8 @@ template <int D>
 class BondFluxExchange final : public Exchange<D> {
  public:
   BondFluxExchange(const Body<D>& body, const WallCloud<D>& cloud,
-                   std::span<const RigidWall<D>> rigid, const Period<D>& period, double horizon);
+                   std::span<const RigidWall<D>> rigid, const Period<D>& period, double horizon,
+                   const PairInfluence& influence);
 
   void find(const FluidStep<D>& step, const PoreInput& pores, double t, NearWalls<D>& walls,
             std::vector<double>& rate) override;

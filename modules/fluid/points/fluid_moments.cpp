@@ -1,62 +1,15 @@
 #include "modules/fluid/points/fluid_moments.hpp"
 
-#include "core/bonds/bond_traversal.hpp"
-#include "modules/fluid/points/symmetric_tensor.hpp"
+#include <array>
+#include <cmath>
 
 namespace perifrac {
 
 namespace {
 
-/// Where fluid points lie on one side only, or are few, the shape tensor is lifted to this part of
-/// that of an endless lattice in its weakest direction, and its trace to this part.
-constexpr double least_shape = 0.4;
-
-template <int D>
-SymmetricTensor<D> regularised(SymmetricTensor<D> shape, double bulk) {
-  if (least_eigenvalue_bound<D>(shape) >= least_shape * bulk) return shape;
-  const double missing = least_shape * bulk - least_eigenvalue<D>(shape);
-  if (missing <= 0.0) return shape;
-  for (int a = 0; a < D; ++a) shape[symmetric_index<D>(a, a)] += missing;
-  return shape;
-}
-
-/// What neighbours add up to, in this order: shape tensor, bonds times velocity differences, bonds;
-/// and fluid alone: density differences, the same times bonds.
-template <int D>
-struct Sums {
-  static constexpr int velocity = symmetric_size<D>;
-  static constexpr int bonds = velocity + D * D;
-  static constexpr int of_walls = bonds + D;
-  static constexpr int difference = of_walls;
-  static constexpr int slope = difference + 1;
-  static constexpr int size = slope + D;
-  using Values = std::array<double, size>;
-
-  static SymmetricTensor<D> shape(const Values& sum) {
-    SymmetricTensor<D> shape;
-    std::copy_n(sum.begin(), symmetric_size<D>, shape.begin());
-    return shape;
-  }
-};
-
-/// The density's differences beyond its slope, so that a surface does not make it diffuse.
-template <int D>
-double difference_beyond_slope(const typename Sums<D>::Values& sum,
-                               const SymmetricTensor<D>& inverse_shape) {
-  double result = sum[Sums<D>::difference];
-  for (int a = 0; a < D; ++a) {
-    for (int b = 0; b < D; ++b) {
-      result -= sum[Sums<D>::bonds + a] * sum[Sums<D>::slope + b] *
-                inverse_shape[symmetric_index<D>(std::min(a, b), std::max(a, b))];
-    }
-  }
-  return result;
-}
-
 /// Sum of omega V term(r^2) over an endless lattice.
 template <int D, class Term>
-double lattice_sum(double spacing, double horizon, Term&& term) {
-  const GaussianInfluence influence(horizon);
+double lattice_sum(double spacing, double horizon, const PairInfluence& influence, Term&& term) {
   const int reach = static_cast<int>(horizon / spacing) + 1;
   double sum = 0.0;
   std::array<int, 3> k{};
@@ -72,97 +25,22 @@ double lattice_sum(double spacing, double horizon, Term&& term) {
   return sum * std::pow(spacing, D);
 }
 
-/// What a bond y of this weight adds to the sums over fluid and walls alike.
-template <int D>
-void add_moments(const PacketVector<D>& y, const PacketVector<D>& relative, const Packet& weight,
-                 auto& sum) {
-  for (int a = 0; a < D; ++a) {
-    const Packet bond = weight * y[a];
-    for (int b = a; b < D; ++b) sum[symmetric_index<D>(a, b)] = bond * y[b];
-    for (int b = 0; b < D; ++b) sum[Sums<D>::velocity + a * D + b] = bond * relative[b];
-    sum[Sums<D>::bonds + a] = bond;
-  }
-}
-
-template <int D>
-double divergence(const auto& sum, const SymmetricTensor<D>& inverse_shape) {
-  double result = 0.0;
-  for (int a = 0; a < D; ++a) {
-    for (int b = 0; b < D; ++b) {
-      result += sum[Sums<D>::velocity + a * D + b] *
-                inverse_shape[symmetric_index<D>(std::min(a, b), std::max(a, b))];
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 template <int D>
-double lattice_trace(double spacing, double horizon) {
-  return lattice_sum<D>(spacing, horizon, [](double square) { return square; });
+double lattice_trace(double spacing, double horizon, const PairInfluence& influence) {
+  return lattice_sum<D>(spacing, horizon, influence, [](double square) { return square; });
 }
 
 template <int D>
-double lattice_weight(double spacing, double horizon) {
-  return lattice_sum<D>(spacing, horizon, [](double square) { return square > 0.0 ? 1.0 : 0.0; });
+double lattice_weight(double spacing, double horizon, const PairInfluence& influence) {
+  return lattice_sum<D>(spacing, horizon, influence,
+                        [](double square) { return square > 0.0 ? 1.0 : 0.0; });
 }
 
-template <int D>
-void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
-                  const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
-                  FluidMoments<D>& moments) {
-  const double bulk = moments.bulk_trace / D;
-  moments.resize(points.count);
-  for_each_point(points.count, [&](Index i) {
-    const Vector<D> x = points.at(i);
-    Vector<D> v;
-    for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
-    const double density = points.density[i];
-    auto sum = sum_over_neighbours<Sums<D>::size, D>(
-        neighbours.fluid_of_fluid(), i, x, points.position, influence,
-        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
-          const Packet weight = omega * gather(points.volume, j);
-          PacketVector<D> relative;
-          for (int a = 0; a < D; ++a) relative[a] = gather(points.velocity[a], j) - v[a];
-          std::array<Packet, Sums<D>::size> term;
-          add_moments<D>(y, relative, weight, term);
-          const Packet difference = weight * (gather(points.density, j) - density);
-          term[Sums<D>::difference] = difference;
-          for (int a = 0; a < D; ++a) term[Sums<D>::slope + a] = difference * y[a];
-          return term;
-        });
-    const auto fluid_inverse = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
-    moments.diffusion[i] =
-        2.0 * D / moments.bulk_trace * difference_beyond_slope<D>(sum, fluid_inverse);
-    auto inverted = fluid_inverse;
-    if (neighbours.walls_of_fluid().count(i) > 0) {
-      const auto wall = sum_over_neighbours<Sums<D>::of_walls, D>(
-          neighbours.walls_of_fluid(), i, x, walls.position, influence,
-          [&](const Index* w, const PacketVector<D>& y, const Packet& omega) {
-            PacketVector<D> relative;
-            for (int a = 0; a < D; ++a) relative[a] = gather(walls.velocity[a], w) - v[a];
-            std::array<Packet, Sums<D>::of_walls> term;
-            add_moments<D>(y, relative, omega * gather(walls.volume, w), term);
-            return term;
-          });
-      for (int k = 0; k < Sums<D>::of_walls; ++k) sum[k] += wall[k];
-      inverted = inverse<D>(regularised<D>(Sums<D>::shape(sum), bulk));
-    }
-    moments.trace[i] = std::max(trace<D>(Sums<D>::shape(sum)), least_shape * moments.bulk_trace);
-    moments.divergence[i] = divergence<D>(sum, inverted);
-    for (int k = 0; k < symmetric_size<D>; ++k) moments.inverse_shape[k][i] = inverted[k];
-    for (int a = 0; a < D; ++a) moments.crowding[a][i] = sum[Sums<D>::bonds + a] / bulk;
-  });
-}
-
-template double lattice_trace<2>(double, double);
-template double lattice_trace<3>(double, double);
-template double lattice_weight<2>(double, double);
-template double lattice_weight<3>(double, double);
-template void find_moments<2>(const FluidPoints<2>&, const NearWalls<2>&, const FluidNeighbours<2>&,
-                              const GaussianInfluence&, FluidMoments<2>&);
-template void find_moments<3>(const FluidPoints<3>&, const NearWalls<3>&, const FluidNeighbours<3>&,
-                              const GaussianInfluence&, FluidMoments<3>&);
+template double lattice_trace<2>(double, double, const PairInfluence&);
+template double lattice_trace<3>(double, double, const PairInfluence&);
+template double lattice_weight<2>(double, double, const PairInfluence&);
+template double lattice_weight<3>(double, double, const PairInfluence&);
 
 }  // namespace perifrac

@@ -4,15 +4,14 @@
 #include <vector>
 
 #include "core/geometry/neighbour_traversal.hpp"
-#include "modules/fluid/points/fluid_neighbours.hpp"
-#include "modules/fluid/points/fluid_properties.hpp"
+#include "modules/fluid/points/fluid_points.hpp"
 
 namespace perifrac {
 
 /// What the first of a step's two loops over neighbours finds at every fluid point.
 template <int D>
 struct FluidMoments {
-  /// Inverse of the shape tensor (paper Eqs 19, 23), regularised.
+  /// Inverse of the shape tensor, as the method takes it.
   std::array<std::vector<double>, symmetric_size<D>> inverse_shape;
   std::vector<double> trace;       ///< of the shape tensor, likewise, with images
   std::vector<double> divergence;  ///< of the velocity (paper Eq 20) [1/s]
@@ -34,17 +33,10 @@ struct FluidMoments {
 
 /// tr M of a lattice of `spacing` that fills space [m^(D+2)].
 template <int D>
-double lattice_trace(double spacing, double horizon);
+double lattice_trace(double spacing, double horizon, const PairInfluence& influence);
 
 /// sum of omega V about a point of the same lattice [m^D].
 template <int D>
-double lattice_weight(double spacing, double horizon);
-
-/// Finds the moments of all points from positions, velocities, densities and volumes, those of
-/// images and near walls included.
-template <int D>
-void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
-                  const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
-                  FluidMoments<D>& moments);
+double lattice_weight(double spacing, double horizon, const PairInfluence& influence);
 
 }  // namespace perifrac

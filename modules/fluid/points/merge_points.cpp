@@ -10,7 +10,7 @@ namespace {
 /// Gives away all of point i; false where nobody is there to take it.
 template <int D>
 bool give_away(FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
-               const GaussianInfluence& influence, Index i) {
+               const PairInfluence& influence, Index i) {
   const PeriodicImages<D>& images = neighbours.images();
   const auto point_of = [&](Index j) {
     return j < points.count ? j : images.source[j - points.count];
@@ -51,7 +51,7 @@ bool give_away(FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
 
 template <int D>
 Index merge_points(FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
-                   const GaussianInfluence& influence, double least) {
+                   const PairInfluence& influence, double least) {
   Index gone = 0;
   for (Index i = 0; i < points.count; ++i) {
     if (points.mass[i] >= least || points.mass[i] == 0.0) continue;
@@ -60,9 +60,9 @@ Index merge_points(FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
   return gone;
 }
 
-template Index merge_points<2>(FluidPoints<2>&, const FluidNeighbours<2>&, const GaussianInfluence&,
+template Index merge_points<2>(FluidPoints<2>&, const FluidNeighbours<2>&, const PairInfluence&,
                                double);
-template Index merge_points<3>(FluidPoints<3>&, const FluidNeighbours<3>&, const GaussianInfluence&,
+template Index merge_points<3>(FluidPoints<3>&, const FluidNeighbours<3>&, const PairInfluence&,
                                double);
 
 }  // namespace perifrac

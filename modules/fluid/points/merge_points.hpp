@@ -11,6 +11,6 @@ namespace perifrac {
 /// Needs lists and volumes of now; returns how many were left with a mass of 0, to be removed.
 template <int D>
 Index merge_points(FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
-                   const GaussianInfluence& influence, double least);
+                   const PairInfluence& influence, double least);
 
 }  // namespace perifrac

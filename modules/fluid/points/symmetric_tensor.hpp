@@ -68,4 +68,18 @@ inline double least_eigenvalue_bound(const SymmetricTensor<D>& m) {
   }
 }
 
+/// Where fluid points lie on one side only, or are few, the shape tensor is lifted to this part of
+/// that of an endless lattice in its weakest direction, and its trace to this part.
+inline constexpr double least_shape = 0.4;
+
+/// The shape tensor, so lifted; `bulk` is the lattice's in every direction.
+template <int D>
+inline SymmetricTensor<D> regularised(SymmetricTensor<D> shape, double bulk) {
+  if (least_eigenvalue_bound<D>(shape) >= least_shape * bulk) return shape;
+  const double missing = least_shape * bulk - least_eigenvalue<D>(shape);
+  if (missing <= 0.0) return shape;
+  for (int a = 0; a < D; ++a) shape[symmetric_index<D>(a, a)] += missing;
+  return shape;
+}
+
 }  // namespace perifrac

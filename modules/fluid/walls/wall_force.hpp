@@ -1,6 +1,8 @@
 #pragma once
 
 #include "modules/fluid/points/fluid_moments.hpp"
+#include "modules/fluid/points/fluid_neighbours.hpp"
+#include "modules/fluid/points/fluid_properties.hpp"
 
 namespace perifrac {
 
@@ -14,7 +16,7 @@ struct FluidStep {
   const FluidMoments<D>& moments;
   const FluidProperties& fluid;
   const FluidScheme& scheme;
-  const GaussianInfluence& influence;
+  const PairInfluence& influence;
   const Vector<D>& gravity;
   /// -p M^-1 at every fluid point, with images.
   const std::array<std::vector<double>, symmetric_size<D>>& stress;

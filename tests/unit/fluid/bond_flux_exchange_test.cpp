@@ -15,8 +15,9 @@ using test::FluidOverBody;
 
 template <int D>
 BondFluxExchange<D> exchange_of(const FluidOverBody<D>& scene) {
-  return {*scene.body, scene.cloud, scene.rigid,
-          FluidOverBody<D>::make_period(scene.body->faces()[1].coordinate), scene.scheme.horizon};
+  return {*scene.body,          scene.cloud,
+          scene.rigid,          FluidOverBody<D>::make_period(scene.body->faces()[1].coordinate),
+          scene.scheme.horizon, scene.influence};
 }
 
 double sum(const std::vector<double>& values) {

@@ -5,6 +5,7 @@
 
 #include "modules/fluid/exchange/bond_flux_exchange.hpp"
 #include "modules/fluid/fluid_dynamics.hpp"
+#include "modules/fluid/semi_lagrangian/semi_lagrangian_method.hpp"
 #include "modules/fluid/walls/two_sided_wall_force.hpp"
 #include "tests/unit/fluid/fluid_over_body.hpp"
 
@@ -51,12 +52,13 @@ void expect_drains_wholly(int across, int high) {
   low.fill(-9.0);
   far.fill(9.0);
   FluidDynamics<D> dynamics(
-      fluid, scene.scheme, gravity, period, scene.points, scene.cloud, {},
-      scene.body->points().size(),
+      fluid, scene.scheme,
+      std::get<FluidMethodType::Maker<D>>(semi_lagrangian_method().make)(scene.scheme), gravity,
+      period, scene.points, scene.cloud, {}, scene.body->points().size(),
       {.inlets = nullptr, .outlets = nullptr, .domain = FluidDomain<D>({"all", low, far}, 0)},
       std::make_unique<TwoSidedWallForce<D>>(),
       std::make_unique<BondFluxExchange<D>>(*scene.body, scene.cloud, scene.rigid, period,
-                                            scene.scheme.horizon));
+                                            scene.scheme.horizon, scene.influence));
   scene.mobility.assign(scene.mobility.size(), 2e-5);
   dynamics.start_totals();
   dynamics.set_pores(scene.pores());

@@ -4,7 +4,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "modules/fluid/fluid_momentum.hpp"
+#include "modules/fluid/semi_lagrangian/find_moments.hpp"
+#include "modules/fluid/semi_lagrangian/fluid_momentum.hpp"
 
 /// A step's two loops over neighbours against sums over all pairs, in Eigen's words.
 namespace perifrac {
@@ -43,7 +44,7 @@ struct JitteredWater {
     for (auto& values : points.velocity) neighbours.images().copy(values, points.count);
     neighbours.images().copy(points.density, points.count);
     neighbours.images().copy(points.volume, points.count);
-    moments.bulk_trace = lattice_trace<D>(spacing, 2.5 * spacing);
+    moments.bulk_trace = lattice_trace<D>(spacing, 2.5 * spacing, influence);
     find_moments<D>(points, no_walls, neighbours, influence, moments);
     neighbours.images().copy(moments.trace, points.count);
   }
@@ -142,7 +143,7 @@ void expect_forces(int count) {
   std::array<std::vector<double>, D> force;
   find_pair_forces<D>({water.points, WallCloud<D>{}, water.neighbours, water.moments, fluid, scheme,
                        water.influence, Vector<D>{}, stress},
-                      force);
+                      water.influence, force);
   Bond all = Bond::Zero();
   double largest = 0.0;
   for (Index i = 0; i < water.points.count; ++i) {

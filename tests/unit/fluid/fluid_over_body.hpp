@@ -8,6 +8,7 @@
 #include "core/geometry/lattice.hpp"
 #include "modules/fluid/exchange/exchange.hpp"
 #include "modules/fluid/points/periodic_images.hpp"
+#include "modules/fluid/semi_lagrangian/find_moments.hpp"
 #include "modules/fluid/walls/rigid_wall.hpp"
 
 namespace perifrac::test {
@@ -25,7 +26,7 @@ struct FluidOverBody {
                .density_diffusion = 0.5,
                .shifting = 0.0,
                .courant = 0.35},
-        influence(scheme.horizon),
+        influence(GaussianInfluence(scheme.horizon)),
         neighbours(scheme.horizon, 0.25 * spacing, make_period(across * spacing)) {
     std::array<int, D> counts, first{};
     counts.fill(across);
@@ -87,8 +88,8 @@ struct FluidOverBody {
     neighbours.images().copy(points.density, points.count);
     neighbours.images().copy(points.volume, points.count);
     neighbours.images().copy(points.pressure, points.count);
-    moments.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon);
-    find_moments<D>(points, walls, neighbours, influence, moments);
+    moments.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon, influence);
+    find_moments<D>(points, walls, neighbours, GaussianInfluence(scheme.horizon), moments);
     neighbours.images().copy(moments.trace, points.count);
   }
 
@@ -109,7 +110,7 @@ struct FluidOverBody {
   FluidProperties fluid{.density = 1000.0, .bulk_modulus = 2e7, .viscosity = 1e-3};
   FluidScheme scheme;
   Vector<D> gravity{};
-  GaussianInfluence influence;
+  PairInfluence influence;
   std::unique_ptr<Body<D>> body;
   std::vector<RigidWall<D>> rigid;
   WallCloud<D> cloud;

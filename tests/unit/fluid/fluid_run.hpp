@@ -22,7 +22,8 @@ class FluidRun {
     if (scene_.integer("dimension") == 3) body = std::shared_ptr<const Body<3>>();
     if (scene_.has("body")) body = make_body(scene_.at("body"), scene_.integer("dimension"));
     for (const ModuleType& type : module_types()) {
-      if (type.section == "fluid") module_ = type.make(scene_.at("fluid"), body);
+      if (type.section == "fluid" && type.name == scene_.word("fluid.type"))
+        module_ = type.make(scene_.at("fluid"), body);
     }
     module_->initialize(0.0);
   }

@@ -69,7 +69,9 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{blob_2d, std::vector<std::string>{"fluid.equation_of_state=tait"}},
                     std::pair{blob_2d, std::vector<std::string>{"fluid.artificial_viscosity=0",
                                                                 "fluid.density_diffusion=0"}},
-                    std::pair{blob_2d, std::vector<std::string>{"fluid.particle_shifting=1"}}),
+                    std::pair{blob_2d, std::vector<std::string>{"fluid.particle_shifting=1"}},
+                    std::pair{blob_2d, std::vector<std::string>{"fluid.type=sph"}},
+                    std::pair{blob_3d, std::vector<std::string>{"fluid.type=sph"}}),
     [](const auto& info) { return "case_" + std::to_string(info.index); });
 
 const std::string jet_at_body_2d = R"(
@@ -124,14 +126,16 @@ TEST_P(FluidAtABody, GivesItTheMomentumThatItLoses) {
   EXPECT_GT(largest, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fluid, FluidAtABody,
-                         testing::Values(std::pair{jet_at_body_2d, std::vector<std::string>{}},
-                                         std::pair{jet_at_body_3d, std::vector<std::string>{}},
-                                         std::pair{
-                                             jet_at_body_2d,
-                                             std::vector<std::string>{
-                                                 "fluid.blocks[0].velocity=[-12 m/s, 2 m/s]"}}),
-                         [](const auto& info) { return "case_" + std::to_string(info.index); });
+INSTANTIATE_TEST_SUITE_P(
+    Fluid, FluidAtABody,
+    testing::Values(std::pair{jet_at_body_2d, std::vector<std::string>{}},
+                    std::pair{jet_at_body_3d, std::vector<std::string>{}},
+                    std::pair{
+                        jet_at_body_2d,
+                        std::vector<std::string>{"fluid.blocks[0].velocity=[-12 m/s, 2 m/s]"}},
+                    std::pair{jet_at_body_2d, std::vector<std::string>{"fluid.type=sph"}},
+                    std::pair{jet_at_body_3d, std::vector<std::string>{"fluid.type=sph"}}),
+    [](const auto& info) { return "case_" + std::to_string(info.index); });
 
 /// A heavy piston of the same fluid: the other kind of wall.
 TEST(FluidAtAPiston, GivesItTheMomentumThatItLoses) {

@@ -91,7 +91,8 @@ double sum(const std::vector<double>& values) {
 }
 
 PaperExchange<2> exchange_of(const FluidOverBody<2>& scene) {
-  return {*scene.body, scene.cloud, FluidOverBody<2>::make_period(3.0), scene.scheme.horizon};
+  return {*scene.body, scene.cloud, FluidOverBody<2>::make_period(3.0), scene.scheme.horizon,
+          scene.influence};
 }
 
 TEST(PaperExchange, IsWhatIsPrinted) {

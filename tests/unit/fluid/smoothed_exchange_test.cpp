@@ -19,8 +19,9 @@ TEST(SmoothedExchange, LeaksWhateverThePermeability) {
   scene.prepare([](const Vector<2>& x) { return 2e4 + 3e3 * x[0]; });
   const double horizon = scene.scheme.horizon;
   auto tight = std::make_unique<BondFluxExchange<2>>(*scene.body, scene.cloud, scene.rigid,
-                                                     FluidOverBody<2>::make_period(3.0), horizon);
-  SmoothedExchange<2> exchange(std::move(tight), 0.25, 0.5, horizon);
+                                                     FluidOverBody<2>::make_period(3.0), horizon,
+                                                     scene.influence);
+  SmoothedExchange<2> exchange(std::move(tight), 0.25, 0.5, horizon, scene.influence);
   EXPECT_TRUE(exchange.keeps_mass());
   const std::vector<double> rate = scene.find(exchange);
 

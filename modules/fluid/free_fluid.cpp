@@ -1,4 +1,4 @@
-#include "modules/fluid/semi_lagrangian_fluid.hpp"
+#include "modules/fluid/free_fluid.hpp"
 
 #include "core/time/equal_steps.hpp"
 
@@ -11,15 +11,15 @@ const PointSet whole_fluid{.name = "fluid_total"};
 }  // namespace
 
 template <int D>
-SemiLagrangianFluid<D>::SemiLagrangianFluid(std::shared_ptr<const Body<D>> body, bool exchanges,
-                                            std::unique_ptr<FluidDynamics<D>> dynamics)
+FreeFluid<D>::FreeFluid(std::shared_ptr<const Body<D>> body, bool exchanges,
+                        std::unique_ptr<FluidDynamics<D>> dynamics)
     : body_(std::move(body)), dynamics_(std::move(dynamics)) {
   point_set_ = {.name = "fluid", .dimension = D};
   make_ports(exchanges);
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::make_ports(bool exchanges) {
+void FreeFluid<D>::make_ports(bool exchanges) {
   make_point_ports();
   make_total_ports();
   if (body_) make_body_ports();
@@ -30,7 +30,7 @@ void SemiLagrangianFluid<D>::make_ports(bool exchanges) {
 
 /// On its own moving points.
 template <int D>
-void SemiLagrangianFluid<D>::make_point_ports() {
+void FreeFluid<D>::make_point_ports() {
   const auto found = [this](Port port, auto find) {
     ports_.out(std::move(port), [this, find, values = std::vector<double>()]() mutable {
       values.clear();
@@ -59,7 +59,7 @@ void SemiLagrangianFluid<D>::make_point_ports() {
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::make_total_ports() {
+void FreeFluid<D>::make_total_ports() {
   const FluidOpenings<D>& openings = dynamics_->openings();
   const auto mass = [this](const char* name, PortRole role, std::function<double()> find) {
     ports_.total(total_port(name, "kg", role, D), whole_fluid, std::move(find));
@@ -89,7 +89,7 @@ void SemiLagrangianFluid<D>::make_total_ports() {
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::make_body_ports() {
+void FreeFluid<D>::make_body_ports() {
   const PointSet* const body = &body_->point_set();
   const std::size_t count = body_->points().size();
   ports_.in(
@@ -119,7 +119,7 @@ void SemiLagrangianFluid<D>::make_body_ports() {
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::make_pore_ports() {
+void FreeFluid<D>::make_pore_ports() {
   const PointSet* const body = &body_->point_set();
   // Where nobody writes them, the pores are empty and closed.
   for (auto* input :
@@ -149,7 +149,7 @@ void SemiLagrangianFluid<D>::make_pore_ports() {
 
 /// Where cracks open into it.
 template <int D>
-void SemiLagrangianFluid<D>::make_mouth_ports() {
+void FreeFluid<D>::make_mouth_ports() {
   FluidMouths<D>* const mouths = dynamics_->mouths();
   const auto property = [](const char* name, const std::string& unit, PortKind kind) {
     return Port{.name = name, .unit = unit, .kind = kind, .role = PortRole::property};
@@ -174,7 +174,7 @@ void SemiLagrangianFluid<D>::make_mouth_ports() {
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::make_piston_ports() {
+void FreeFluid<D>::make_piston_ports() {
   for (const RigidWall<D>& wall : dynamics_->rigid_walls()) {
     if (wall.motion != RigidWall<D>::Motion::piston) continue;
     ports_.found({.name = wall.name + "_displacement", .unit = "m", .components = D}, whole_fluid,
@@ -185,7 +185,7 @@ void SemiLagrangianFluid<D>::make_piston_ports() {
 }
 
 template <int D>
-const PointSet& SemiLagrangianFluid<D>::moving_points() {
+const PointSet& FreeFluid<D>::moving_points() {
   const FluidPoints<D>& points = dynamics_->points();
   point_set_.version = dynamics_->version() + restored_;
   point_set_.count = points.count;
@@ -196,18 +196,18 @@ const PointSet& SemiLagrangianFluid<D>::moving_points() {
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::initialize(double t) {
+void FreeFluid<D>::initialize(double t) {
   time_ = t;
   dynamics_->start_totals();
 }
 
 template <int D>
-double SemiLagrangianFluid<D>::stable_time_step() const {
+double FreeFluid<D>::stable_time_step() const {
   return dynamics_->longest_step(time_);
 }
 
 template <int D>
-double SemiLagrangianFluid<D>::advance(const TimeWindow& window) {
+double FreeFluid<D>::advance(const TimeWindow& window) {
   dynamics_->set_body({displacement_, displacement_rate_, window.end});
   if (!damage_.empty()) {
     // Bonds break at once: what is known is the window's beginning.
@@ -233,18 +233,18 @@ double SemiLagrangianFluid<D>::advance(const TimeWindow& window) {
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::visit_state(StateVisitor& visitor) {
+void FreeFluid<D>::visit_state(StateVisitor& visitor) {
   dynamics_->visit_state(visitor);
 }
 
 template <int D>
-void SemiLagrangianFluid<D>::on_restored(double t) {
+void FreeFluid<D>::on_restored(double t) {
   time_ = t;
   ++restored_;
   dynamics_->forget();
 }
 
-template class SemiLagrangianFluid<2>;
-template class SemiLagrangianFluid<3>;
+template class FreeFluid<2>;
+template class FreeFluid<3>;
 
 }  // namespace perifrac

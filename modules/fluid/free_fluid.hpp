@@ -10,8 +10,7 @@
 
 namespace perifrac {
 
-/// A free fluid on moving points, semi-Lagrangian (paper section 2.4), in as many steps as a window
-/// needs.
+/// A free fluid on moving points, by whichever method, in as many steps as a window needs.
 ///
 /// Ports, on its own moving points: out `fluid_pressure` [Pa], `fluid_velocity` [m/s],
 /// `fluid_density` [kg/m^3], `fluid_mass` [kg]; on its own: `free_fluid_mass` [kg],
@@ -24,11 +23,11 @@ namespace perifrac {
 /// Where cracks open into it, on their mouths: in `mouth_intake` [kg]; out `mouth_pressure` [Pa],
 /// `mouth_stiffness` [Pa/kg]; for the ledger `mass_given_to_cracks` [kg].
 template <int D>
-class SemiLagrangianFluid final : public PhysicsModule {
+class FreeFluid final : public PhysicsModule {
  public:
   /// `body` is null where the fluid is alone; `exchanges`: the body has pores.
-  SemiLagrangianFluid(std::shared_ptr<const Body<D>> body, bool exchanges,
-                      std::unique_ptr<FluidDynamics<D>> dynamics);
+  FreeFluid(std::shared_ptr<const Body<D>> body, bool exchanges,
+            std::unique_ptr<FluidDynamics<D>> dynamics);
 
   std::span<const Port> ports() const override { return ports_.list(); }
   PortView port(PortId id) override { return ports_.view(id); }

@@ -1,4 +1,4 @@
-#include "modules/fluid/fluid_momentum.hpp"
+#include "modules/fluid/semi_lagrangian/fluid_momentum.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,8 @@
 namespace perifrac {
 
 template <int D>
-void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) {
+void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
+                      std::array<std::vector<double>, D>& force) {
   const FluidPoints<D>& points = step.points;
   const FluidMoments<D>& moments = step.moments;
   const double least = step.fluid.density * step.scheme.artificial_viscosity *
@@ -21,7 +22,7 @@ void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, 
     const Vector<D> v = vector_at(points.velocity, i);
     const double trace = moments.trace[i];
     const auto sum = sum_over_neighbours<D, D>(
-        step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, step.influence,
+        step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, influence,
         [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
           const Packet weight = omega * gather(points.volume, j);
           const Packet drag = viscosity / (trace + gather(moments.trace, j));
@@ -42,7 +43,9 @@ void find_pair_forces(const FluidStep<D>& step, std::array<std::vector<double>, 
   });
 }
 
-template void find_pair_forces<2>(const FluidStep<2>&, std::array<std::vector<double>, 2>&);
-template void find_pair_forces<3>(const FluidStep<3>&, std::array<std::vector<double>, 3>&);
+template void find_pair_forces<2>(const FluidStep<2>&, const GaussianInfluence&,
+                                  std::array<std::vector<double>, 2>&);
+template void find_pair_forces<3>(const FluidStep<3>&, const GaussianInfluence&,
+                                  std::array<std::vector<double>, 3>&);
 
 }  // namespace perifrac

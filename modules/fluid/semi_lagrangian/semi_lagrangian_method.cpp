@@ -1,0 +1,44 @@
+#include "modules/fluid/semi_lagrangian/semi_lagrangian_method.hpp"
+
+#include "modules/fluid/semi_lagrangian/find_moments.hpp"
+#include "modules/fluid/semi_lagrangian/fluid_momentum.hpp"
+
+namespace perifrac {
+
+namespace {
+
+template <int D>
+class SemiLagrangianMethod final : public FluidMethod<D> {
+ public:
+  explicit SemiLagrangianMethod(const FluidScheme& scheme)
+      : gaussian_(scheme.horizon), influence_(gaussian_) {}
+
+  const PairInfluence& influence() const override { return influence_; }
+  void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
+                    const FluidNeighbours<D>& neighbours, FluidMoments<D>& moments) override {
+    perifrac::find_moments<D>(points, walls, neighbours, gaussian_, moments);
+  }
+  void find_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) override {
+    find_pair_forces<D>(step, gaussian_, force);
+  }
+
+ private:
+  GaussianInfluence gaussian_;
+  PairInfluence influence_;
+};
+
+template <int D>
+std::unique_ptr<FluidMethod<D>> make_method(const FluidScheme& scheme) {
+  return std::make_unique<SemiLagrangianMethod<D>>(scheme);
+}
+
+}  // namespace
+
+FluidMethodType semi_lagrangian_method() {
+  return {.name = "semi_lagrangian",
+          .meaning = "Free fluid on moving points, weakly compressible; explicit.",
+          .fallbacks = {},
+          .make = {make_method<2>, make_method<3>}};
+}
+
+}  // namespace perifrac

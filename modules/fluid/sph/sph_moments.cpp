@@ -1,0 +1,143 @@
+#include "modules/fluid/sph/sph_moments.hpp"
+
+#include "core/bonds/bond_traversal.hpp"
+#include "modules/fluid/points/symmetric_tensor.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// What neighbours add up to, in this order: divergence, squares of bonds, bonds; and fluid alone:
+/// shape tensor, density differences times bonds.
+template <int D>
+struct Sums {
+  static constexpr int divergence = 0;
+  static constexpr int square = 1;
+  static constexpr int bonds = 2;
+  static constexpr int of_walls = bonds + D;
+  static constexpr int shape = of_walls;
+  static constexpr int slope = shape + symmetric_size<D>;
+  static constexpr int size = slope + D;
+};
+
+/// What a bond y of this weight adds to the sums over fluid and walls alike.
+template <int D>
+void add_moments(const PacketVector<D>& y, const PacketVector<D>& relative, const Packet& weight,
+                 auto& sum) {
+  Packet along{}, square{};
+  for (int a = 0; a < D; ++a) {
+    along += y[a] * relative[a];
+    square += y[a] * y[a];
+    sum[Sums<D>::bonds + a] = weight * y[a];
+  }
+  sum[Sums<D>::divergence] = weight * along;
+  sum[Sums<D>::square] = weight * square;
+}
+
+template <int D>
+PacketVector<D> relative_to(const Vector<D>& v, const std::array<std::vector<double>, D>& velocity,
+                            const Index* j) {
+  PacketVector<D> relative;
+  for (int a = 0; a < D; ++a) relative[a] = gather(velocity[a], j) - v[a];
+  return relative;
+}
+
+/// The gradient of the density among fluid points.
+template <int D>
+Vector<D> slope_of(const std::array<double, Sums<D>::size>& sum, double bulk) {
+  SymmetricTensor<D> shape;
+  std::copy_n(sum.begin() + Sums<D>::shape, symmetric_size<D>, shape.begin());
+  const auto inverted = inverse<D>(regularised<D>(shape, bulk));
+  Vector<D> slope{};
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b < D; ++b) {
+      slope[a] +=
+          inverted[symmetric_index<D>(std::min(a, b), std::max(a, b))] * sum[Sums<D>::slope + b];
+    }
+  }
+  return slope;
+}
+
+}  // namespace
+
+template <int D>
+void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& walls,
+                              const FluidNeighbours<D>& neighbours,
+                              const WendlandInfluence& influence, FluidMoments<D>& moments) {
+  const double bulk = moments.bulk_trace / D;
+  for (auto& values : slope_) values.resize(points.count);
+  for_each_point(points.count, [&](Index i) {
+    const Vector<D> x = points.at(i), v = vector_at(points.velocity, i);
+    const double density = points.density[i];
+    auto sum = sum_over_neighbours<Sums<D>::size, D>(
+        neighbours.fluid_of_fluid(), i, x, points.position, influence,
+        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
+          const Packet weight = omega * gather(points.volume, j);
+          std::array<Packet, Sums<D>::size> term;
+          add_moments<D>(y, relative_to<D>(v, points.velocity, j), weight, term);
+          const Packet difference = weight * (gather(points.density, j) - density);
+          for (int a = 0; a < D; ++a) {
+            for (int b = a; b < D; ++b) {
+              term[Sums<D>::shape + symmetric_index<D>(a, b)] = weight * y[a] * y[b];
+            }
+            term[Sums<D>::slope + a] = difference * y[a];
+          }
+          return term;
+        });
+    set_at(slope_, i, slope_of<D>(sum, bulk));
+    if (neighbours.walls_of_fluid().count(i) > 0) {
+      const auto wall = sum_over_neighbours<Sums<D>::of_walls, D>(
+          neighbours.walls_of_fluid(), i, x, walls.position, influence,
+          [&](const Index* w, const PacketVector<D>& y, const Packet& omega) {
+            std::array<Packet, Sums<D>::of_walls> term;
+            add_moments<D>(y, relative_to<D>(v, walls.velocity, w), omega * gather(walls.volume, w),
+                           term);
+            return term;
+          });
+      for (int k = 0; k < Sums<D>::of_walls; ++k) sum[k] += wall[k];
+    }
+    moments.trace[i] = std::max(sum[Sums<D>::square], least_shape * moments.bulk_trace);
+    moments.divergence[i] = sum[Sums<D>::divergence] / bulk;
+    for (int a = 0; a < D; ++a) {
+      for (int b = a; b < D; ++b) {
+        moments.inverse_shape[symmetric_index<D>(a, b)][i] = a == b ? 1.0 / bulk : 0.0;
+      }
+      moments.crowding[a][i] = sum[Sums<D>::bonds + a] / bulk;
+    }
+  });
+}
+
+template <int D>
+void SphMoments<D>::find_diffusion(const FluidPoints<D>& points,
+                                   const FluidNeighbours<D>& neighbours,
+                                   const WendlandInfluence& influence, FluidMoments<D>& moments) {
+  for (auto& values : slope_) neighbours.images().copy(values, points.count);
+  for_each_point(points.count, [&](Index i) {
+    const double density = points.density[i];
+    const Vector<D> slope = vector_at(slope_, i);
+    const auto sum = sum_over_neighbours<1, D>(
+        neighbours.fluid_of_fluid(), i, points.at(i), points.position, influence,
+        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
+          Packet difference = gather(points.density, j) - density;
+          for (int a = 0; a < D; ++a) {
+            difference -= 0.5 * (slope[a] + gather(slope_[a], j)) * y[a];
+          }
+          return std::array{omega * gather(points.volume, j) * difference};
+        });
+    moments.diffusion[i] = 2.0 * D / moments.bulk_trace * sum[0];
+  });
+}
+
+template <int D>
+void SphMoments<D>::find(const FluidPoints<D>& points, const NearWalls<D>& walls,
+                         const FluidNeighbours<D>& neighbours, const WendlandInfluence& influence,
+                         FluidMoments<D>& moments) {
+  moments.resize(points.count);
+  find_sums(points, walls, neighbours, influence, moments);
+  find_diffusion(points, neighbours, influence, moments);
+}
+
+template class SphMoments<2>;
+template class SphMoments<3>;
+
+}  // namespace perifrac

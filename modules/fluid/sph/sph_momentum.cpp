@@ -1,0 +1,42 @@
+#include "modules/fluid/sph/sph_momentum.hpp"
+
+#include <algorithm>
+
+#include "core/base/small_vector.hpp"
+#include "core/bonds/bond_traversal.hpp"
+
+namespace perifrac {
+
+template <int D>
+void find_sph_forces(const FluidStep<D>& step, const WendlandInfluence& influence,
+                     std::array<std::vector<double>, D>& force) {
+  const FluidPoints<D>& points = step.points;
+  const double bulk = step.moments.bulk_trace / D;
+  const double least = step.fluid.density * step.scheme.artificial_viscosity *
+                       step.fluid.sound_speed() * step.scheme.spacing;
+  const double drag = 2.0 * std::max(step.fluid.viscosity, least);
+  for (auto& values : force) values.resize(points.count);
+  for_each_point(points.count, [&](Index i) {
+    const double pressure = points.pressure[i];
+    const Vector<D> v = vector_at(points.velocity, i);
+    const auto sum = sum_over_neighbours<D, D>(
+        step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, influence,
+        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
+          const Packet weight = omega * gather(points.volume, j);
+          const Packet both = pressure + gather(points.pressure, j);
+          PacketVector<D> term;
+          for (int a = 0; a < D; ++a) {
+            term[a] = weight * (drag * (gather(points.velocity[a], j) - v[a]) - both * y[a]);
+          }
+          return term;
+        });
+    set_at(force, i, points.volume[i] / bulk * sum);
+  });
+}
+
+template void find_sph_forces<2>(const FluidStep<2>&, const WendlandInfluence&,
+                                 std::array<std::vector<double>, 2>&);
+template void find_sph_forces<3>(const FluidStep<3>&, const WendlandInfluence&,
+                                 std::array<std::vector<double>, 3>&);
+
+}  // namespace perifrac

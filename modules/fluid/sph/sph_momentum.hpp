@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/geometry/wendland_influence.hpp"
+#include "modules/fluid/walls/wall_force.hpp"
+
+namespace perifrac {
+
+/// Sets the force on each fluid point by the others [N],
+///   V_i sum_j V_j [-(p_i + p_j) grad W_ij + 2 mu omega / b (v_j - v_i)]:
+/// the symmetric sum, which pairs with the divergence so that pressure's work is what compression
+/// takes up, and the viscosity of Morris, Fox and Zhu (1997), physical or artificial, whichever is
+/// larger. Sound in a lattice under tension would be unstable; walls and surfaces bear none.
+template <int D>
+void find_sph_forces(const FluidStep<D>& step, const WendlandInfluence& influence,
+                     std::array<std::vector<double>, D>& force);
+
+}  // namespace perifrac
