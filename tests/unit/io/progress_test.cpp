@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fcntl.h>
 #include <pty.h>
 #include <string>
@@ -94,6 +95,7 @@ TEST(Progress, IsShownAtMostFiveTimesASecond) {
 }
 
 TEST(Log, MakesTheProgressLineGoBeforeItWrites) {
+  unsetenv("NO_COLOR");
   const std::string text = on_terminal([] {
     Progress progress(0.0, 100.0);
     progress.update(42.0, 7);
@@ -102,7 +104,13 @@ TEST(Log, MakesTheProgressLineGoBeforeItWrites) {
   const auto erased = text.find(erase_line);
   ASSERT_NE(erased, std::string::npos);
   EXPECT_THAT(text.substr(erased + erase_line.size()),
-              MatchesRegex("[0-9:]+ warning: the split may diverge\r\n"));
+              MatchesRegex("[0-9:]+ \x1b\\[33mwarning\x1b\\[0m: the split may diverge\r\n"));
+}
+
+TEST(Log, HasNoColoursWhereNoneAreWanted) {
+  setenv("NO_COLOR", "1", 1);
+  EXPECT_THAT(on_terminal([] { log_error("c"); }), MatchesRegex("[0-9:]+ error: c\r\n"));
+  unsetenv("NO_COLOR");
 }
 
 TEST(Log, WritesPlainLinesToAPipe) {
