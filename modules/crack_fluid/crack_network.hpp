@@ -44,9 +44,10 @@ struct CrackFilling {
 /// `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on the body's points:
 /// in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`, `pore_mobility`
 /// [m^2/(Pa s)]; out `exchanged_mass` [kg/m]. With inlets from free fluid, on their mouths: in
-/// `mouth_pressure` [Pa], `mouth_stiffness` [Pa m/kg]; out `mouth_intake` [kg/m]; for the ledger
-/// `mass_taken_by_cracks` (negative) [kg/m]. In 3D without the /m of totals, and m^3 for m^2;
-/// `wetted_area` and `dry_area` [m^2] in place of the two lengths, and no `crack_flow_rate`.
+/// `mouth_pressure` [Pa], `mouth_stiffness`, `mouth_volume_stiffness` [Pa m/kg], `mouth_relaxation`
+/// [s], `mouth_given` [kg/m]; out `mouth_taken` [kg/m]; for the ledger `mass_taken_by_cracks`
+/// (negative) [kg/m]. In 3D without the /m of totals, and m^3 for m^2; `wetted_area` and `dry_area`
+/// [m^2] in place of the two lengths, and no `crack_flow_rate`.
 template <int D>
 class CrackNetwork final : public PhysicsModule {
  public:
