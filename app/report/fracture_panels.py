@@ -174,9 +174,9 @@ def pore_panel(fracture: Fracture) -> Panel:
         if free is not None:
             axes.scatter(*(1e3 * fracture.fluid.points.T), c=fluid.factor * free, cmap=FLUID, norm=norm, s=9,
                          edgecolors="white", linewidths=0.3, zorder=6)  # fmt: skip
-        axes.set_title(f"Pore pressure, and the water in {'notch and ' if free is not None else ''}crack at {time_of(fracture)}")
+        axes.set_title(f"Pressure in pores{', notch' if free is not None else ''} and crack at {time_of(fracture)}")
         draw_bar(axes, rock, 1.02, f"in the pores [{pore.unit}]")
-        draw_bar(axes, matplotlib.cm.ScalarMappable(norm, FLUID), 1.2, f"free water [{fluid.unit}]")
+        draw_bar(axes, matplotlib.cm.ScalarMappable(norm, FLUID), 1.26, f"notch and crack [{fluid.unit}]")
 
     return draw
 

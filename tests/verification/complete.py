@@ -15,9 +15,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "robustness"))
 from perifrac_runs import CONFIGS, RunTest, checkpoints, run_command  # noqa: E402
 
 SCENE = CONFIGS / "hf_complete.yaml"
-COARSE = {"body.spacing": "4 mm", "time.end": "20 ms", "output.interval": "4 ms", "output.history_interval": "0 s",
+COARSE = {"body.spacing": "4 mm", "time.end": "30 ms", "output.interval": "5 ms", "output.history_interval": "0 s",
           "output.checkpoint_interval": "0 s"}
-DYNAMIC = COARSE | {"solid.type": "dynamic", "solid.damping": "5000 1/s", "coupling": "{}", "time.end": "2 ms",
+DYNAMIC = COARSE | {"solid.type": "dynamic", "solid.damping": "5000 1/s", "coupling": "{iterations: {max: 1}}", "time.end": "2 ms",
                     "output.interval": "0.5 ms"}
 SHARES = ("exchanged_mass_from_fluid", "exchanged_mass_from_crack_fluid")
 
@@ -35,9 +35,9 @@ class Complete(RunTest):
         self.assertLessEqual(ledger["energy_error"], energy)
         rows = history(folder)
         last = rows[-1]
-        for share in SHARES:
-            self.assertGreater(last[share], 0.0, f"nothing by {share}")
-        self.assertGreater(last["mass_given_to_cracks"], 0.0)
+        self.assertGreater(last[SHARES[0]], 1e-7)
+        self.assertGreater(abs(last[SHARES[1]]), 1e-7)
+        self.assertGreater(last["mass_given_to_cracks"], 1e-7)
         # What the pores hold is what both brought; what leaked is what the crack brought.
         brought = sum(last[share] for share in SHARES)
         self.assertAlmostEqual(last["pore_fluid_mass"] - rows[0]["pore_fluid_mass"], brought, delta=1e-9 * brought)
@@ -45,11 +45,12 @@ class Complete(RunTest):
         return rows
 
     def test_books_close_in_equilibrium(self):
-        rows = self.assert_books_close(self.run_scene(COARSE, "run", "--threads", "1", scene=SCENE), energy=0.02)
+        rows = self.assert_books_close(self.run_scene(COARSE, "run", "--threads", "1", scene=SCENE), energy=0.01)
+        self.assertGreater(rows[-1][SHARES[1]], 1e-5)
         self.assertGreater(rows[-1]["crack_length"], rows[0]["crack_length"])
 
     def test_books_close_with_inertia(self):
-        self.assert_books_close(self.run_scene(DYNAMIC, "run", "--threads", "1", scene=SCENE), energy=0.02)
+        self.assert_books_close(self.run_scene(DYNAMIC, "run", "--threads", "1", scene=SCENE), energy=0.0145)
 
     def test_goes_on_bit_for_bit_after_a_kill_on_other_threads(self):
         keys = COARSE | {"time.end": "8 ms", "output.interval": "1 ms"}
