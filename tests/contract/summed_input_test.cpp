@@ -127,11 +127,11 @@ TEST(SummedInput, IterationsAgreeOnTheSameWindow) {
   CouplingOptions options = fake::even_windows(0.1);
   options.max_iterations = 60;
   options.tolerance = 1e-13;
-  Reservoir reservoir({{4.0, 1.0}, {7.0, 3.0}}, options);
+  Reservoir reservoir({{0.4, 1.0}, {0.7, 3.0}}, options);
   double p = 0.0;
   for (int window = 0; window < 4; ++window) {
     reservoir.manager->advance(1.0);
-    p = (p + 0.2 * (4.0 + 21.0)) / (1.0 + 0.2 * 11.0);
+    p = (p + 0.2 * (0.4 + 2.1)) / (1.0 + 0.2 * 1.1);
     EXPECT_NEAR(reservoir.pressure(), p, 1e-10);
   }
 }
