@@ -6,7 +6,7 @@ FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
 ATTACK_COUNT ?= 3000
 ATTACK_JOBS ?= 2
-SCENE ?= configs/hf_storage.yaml
+SCENE ?= configs/hf_complete.yaml
 BUILD := build/release
 PERIFRAC := $(BUILD)/bin/perifrac
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -47,9 +48,9 @@ double largest_size(std::span<const double> values) {
   return largest;
 }
 
-/// Appends the link that feeds in-port `in` of module `target`, if any module has its out-port.
-void link_writer(std::span<ModuleSlot> modules, std::size_t target, PortId in,
-                 std::vector<Link>& links) {
+/// Appends the links that feed in-port `in` of module `target`: one, or of totals any number.
+void link_writers(std::span<ModuleSlot> modules, std::size_t target, PortId in,
+                  std::vector<Link>& links) {
   const std::string& name = modules[target].module->ports()[in].name;
   const std::size_t before = links.size();
   for (std::size_t source = 0; source < modules.size(); ++source) {
@@ -65,9 +66,12 @@ void link_writer(std::span<ModuleSlot> modules, std::size_t target, PortId in,
       check_ports(links.back());
     }
   }
-  if (links.size() > before + 1) {
+  if (links.size() <= before + 1) return;
+  if (links.back().kind() != PortKind::extensive) {
     throw std::logic_error(links.back().path() + ": a second writer of one port");
   }
+  const auto sum = std::make_shared<SummedInput>();
+  for (std::size_t k = before; k < links.size(); ++k) links[k].join(sum);
 }
 
 /// Who is handed totals over a window answers them within it, whatever the split.
@@ -76,7 +80,7 @@ void use_slopes_of_totals(std::span<Link> links) {
     if (!link.lagged() || !carries_slope(link) || !takes_slope(link)) continue;
     for (const Link& total : links) {
       if (total.kind() == PortKind::extensive && are_opposite(link, total)) {
-        link.use_slope(total.target().port);
+        link.use_slope_of(total);
       }
     }
   }
@@ -88,7 +92,7 @@ std::vector<Link> plain_links(std::span<ModuleSlot> modules) {
     const auto ports = modules[target].module->ports();
     for (std::size_t in = 0; in < ports.size(); ++in) {
       if (ports[in].direction == PortDirection::in) {
-        link_writer(modules, target, static_cast<PortId>(in), links);
+        link_writers(modules, target, static_cast<PortId>(in), links);
       }
     }
   }

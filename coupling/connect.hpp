@@ -10,15 +10,16 @@
 namespace perifrac {
 
 /// A link for every in-port that another module has an out-port of the same name for; an in-port
-/// without is left as its module initialised it. Modules must be initialised.
+/// without is left as its module initialised it. Totals over the window may come from several
+/// modules: the in-port gets their sum (SummedInput). Modules must be initialised.
 ///
 /// Of a coupled pair, the module that advances first is sent the slope of the other's answer, if
 /// it can add it. That is fixed stress in the order given. Where the split is, or may be, undrained
 /// and the later module can add a slope within its window, it is moved before the earlier one.
 /// Where the earlier hands over totals, it is sent the slope of the later one's answer to them
 /// whatever the split: such links are no coupled pair.
-/// Throws std::logic_error where two modules write one in-port, or the two ports of a link differ
-/// in unit, kind or components.
+/// Throws std::logic_error where two modules write one intensive in-port, or the two ports of a
+/// link differ in unit, kind or components.
 std::vector<Link> connect(std::span<ModuleSlot> modules, Split split);
 
 /// Two links of one kind that run opposite ways between two modules, at least one with a slope on

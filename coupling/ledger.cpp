@@ -73,6 +73,11 @@ std::optional<Balance> Ledger::energy() const {
                  total(modules_, PortRole::energy_dissipated));
 }
 
+void Ledger::show(const std::string& port, const std::string& unit,
+                  std::shared_ptr<const SummedInput> sum) {
+  exchanges_.push_back({port, unit, std::move(sum)});
+}
+
 std::vector<LedgerColumn> Ledger::columns() const {
   std::vector<LedgerColumn> columns;
   const auto add_parts = [&](std::initializer_list<const Total*> totals) {
@@ -106,6 +111,11 @@ std::vector<LedgerColumn> Ledger::columns() const {
     columns.push_back({"energy_dissipated", unit, energy.dissipated});
     columns.push_back({"energy_error", "1", energy.relative_error});
     add_parts({&stored, &gained, &dissipated});
+  }
+  for (const auto& [port, unit, sum] : exchanges_) {
+    for (std::size_t place = 0; place < sum->sources(); ++place) {
+      columns.push_back({port + "_from_" + sum->source(place), unit, sum->passed(place)});
+    }
   }
   return columns;
 }

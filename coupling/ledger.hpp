@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "core/state/state_visitor.hpp"
 #include "coupling/module_slot.hpp"
+#include "coupling/summed_input.hpp"
 
 namespace perifrac {
 
@@ -46,6 +48,11 @@ class Ledger {
   std::optional<Balance> mass() const;    ///< of fluid [kg; in 2D kg/m]
   std::optional<Balance> energy() const;  ///< [J; in 2D J/m]
 
+  /// From now on what modules hand over to one in-port has a column for each of them, named
+  /// `<port>_from_<module>`: what passed since the start, in `unit`, part of no balance.
+  void show(const std::string& port, const std::string& unit,
+            std::shared_ptr<const SummedInput> sum);
+
   /// Always the same names in the same order for the same modules.
   std::vector<LedgerColumn> columns() const;
 
@@ -59,6 +66,13 @@ class Ledger {
   std::span<ModuleSlot> modules_;
   std::optional<double> mass_at_start_;  ///< nothing where no module stores it
   std::optional<double> energy_at_start_;
+
+  struct Exchange {
+    std::string port;
+    std::string unit;
+    std::shared_ptr<const SummedInput> sum;
+  };
+  std::vector<Exchange> exchanges_;
 };
 
 }  // namespace perifrac

@@ -48,15 +48,29 @@ std::string Link::path() const {
   return fmt::format("{}.{} -> {}", source_.module_name, name_, target_.module_name);
 }
 
+void Link::join(std::shared_ptr<SummedInput> sum) {
+  sum_ = std::move(sum);
+  place_ = sum_->add(source_.module_name);
+}
+
+void Link::use_slope_of(const Link& total) {
+  use_slope(total.target_.port);
+  counter_sum_ = total.sum_;
+  counter_place_ = total.place_;
+}
+
 void Link::start() {
   const PortView out = source_.module->port(source_.port);
   read_source(out, reached_);
   find_rates(0.0);
   accept();
   is_foretold_ = !out.forecast.empty();
+  const bool is_property = source_.module->ports()[source_.port].role == PortRole::property;
+  if (is_property && !uses_slope() && out.slope.empty()) extrapolates_ = false;
 }
 
 void Link::predict(double length) {
+  length_ = length;
   // The source stands where the last window left it, though its points may have a new version.
   const PortView out = source_.module->port(source_.port);
   if (is_foretold_) {
@@ -96,6 +110,7 @@ void Link::start_counter() {
 
 void Link::accept() {
   if (!is_foretold_) std::swap(accepted_, reached_);
+  if (sum_) sum_->accept(place_);
   start_counter();
 }
 
@@ -106,9 +121,12 @@ void Link::deliver() {
       input.value.size() != components * input.points->count) {
     throw std::logic_error(fmt::format("{}: values and points differ in number", path()));
   }
+  if (sum_) return deliver_sum();
   mapping_.update(sent_points_->set(), *input.points);
-  mapping_.apply(value_, input.value);
-  if (!input.rate.empty()) mapping_.apply(rate_, input.rate);
+  const bool has_earlier = counter_sum_ && counter_place_ > 0;
+  if (has_earlier) add_earlier_shares();
+  mapping_.apply(has_earlier ? told_ : value_, input.value);
+  if (!input.rate.empty()) mapping_.apply(has_earlier ? told_rate_ : rate_, input.rate);
   if (uses_slope() && slope_.size() != value_.size()) {
     if (!mapping_.is_identity()) throw std::logic_error(path() + ": a slope between other points");
     std::ranges::copy(slope_, input.slope.begin());
@@ -116,6 +134,38 @@ void Link::deliver() {
     mapping_.apply(slope_, input.slope);
   } else {
     std::fill(input.slope.begin(), input.slope.end(), 0.0);
+  }
+}
+
+/// Maps what is handed over to the target's present points.
+void Link::find_share() {
+  const PortView input = target_.module->port(target_.port);
+  mapping_.update(sent_points_->set(), *input.points);
+  sum_->share(place_).resize(input.value.size());
+  mapping_.apply(value_, sum_->share(place_));
+}
+
+/// The last of the links to an in-port makes it whole.
+void Link::deliver_sum() {
+  find_share();
+  const PortView input = target_.module->port(target_.port);
+  sum_->add_up(0, place_ + 1, input.value);
+  for (std::size_t i = 0; i < input.rate.size(); ++i) {
+    input.rate[i] = length_ > 0.0 ? input.value[i] / length_ : 0.0;
+  }
+  std::ranges::fill(input.slope, 0.0);
+}
+
+/// What modules before the target have handed over in this window, its source will answer.
+void Link::add_earlier_shares() {
+  told_ = value_;
+  told_rate_ = rate_;
+  std::vector<double> earlier(value_.size());
+  counter_sum_->add_up(0, counter_place_, earlier);
+  for (std::size_t i = 0; i < value_.size(); ++i) {
+    const double answer = slope_[i] * earlier[i];
+    told_[i] += answer;
+    if (length_ > 0.0) told_rate_[i] += answer / length_;
   }
 }
 
@@ -134,6 +184,7 @@ void Link::collect(double length) {
     used_ = std::move(mapped);
   }
   form_value(reached_);
+  if (sum_ && !lagged_) find_share();
   if (lagged_) compare();
 }
 
@@ -154,13 +205,21 @@ void Link::visit_state(StateVisitor& visitor) {
   visitor.visit("output_rate", accepted_.output_rate);
   visitor.visit("counter", accepted_.counter);
   visitor.visit("counter_rate", accepted_.counter_rate);
+  if (sum_) sum_->visit_state(visitor, place_);
   visitor.leave();
 }
 
 void Link::read_source(const PortView& out, Sample& sample) {
   sample.points = freeze(*out.points, sample.points);
   sample.output.assign(out.value.begin(), out.value.end());
-  if (!uses_slope()) return;
+  if (uses_slope()) read_counter(sample);
+}
+
+void Link::read_counter(Sample& sample) const {
+  if (counter_sum_) {
+    sample.counter.resize(sample.output.size());
+    return counter_sum_->add_up(0, counter_place_ + 1, sample.counter);
+  }
   const PortView in = source_.module->port(*counter_);
   sample.counter.assign(in.value.begin(), in.value.end());
   if (sample.counter.size() != sample.output.size()) {

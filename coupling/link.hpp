@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include "core/module/physics_module.hpp"
 #include "coupling/frozen_points.hpp"
 #include "coupling/mapping.hpp"
+#include "coupling/summed_input.hpp"
 
 namespace perifrac {
 
@@ -30,8 +32,14 @@ struct LinkEnd {
 ///
 /// A link is lagged where its source comes after its target in the order of advancing: the target
 /// then starts on a prediction. An intensive value is extrapolated with the rate of the last
-/// window, so that one pass is second order in the window; or it is held. An extensive one is the
-/// total of the last window: late, but in one-pass nothing of it is lost.
+/// window, so that one pass is second order in the window; or it is held, as are properties that
+/// nobody answers.
+/// An extensive one is the total of the last window: late, but in one-pass nothing of it is lost.
+///
+/// Where several modules hand over totals to one in-port, it gets their sum (SummedInput). Its
+/// module's answer to that is then told to each with its own share taken off, and those of modules
+/// that advance before it, which it is told as they are in this window; what those after it hand
+/// over stays in the intercept, at the pace of the last window.
 ///
 /// An output that its module foretells (PortView::forecast) is neither predicted nor compared.
 ///
@@ -71,6 +79,13 @@ class Link {
     hold_ = hold;
   }
   bool uses_slope() const { return counter_.has_value(); }
+  /// Likewise, of the answer to totals that link `total` hands over, alone or beside others.
+  void use_slope_of(const Link& total);
+  /// The target's in-port gets the sum of what the links at `sum` hand over; this one is the next.
+  void join(std::shared_ptr<SummedInput> sum);
+  /// Null where it has the in-port to itself.
+  std::shared_ptr<const SummedInput> sum() const { return sum_; }
+  bool is_first_of_sum() const { return sum_ && place_ == 0; }
   /// Predict from now on that the intercept stays, over a window, what it is at its beginning.
   void predict_no_change() { extrapolates_ = false; }
   bool holds() const { return hold_; }
@@ -112,6 +127,10 @@ class Link {
   };
 
   void read_source(const PortView& out, Sample& sample);
+  void read_counter(Sample& sample) const;
+  void find_share();
+  void deliver_sum();
+  void add_earlier_shares();
   void read_slope(const PortView& out);
   void start_counter();
   void find_rates(double length);
@@ -126,6 +145,11 @@ class Link {
   LinkEnd target_;
   bool lagged_;
   std::optional<PortId> counter_;
+  std::shared_ptr<SummedInput> sum_;          ///< that this link adds to
+  std::size_t place_ = 0;                     ///< in sum_
+  std::shared_ptr<SummedInput> counter_sum_;  ///< that the slope refers to
+  std::size_t counter_place_ = 0;             ///< in counter_sum_, of the target's own share
+  double length_ = 0.0;                       ///< of the window at hand [s]
   bool hold_ = false;
   bool extrapolates_ = true;
   bool is_foretold_ = false;
@@ -138,6 +162,7 @@ class Link {
   std::vector<double> rate_;
   std::vector<double> slope_;
   std::vector<double> used_;
+  std::vector<double> told_, told_rate_;  // workspace: the value with earlier shares
   Mismatch mismatch_;
 
   Mapping mapping_;

@@ -53,6 +53,12 @@ void CouplingManager::start_links() {
   const ProfilePart profiled("exchange");
   links_ = connect(modules_, options_.split);
   for (Link& link : links_) link.start();
+  for (const Link& link : links_) {
+    const Port& port = link.target().module->ports()[link.target().port];
+    if (link.is_first_of_sum() && port.components == 1) {
+      ledger_.show(port.name, port.unit, link.sum());
+    }
+  }
 }
 
 /// How they store may depend on how strongly they are answered within a window.

@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from charts import Chart, Series, all_charts, start_of_change, telling_range, time_label
+from fracture_panels import fracture_panels
 from frames import Field, Frame, FrameSeries
 from quantities import described, display_for, quantity, sentence, words
 from run import Run
@@ -212,9 +213,13 @@ def map_panels(run: Run, count: int) -> list[Panel]:
 
 
 def panels(run: Run) -> list[Panel]:
-    """At most four: against a reference where there is one, else curves and maps of the run itself."""
+    """At most four: against a reference where there is one, then of a fracture, else curves and maps of the run itself."""
     charts = all_charts(run)
     chosen = [c for kind in ("comparison", "profile", "error") for c in [c for c in charts if c.kind == kind][:1]]
+    of_fracture = fracture_panels(run)
+    if of_fracture:
+        shown = [chart_panel(chart) for chart in chosen] + of_fracture[: 4 - len(chosen)]
+        return shown + [chart_panel(c) for c in charts if c.kind == "history"][: 4 - len(shown)]
     chosen += [c for c in charts if c.kind == "history"][: max(0, 2 - len(chosen))]
     return [chart_panel(chart) for chart in chosen] + map_panels(run, 4 - len(chosen))
 

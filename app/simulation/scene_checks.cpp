@@ -169,17 +169,13 @@ void check_mouth(const Section& scene, const std::string& inlet) {
              fmt::format("fluid.density, {:g} kg/m^3", outside));
 }
 
-/// What flows into the pores is of their kind, and comes from one side.
+/// What flows into the pores is of their kind.
 void check_exchange(const Section& scene) {
   if (!scene.has("pore_flow")) return;
   const bool free = scene.has("fluid") && scene.word("interface.exchange") != "none";
   const bool in_cracks = scene.has("crack_fluid") && scene.word("crack_fluid.leak_off") == "pores";
   if (free) check_density(scene, "fluid");
   if (in_cracks) check_density(scene, "crack_fluid");
-  if (free && in_cracks) {
-    scene.fail("crack_fluid.leak_off", "free fluid seeps into the pores already",
-               "none, or interface.exchange: none");
-  }
 }
 
 }  // namespace

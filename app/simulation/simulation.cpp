@@ -46,6 +46,15 @@ std::unique_ptr<PhysicsModule> make_module(const Section& scene, const std::stri
   }
 }
 
+/// What several modules hand over to one in-port has one name.
+void tell_apart(std::vector<Field>& fields, const std::vector<std::string>& of_module) {
+  std::vector<std::string> names;
+  for (const Field& field : fields) names.push_back(field.port.name);
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (std::ranges::count(names, names[k]) > 1) fields[k].port.name += "_from_" + of_module[k];
+  }
+}
+
 }  // namespace
 
 bool Simulation::has_body() const {
@@ -106,14 +115,16 @@ Index facet_count(const Simulation& simulation) {
 
 std::vector<Field> fields_of(const CouplingManager& manager) {
   std::vector<Field> fields;
+  std::vector<std::string> of_module;
   for (const ModuleSlot& slot : manager.modules()) {
     const auto ports = slot.module->ports();
     for (std::size_t id = 0; id < ports.size(); ++id) {
-      if (ports[id].direction == PortDirection::out && ports[id].role == PortRole::field) {
-        fields.push_back({slot.module.get(), static_cast<PortId>(id), ports[id]});
-      }
+      if (ports[id].direction != PortDirection::out || ports[id].role != PortRole::field) continue;
+      fields.push_back({slot.module.get(), static_cast<PortId>(id), ports[id]});
+      of_module.push_back(slot.name);
     }
   }
+  tell_apart(fields, of_module);
   return fields;
 }
 

@@ -40,7 +40,8 @@ struct Field {
   const PointSet& points() const { return *module->port(id).points; }
 };
 
-/// Every field of every module, in the modules' order.
+/// Every field of every module, in the modules' order; one that several have is
+/// `<name>_from_<module>`.
 std::vector<Field> fields_of(const CouplingManager& manager);
 
 /// The field of that name; throws std::logic_error where there is none.

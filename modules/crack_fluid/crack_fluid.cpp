@@ -98,7 +98,7 @@ double CrackFluid<D>::advance(const TimeWindow& window) {
     rest(window);
     face_work_.add_new(*flow_);
   }
-  if (mouths_.any()) mouths_.begin_window(inlets_);
+  if (mouths_.any()) mouths_.begin_window(window.length(), inlets_);
   if (leak_off_) leak_off_->begin_window(window);
   const double leaked_before = leak_off_volume();
   std::int64_t parts = 1;
@@ -114,6 +114,7 @@ double CrackFluid<D>::advance(const TimeWindow& window) {
       done *= 2;
     }
   }
+  mouths_.end_window();
   if (leak_off_ && window.length() > 0.0) {
     leak_off_rate_ = (leak_off_volume() - leaked_before) / window.length();
   }

@@ -159,21 +159,24 @@ void CrackFluid<D>::make_exchange_ports() {
     });
   }
   if (!mouths_.any()) return;
-  const auto property = [](const char* name, const std::string& unit, PortKind kind) {
-    return Port{.name = name, .unit = unit, .kind = kind, .role = PortRole::property};
+  const auto property = [](const char* name, const std::string& unit) {
+    return Port{.name = name, .unit = unit, .role = PortRole::property};
   };
-  ports_.in(
-      property("mouth_pressure", "Pa", intensive), [] {},
-      [this] {
-        return PortView{&mouths_.points(), mouths_.pressure()};
-      });
-  ports_.in(
-      property("mouth_stiffness", "Pa m/kg", intensive), [] {},
-      [this] {
-        return PortView{&mouths_.points(), mouths_.stiffness()};
-      });
-  ports_.out(property("mouth_intake", kilograms, extensive), [this] {
-    return PortView{&mouths_.points(), mouths_.intake()};
+  const auto told = [&](const char* name, const std::string& unit,
+                        std::span<double> (CrackMouths::*values)()) {
+    ports_.in(
+        property(name, unit), [] {},
+        [this, values] {
+          return PortView{&mouths_.points(), (mouths_.*values)()};
+        });
+  };
+  told("mouth_pressure", "Pa", &CrackMouths::pressure);
+  told("mouth_stiffness", "Pa m/kg", &CrackMouths::stiffness);
+  told("mouth_volume_stiffness", "Pa m/kg", &CrackMouths::volume_stiffness);
+  told("mouth_relaxation", "s", &CrackMouths::relaxation);
+  told("mouth_given", kilograms, &CrackMouths::given);
+  ports_.out(property("mouth_taken", kilograms), [this] {
+    return PortView{&mouths_.points(), mouths_.taken_by_mouth()};
   });
   ports_.total(total_port("mass_taken_by_cracks", "kg", PortRole::mass_stored, D), whole_crack,
                [this] { return -mouths_.taken(); });

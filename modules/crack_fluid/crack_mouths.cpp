@@ -1,6 +1,7 @@
 #include "modules/crack_fluid/crack_mouths.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace perifrac {
 
@@ -12,18 +13,41 @@ CrackMouths::CrackMouths(const CrackInlets& inlets) {
   }
   point_set_ = {.name = "mouths", .dimension = 2, .count = inlet_.size()};
   for (int a = 0; a < 2; ++a) point_set_.position[a] = place_[a];
-  for (auto* values : {&pressure_, &stiffness_, &intake_}) values->assign(inlet_.size(), 0.0);
+  for (auto* values :
+       {&pressure_, &stiffness_, &volume_stiffness_, &relaxation_, &given_, &base_, &answer_, &phi_,
+        &decay_, &intake_, &excess_, &given_before_, &taken_by_mouth_}) {
+    values->assign(inlet_.size(), 0.0);
+  }
 }
 
-void CrackMouths::begin_window(CrackInlets& inlets) {
+void CrackMouths::begin_window(double length, CrackInlets& inlets) {
   std::ranges::fill(intake_, 0.0);
-  for (std::size_t k = 0; k < inlet_.size(); ++k) supply(k, inlets);
+  for (std::size_t k = 0; k < inlet_.size(); ++k) {
+    const double x = relaxation_[k] > 0.0 ? length / relaxation_[k] : 0.0;
+    decay_[k] = std::exp(-x);
+    phi_[k] = x > 0.0 ? -std::expm1(-x) / x : 1.0;
+    const double passing = std::max(0.0, stiffness_[k] - volume_stiffness_[k]);
+    const double lasting = stiffness_[k] - passing;
+    answer_[k] = lasting + passing * phi_[k];
+    base_[k] = pressure_[k] - lasting * (taken_by_mouth_[k] - given_[k]) +
+               passing * (decay_[k] * excess_[k] + phi_[k] * (given_[k] - given_before_[k]));
+    supply(k, inlets);
+  }
+}
+
+void CrackMouths::end_window() {
+  for (std::size_t k = 0; k < inlet_.size(); ++k) {
+    const double given = given_[k] - given_before_[k];
+    excess_[k] = decay_[k] * excess_[k] + phi_[k] * (given - intake_[k]);
+    given_before_[k] = given_[k];
+    taken_by_mouth_[k] += intake_[k];
+  }
 }
 
 /// What a window's earlier steps took is felt in its later ones.
 void CrackMouths::supply(std::size_t mouth, CrackInlets& inlets) const {
-  inlets.supply(inlet_[mouth], {.pressure = pressure_[mouth] - stiffness_[mouth] * intake_[mouth],
-                                .stiffness = stiffness_[mouth]});
+  inlets.supply(inlet_[mouth], {.pressure = base_[mouth] - answer_[mouth] * intake_[mouth],
+                                .stiffness = answer_[mouth]});
 }
 
 bool CrackMouths::book(Index facet, double inflow, CrackInlets& inlets) {
@@ -38,13 +62,17 @@ bool CrackMouths::book(Index facet, double inflow, CrackInlets& inlets) {
 }
 
 void CrackMouths::clear() {
-  std::ranges::fill(intake_, 0.0);
+  for (auto* values : {&intake_, &excess_, &given_before_, &taken_by_mouth_}) {
+    std::ranges::fill(*values, 0.0);
+  }
   taken_ = {};
 }
 
 void CrackMouths::visit_state(StateVisitor& visitor) {
   if (!any()) return;
-  visitor.visit("mouth_intake", intake_);
+  visitor.visit("mouth_excess", excess_);
+  visitor.visit("mouth_given_before", given_before_);
+  visitor.visit("mouth_taken", taken_by_mouth_);
   taken_.visit_state(visitor, "taken_from_fluid");
 }
 

@@ -159,15 +159,26 @@ void FreeFluid<D>::make_mouth_ports() {
   ports_.out(std::move(pressure), [this, mouths] {
     return PortView{&mouths->points(), mouths->pressure(dynamics_->points(), dynamics_->fluid())};
   });
-  ports_.out(property("mouth_stiffness", D == 2 ? "Pa m/kg" : "Pa/kg", PortKind::intensive),
+  const char* const stiffness_unit = D == 2 ? "Pa m/kg" : "Pa/kg";
+  ports_.out(property("mouth_stiffness", stiffness_unit, PortKind::intensive), [this, mouths] {
+    return PortView{&mouths->points(), mouths->stiffness(dynamics_->points(), dynamics_->fluid())};
+  });
+  ports_.out(property("mouth_volume_stiffness", stiffness_unit, PortKind::intensive),
              [this, mouths] {
                return PortView{&mouths->points(),
-                               mouths->stiffness(dynamics_->points(), dynamics_->fluid())};
+                               mouths->volume_stiffness(dynamics_->points(), dynamics_->fluid())};
              });
+  ports_.out(property("mouth_relaxation", "s", PortKind::intensive), [this, mouths] {
+    return PortView{&mouths->points(), mouths->relaxation(dynamics_->fluid())};
+  });
+  const std::string kilograms = unit_of_total("kg", D);
+  ports_.out(property("mouth_given", kilograms, PortKind::intensive), [mouths] {
+    return PortView{&mouths->points(), mouths->given_by_mouth()};
+  });
   ports_.in(
-      property("mouth_intake", unit_of_total("kg", D), PortKind::extensive), [] {},
+      property("mouth_taken", kilograms, PortKind::intensive), [] {},
       [mouths] {
-        return PortView{&mouths->points(), mouths->intake()};
+        return PortView{&mouths->points(), mouths->taken()};
       });
   ports_.total(total_port("mass_given_to_cracks", "kg", PortRole::mass_stored, D), whole_fluid,
                [mouths] { return mouths->given(); });

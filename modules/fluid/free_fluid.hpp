@@ -20,8 +20,9 @@ namespace perifrac {
 /// what the fluid gave each point over the window; where fluid may enter broken rock, in `damage`.
 /// If it has pores: in `pore_pressure` [Pa] with rate and slope, `pore_mobility` [m^2/(Pa s)]; out
 /// `exchanged_mass` [kg], likewise.
-/// Where cracks open into it, on their mouths: in `mouth_intake` [kg]; out `mouth_pressure` [Pa],
-/// `mouth_stiffness` [Pa/kg]; for the ledger `mass_given_to_cracks` [kg].
+/// Where cracks open into it, on their mouths: in `mouth_taken` [kg]; out `mouth_pressure` [Pa],
+/// `mouth_stiffness`, `mouth_volume_stiffness` [Pa/kg], `mouth_relaxation` [s], `mouth_given` [kg];
+/// for the ledger `mass_given_to_cracks` [kg].
 template <int D>
 class FreeFluid final : public PhysicsModule {
  public:

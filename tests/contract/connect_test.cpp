@@ -41,6 +41,19 @@ TEST(Connect, RefusesTwoWriters) {
   EXPECT_THROW(connect(modules, Split::drained), std::logic_error);
 }
 
+TEST(Connect, TotalsOfSeveralModulesAddUp) {
+  const Port in{"heat", "J", PortDirection::in, PortKind::extensive};
+  const Port out{"heat", "J", PortDirection::out, PortKind::extensive};
+  auto modules = bare({{out}, {in}, {out}});
+  const auto links = connect(modules, Split::drained);
+  ASSERT_EQ(links.size(), 2u);
+  EXPECT_EQ(links[0].sum(), links[1].sum());
+  EXPECT_TRUE(links[0].is_first_of_sum());
+  EXPECT_FALSE(links[1].is_first_of_sum());
+  auto one_writer = bare({{out}, {in}});
+  EXPECT_EQ(connect(one_writer, Split::drained)[0].sum(), nullptr);
+}
+
 TEST(Connect, RefusesPortsThatDoNotFit) {
   const std::vector<Port> misfits = {
       {"heat", "kJ", PortDirection::out},

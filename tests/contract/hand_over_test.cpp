@@ -47,10 +47,11 @@ struct Notch {
 /// last window, which the points give in the next.
 void expect_nothing_is_lost(Notch& notch, int windows) {
   const double start = notch.scalar("free_fluid_mass");
-  double total_intake = 0.0;
+  double total_intake = 0.0, taken_before = 0.0;
   for (int window = 0; window < windows; ++window) {
     notch.manager().advance(1.0);
-    const double intake = notch.scalar("mouth_intake");
+    const double intake = notch.scalar("mouth_taken") - taken_before;
+    taken_before = notch.scalar("mouth_taken");
     const double there = notch.scalar("free_fluid_mass") + notch.scalar("crack_fluid_stored_mass");
     const double expected = start + notch.scalar("injected_fluid_mass") + intake;
     ASSERT_NEAR(there, expected, 1e-12 * start) << "window " << window;

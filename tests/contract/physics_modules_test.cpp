@@ -84,7 +84,10 @@ Variant make_variant(std::string name, std::string type, std::string text,
                                      {"free_crack_opening", 1e-4},
                                      {"mouth_pressure", 1e5},
                                      {"mouth_stiffness", 1e6},
-                                     {"mouth_intake", 1.0}}};
+                                     {"mouth_volume_stiffness", 1e5},
+                                     {"mouth_relaxation", 1e-4},
+                                     {"mouth_given", 0.0},
+                                     {"mouth_taken", 1.0}}};
   return {std::move(type), std::move(contract)};
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/small_vector.hpp"
+#include "core/state/compensated_sum.hpp"
 
 namespace perifrac {
 
@@ -64,8 +65,10 @@ FluidMouths<D>::FluidMouths(const std::vector<Vector<D>>& places, const Body<D>&
   }
   point_set_ = {.name = "mouths", .dimension = D, .count = places.size()};
   for (int a = 0; a < D; ++a) point_set_.position[a] = place_[a];
-  for (auto* values : {&pressure_, &stiffness_, &intake_, &given_now_, &last_, &owed_})
+  for (auto* values : {&pressure_, &stiffness_, &volume_stiffness_, &relaxation_, &taken_, &given_,
+                       &given_lost_}) {
     values->assign(places.size(), 0.0);
+  }
 }
 
 /// Finds the points at a mouth with omega m; returns the sum.
@@ -102,10 +105,9 @@ std::span<double> FluidMouths<D>::stiffness(const FluidPoints<D>& fluid,
 template <int D>
 std::span<double> FluidMouths<D>::pressure(const FluidPoints<D>& fluid,
                                            const FluidProperties& properties) {
-  stiffness(fluid, properties);
   for (std::size_t k = 0; k < pressure_.size(); ++k) {
     const double all = find_weights(fluid, k);
-    pressure_[k] = stiffness_[k] * given_now_[k];
+    pressure_[k] = 0.0;
     for (const auto& [i, weight] : weights_) {
       pressure_[k] += weight / all * properties.pressure(fluid.density[i]);
     }
@@ -114,22 +116,45 @@ std::span<double> FluidMouths<D>::pressure(const FluidPoints<D>& fluid,
 }
 
 template <int D>
+std::span<double> FluidMouths<D>::volume_stiffness(const FluidPoints<D>& fluid,
+                                                   const FluidProperties& properties) {
+  double compliance = 0.0;
+  for (Index i = 0; i < fluid.count; ++i) {
+    const double speed = properties.sound_speed(fluid.density[i]);
+    compliance += fluid.mass[i] / (fluid.density[i] * speed * speed);
+  }
+  std::ranges::fill(volume_stiffness_, compliance > 0.0 ? 1.0 / compliance : 0.0);
+  return volume_stiffness_;
+}
+
+template <int D>
+std::span<double> FluidMouths<D>::relaxation(const FluidProperties& properties) {
+  std::ranges::fill(relaxation_, horizon_ / properties.sound_speed());
+  return relaxation_;
+}
+
+template <int D>
 void FluidMouths<D>::begin_window(double length) {
-  window_ = length;
-  std::ranges::fill(given_now_, 0.0);
-  std::ranges::fill(last_, 0.0);
+  left_ = length;
+}
+
+template <int D>
+double FluidMouths<D>::given() const {
+  double sum = 0.0;
+  for (const double of_mouth : given_) sum += of_mouth;
+  for (const double of_mouth : given_lost_) sum += of_mouth;
+  return sum;
 }
 
 template <int D>
 void FluidMouths<D>::give(FluidPoints<D>& fluid, double length, std::vector<double>& impulse) {
   const std::size_t body_points = impulse.size() / D;
-  for (std::size_t k = 0; k < owed_.size(); ++k) {
-    given_now_[k] += last_[k];
-    last_[k] = 0.0;
-    const double due = owed_[k] + intake_[k] * length / window_;
+  const double part = length < left_ ? length / left_ : 1.0;
+  left_ -= length;
+  for (std::size_t k = 0; k < given_.size(); ++k) {
+    const double due = part * (taken_[k] - given_[k]);
     const double all = find_weights(fluid, k);
     const double amount = std::clamp(due, -most_part * all, most_part * all);
-    owed_[k] = due - amount;
     if (amount == 0.0) continue;
     Vector<D> momentum{};
     for (const auto& [i, weight] : weights_) {
@@ -137,8 +162,7 @@ void FluidMouths<D>::give(FluidPoints<D>& fluid, double length, std::vector<doub
       fluid.mass[i] -= amount * weight / all;
       const double left = before - fluid.mass[i];  // as rounded: what is counted is what is gone
       fluid.density[i] -= left / fluid.volume[i];
-      given_.add(left);
-      last_[k] += left;
+      add_compensated(given_[k], given_lost_[k], left);
       momentum += left * vector_at(fluid.velocity, i);
     }
     const double share = 1.0 / static_cast<double>(beside_[k].size());
@@ -150,10 +174,8 @@ void FluidMouths<D>::give(FluidPoints<D>& fluid, double length, std::vector<doub
 
 template <int D>
 void FluidMouths<D>::visit_state(StateVisitor& visitor) {
-  visitor.visit("given_in_window", given_now_);
-  visitor.visit("given_in_step", last_);
-  visitor.visit("owed_to_cracks", owed_);
-  given_.visit_state(visitor, "given_to_cracks");
+  visitor.visit("given_to_cracks", given_);
+  visitor.visit("given_to_cracks_lost", given_lost_);
 }
 
 template <int D>
