@@ -10,6 +10,7 @@
 
 #include "app/command_pages.hpp"
 #include "app/info/info.hpp"
+#include "app/installation/data_folder.hpp"
 #include "app/installation/examples.hpp"
 #include "app/list.hpp"
 #include "app/report/report.hpp"
@@ -216,6 +217,7 @@ int parse_and_dispatch(int argc, char** argv) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  name_own_unit_database();
   try {
     const int code = parse_and_dispatch(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout))

@@ -1,5 +1,6 @@
 #include "app/installation/data_folder.hpp"
 
+#include <cstdlib>
 #include <optional>
 
 namespace perifrac {
@@ -34,6 +35,13 @@ const std::optional<fs::path>& installed() {
 const fs::path& data_folder() {
   static const fs::path folder = installed().value_or(PERIFRAC_SOURCE_DIR);
   return folder;
+}
+
+void name_own_unit_database() {
+  const fs::path file = data_folder() / "udunits" / "udunits2.xml";
+  std::error_code missing;
+  constexpr int keep_what_is_said = 0;
+  if (fs::exists(file, missing)) ::setenv("UDUNITS2_XML_PATH", file.c_str(), keep_what_is_said);
 }
 
 fs::path program_file() {

@@ -9,6 +9,9 @@ namespace perifrac {
 /// where the program lies, so that the whole may be moved; else the source tree.
 const std::filesystem::path& data_folder();
 
+/// Has udunits read the database that a folder which is moved brings along, where it does.
+void name_own_unit_database();
+
 /// What to start for another run of this program: where it is installed, the one that chooses the
 /// instruction set, since that run may be on another machine.
 std::filesystem::path program_file();

@@ -35,16 +35,6 @@ constexpr int failure = 1, usage_error = 2;
   std::exit(code);
 }
 
-/// A folder that is moved brings its own units along, where it brings libraries.
-void name_unit_database(const fs::path& prefix) {
-  const fs::path file = prefix / "share" / "perifrac" / "udunits" / "udunits2.xml";
-  std::error_code missing;
-  constexpr int keep_what_is_said = 0;
-  if (fs::exists(file, missing)) {
-    ::setenv("UDUNITS2_XML_PATH", file.c_str(), keep_what_is_said);
-  }
-}
-
 }  // namespace
 
 int main(int, char** arguments) {
@@ -52,7 +42,6 @@ int main(int, char** arguments) {
   const fs::path prefix = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
   if (error) end(failure, "cannot find its own folder: " + error.message());
   const char* const chosen = std::getenv("PERIFRAC_INSTRUCTIONS");
-  name_unit_database(prefix);
   std::string have;
   for (const Set& set : instruction_sets()) {
     const fs::path program = prefix / "libexec" / "perifrac" / set.name / "perifrac";
