@@ -121,21 +121,6 @@ TEST(SummedInput, LongWindowsAreStable) {
   EXPECT_NEAR(reservoir.pressure(), 2.0, 1e-6);
 }
 
-/// Iterated, all feel the pressure of the window's end: (1 + s L (c0 + c1)) p = p0 + s L (c0 + 3
-/// c1).
-TEST(SummedInput, IterationsAgreeOnTheSameWindow) {
-  CouplingOptions options = fake::even_windows(0.1);
-  options.max_iterations = 60;
-  options.tolerance = 1e-13;
-  Reservoir reservoir({{0.4, 1.0}, {0.7, 3.0}}, options);
-  double p = 0.0;
-  for (int window = 0; window < 4; ++window) {
-    reservoir.manager->advance(1.0);
-    p = (p + 0.2 * (0.4 + 2.1)) / (1.0 + 0.2 * 1.1);
-    EXPECT_NEAR(reservoir.pressure(), p, 1e-10);
-  }
-}
-
 TEST(SummedInput, GoesOnBitForBitAfterARollback) {
   Reservoir whole({{0.3, 1.0}, {0.7, 3.0}}, one_pass()),
       other({{0.3, 1.0}, {0.7, 3.0}}, one_pass());
