@@ -27,7 +27,8 @@ class CoarseInterpolation {
   void restrict(const Eigen::VectorXd& fine, Eigen::VectorXd& coarse) const;
 
   /// A crack opens along a facet: fine points hear no more of coarse ones behind it, where they
-  /// hear of others. `fine` and `family` as of the constructor, in which no bond is longer than `reach` [m].
+  /// hear of others. `fine` and `family` as of the constructor, in which no bond is longer than
+  /// `reach` [m].
   void cut(const CrackFacet<D>& facet, const Points<D>& fine, const Family<D>& family,
            double reach);
 

@@ -10,7 +10,7 @@
 namespace perifrac {
 
 /// From so many points on a lattice `automatic` solves for a body with cracks by multigrid.
-constexpr double points_worth_iteration(int dimension) { return dimension == 2 ? 1e5 : 6e3; }
+constexpr double points_worth_iteration(int dimension) { return dimension == 2 ? 1e5 : 1e4; }
 
 /// A body with cracks that is solved for as `choice` says; body and boundary as of CrackedBody and
 /// IteratedBody. Throws BodyError where the body is none for the choice.

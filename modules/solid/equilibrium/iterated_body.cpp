@@ -33,8 +33,7 @@ IteratedBody<D>::IteratedBody(const Body<D>& body, const SolidBoundary<D>& bound
                               std::optional<InitialStress<D>> initial_stress,
                               std::vector<CrackFacet<D>> seeds, double tolerance, std::string why)
     : CrackedBody<D>(std::move(family), body.spacing(), std::move(elastic),
-                     std::move(free_unknowns), bonds, std::move(initial_stress),
-                     std::move(seeds)),
+                     std::move(free_unknowns), bonds, std::move(initial_stress), std::move(seeds)),
       body_(body),
       boundary_(boundary),
       tolerance_(tolerance),
@@ -113,8 +112,7 @@ bool IteratedBody<D>::is_of(const Answer& answer, const Eigen::VectorXd& pressur
 
 /// Goes on from `move` until what is left over is small beside the force.
 template <int D>
-void IteratedBody<D>::solve(const Eigen::VectorXd& force, double tolerance,
-                            Eigen::VectorXd& move) {
+void IteratedBody<D>::solve(const Eigen::VectorXd& force, double tolerance, Eigen::VectorXd& move) {
   Eigen::VectorXd residual = force;
   multigrid_->hold(residual);
   const double target = tolerance * residual.norm();
@@ -262,9 +260,7 @@ const Eigen::MatrixXd& IteratedBody<D>::opening_slope() {
   const Eigen::VectorXd guess = slope_.rowwise().sum();
   const double volume = area.dot(exact), guessed = area.dot(guess);
   if (volume > 0.0 && guessed > 0.0) {
-    slope_ *= volume / guessed;
-    const Eigen::VectorXd scaled = guess * (volume / guessed);
-    slope_ -= scaled * (area.cwiseProduct(scaled) / volume).transpose();
+    slope_ -= guess * (area.cwiseProduct(guess) / guessed).transpose();
     slope_ += exact * (area.cwiseProduct(exact) / volume).transpose();
   }
   slope_facets_ = facet_count();

@@ -77,10 +77,10 @@ class IteratedBody final : public CrackedBody<D> {
 
   /// An equilibrium that was found, from which the next one is.
   struct Answer {
-    Eigen::VectorXd move;      ///< of all unknowns, what is prescribed left out [m]
-    Eigen::VectorXd pressure;  ///< on the faces, contact's included [Pa]
+    Eigen::VectorXd move;       ///< of all unknowns, what is prescribed left out [m]
+    Eigen::VectorXd pressure;   ///< on the faces, contact's included [Pa]
     Eigen::VectorXd contact{};  ///< of that [Pa]
-    std::int64_t facets = -1;  ///< that the body had; -1: of another load
+    std::int64_t facets = -1;   ///< that the body had; -1: of another load
   };
   /// What one traction on the faces of one crack does, and nothing else.
   struct EvenAnswer {
@@ -113,7 +113,7 @@ class IteratedBody final : public CrackedBody<D> {
   std::optional<StiffnessMultigrid<D>> multigrid_;
   long iterations_ = 0;
 
-  Eigen::VectorXd load_;  ///< on all unknowns [N]; empty: not known since a state was restored
+  Eigen::VectorXd load_;     ///< on all unknowns [N]; empty: not known since a state was restored
   Eigen::MatrixXd endless_;  ///< slope of a body without end
   std::optional<std::uint64_t> endless_version_;
   Eigen::MatrixXd slope_;

@@ -57,7 +57,8 @@ void CondensedBody<D>::start() {
   jumps_.clear();
   modes_.clear();
   pressed_.clear();
-  for (const CrackFacet<D>& seed : seeds_) add_mode(face_jump<D>(seed, intact_, spacing_, longest_));
+  for (const CrackFacet<D>& seed : seeds_)
+    add_mode(face_jump<D>(seed, intact_, spacing_, longest_));
   intact_move_.resize(0);
   set_load(load_);
   compliance_ = compliance(0, 0);
@@ -203,7 +204,7 @@ void CondensedBody<D>::set_load(const Eigen::VectorXd& load) {
 /// What the faces do on the condensed unknowns.
 template <int D>
 Eigen::VectorXd CondensedBody<D>::block_force(const Eigen::VectorXd& pressure,
-                                            std::span<const double> shear) const {
+                                              std::span<const double> shear) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
   require(pressure.size() == std::ssize(modes_) && (shear.empty() || shear.size() == modes_.size()),
           "pressure and shear of other facets than the body has");
@@ -258,9 +259,9 @@ double CondensedBody<D>::intensity_at_fixed_volume(Index facet) {
 
 template <int D>
 std::optional<double> CondensedBody<D>::find_answer(std::span<const Index> faces,
-                                                  const Vector<D>& traction,
-                                                  std::span<const Index> named,
-                                                  std::span<double> all) {
+                                                    const Vector<D>& traction,
+                                                    std::span<const Index> named,
+                                                    std::span<double> all) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
   for (const Index f : faces) {
     for (int k = 0; k < D; ++k) {
@@ -283,8 +284,8 @@ std::optional<double> CondensedBody<D>::find_answer(std::span<const Index> faces
 
 template <int D>
 Eigen::VectorXd CondensedBody<D>::solve_named(const Eigen::VectorXd& force,
-                                            const Eigen::VectorXd& block,
-                                            std::span<const Index> named) const {
+                                              const Eigen::VectorXd& block,
+                                              std::span<const Index> named) const {
   std::vector<int> wanted;
   for (const Index unknown : named) {
     if (free_of_[unknown].first >= 0) wanted.push_back(free_of_[unknown].first);
@@ -298,13 +299,13 @@ Eigen::VectorXd CondensedBody<D>::solve_named(const Eigen::VectorXd& force,
 /// on the condensed unknowns, for it is nothing elsewhere.
 template <int D>
 Eigen::VectorXd CondensedBody<D>::block_force_on_first_body(const Eigen::VectorXd& force,
-                                                          const Eigen::VectorXd& block) const {
+                                                            const Eigen::VectorXd& block) const {
   return force - inverse_->force_of_changes(block);
 }
 
 template <int D>
 Eigen::VectorXd CondensedBody<D>::force_on_first_body(const Eigen::VectorXd& force,
-                                                    const Eigen::VectorXd& block) const {
+                                                      const Eigen::VectorXd& block) const {
   const Eigen::VectorXd own = block_force_on_first_body(force, block);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(free_unknowns_.cols());
   for (Eigen::Index k = 0; k < own.size(); ++k) all[inverse_->unknowns()[k]] = own[k];
@@ -313,7 +314,7 @@ Eigen::VectorXd CondensedBody<D>::force_on_first_body(const Eigen::VectorXd& for
 
 template <int D>
 Eigen::VectorXd CondensedBody<D>::unknowns(const Eigen::VectorXd& pressure,
-                                         std::span<const double> shear) {
+                                           std::span<const double> shear) {
   const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   const Eigen::VectorXd all = force_on_first_body(force, block);
@@ -324,7 +325,7 @@ Eigen::VectorXd CondensedBody<D>::unknowns(const Eigen::VectorXd& pressure,
 
 template <int D>
 void CondensedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
-                                   std::span<double> all, std::span<const double> shear) {
+                                     std::span<double> all, std::span<const double> shear) {
   const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   const Eigen::VectorXd moved = solve_named(force, block, named);
@@ -337,7 +338,7 @@ void CondensedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<
 
 template <int D>
 std::vector<Vector<D>> CondensedBody<D>::jumps_under(const Eigen::VectorXd& pressure,
-                                                   std::span<const double> shear) {
+                                                     std::span<const double> shear) {
   const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure, shear);
   std::vector<Vector<D>> jumps;
   for (std::size_t f = 0; f < modes_.size(); ++f) {
@@ -350,7 +351,7 @@ std::vector<Vector<D>> CondensedBody<D>::jumps_under(const Eigen::VectorXd& pres
 
 template <int D>
 typename CrackedBody<D>::Energies CondensedBody<D>::energies(const Eigen::VectorXd& pressure,
-                                                           std::span<const double> shear) {
+                                                             std::span<const double> shear) {
   const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
   Energies energies{};

@@ -57,8 +57,7 @@ Vector<D> CrackedBody<D>::face_load(std::size_t f, double pressure, std::span<co
 
 /// Adds what a load of facet f's faces, along its normal and tangents [Pa], does to all unknowns.
 template <int D>
-void CrackedBody<D>::add_force(std::size_t f, const Vector<D>& load,
-                               Eigen::VectorXd& force) const {
+void CrackedBody<D>::add_force(std::size_t f, const Vector<D>& load, Eigen::VectorXd& force) const {
   for (const auto& [point, coefficient] : jumps_[f].terms) {
     for (int a = 0; a < D; ++a) {
       double along = load[0] * jumps_[f].normal[a];

@@ -67,7 +67,7 @@ struct CrackedPlate {
     free.setFromTriplets(ones.begin(), ones.end());
     free_ = free;
     cracked = std::make_unique<CondensedBody<2>>(family, 1.0, elastic, free, bonds, initial_stress,
-                                               std::move(seeds));
+                                                 std::move(seeds));
     cracked->start();
     prescribed = Eigen::VectorXd::Zero(2 * points);
   }

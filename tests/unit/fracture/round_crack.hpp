@@ -43,8 +43,9 @@ struct RoundCrack {
     const auto mirror = boundary.mirror_condition(*family);
     elastic = std::make_shared<LinearExactElasticity<3, IsotropicElasticity<3>>>(
         LinearExactOperator<3, IsotropicElasticity<3>>(family, mirror, law));
-    cracked = std::make_unique<CondensedBody<3>>(family, 1.0, elastic, boundary.free_unknowns(mirror),
-                                               bonds, std::optional<InitialStress<3>>{}, seeds);
+    cracked =
+        std::make_unique<CondensedBody<3>>(family, 1.0, elastic, boundary.free_unknowns(mirror),
+                                           bonds, std::optional<InitialStress<3>>{}, seeds);
     cracked->start();
   }
 

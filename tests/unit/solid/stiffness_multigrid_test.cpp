@@ -34,8 +34,8 @@ struct Case {
   /// Of bonds that facets cut.
   void make_cracked(std::vector<CrackFacet<D>> facets, IsotropicElasticity<D> law = {1.0, 1.0}) {
     const auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
-    const auto cracked =
-        test::breakable<D>(test::Rock::linear_exact, family, boundary.mirror_condition(*family), law);
+    const auto cracked = test::breakable<D>(test::Rock::linear_exact, family,
+                                            boundary.mirror_condition(*family), law);
     for (const CrackFacet<D>& facet : facets) {
       const auto bonds = bonds_cut_by<D>(facet, *family);
       for (const auto& [i, j] : bonds) silence(*family, i, j);
@@ -170,17 +170,13 @@ TEST(StiffnessMultigrid, SolvesForBodiesWithCracks) {
     Case<2> plane({64, 48}, 2.5);
     plane.on_rollers();
     plane.make_cracked(straight_crack({0.0, height}, 0.0, 32));
-    const auto answer = plane.solve();
-    printf("2D height %g: %d\n", height, answer.iterations);
-    expect_agreement(answer, 25);
+    expect_agreement(plane.solve(), 20);
   }
   for (const double angle : {0.3, 0.7, 1.2}) {
     Case<2> plane({64, 48}, 2.5);
     plane.on_rollers();
     plane.make_cracked(straight_crack({8.0, 5.0}, angle, 24));
-    const auto answer = plane.solve();
-    printf("2D angle %g: %d\n", angle, answer.iterations);
-    expect_agreement(answer, 25);
+    expect_agreement(plane.solve(), 20);
   }
   for (const int layer : {6, 7, 8, 9}) {
     Case<3> box({12, 12, 16});
@@ -193,9 +189,7 @@ TEST(StiffnessMultigrid, SolvesForBodiesWithCracks) {
       }
     }
     box.make_cracked(std::move(facets));
-    const auto answer = box.solve();
-    printf("3D layer %d: %d\n", layer, answer.iterations);
-    expect_agreement(answer, 25);
+    expect_agreement(box.solve(), 20);
   }
 }
 
