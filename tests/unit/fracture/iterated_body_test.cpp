@@ -158,7 +158,7 @@ TEST(IteratedBody, KnowsTheSlopeOfOpeningsNearly) {
   expect_near(box, 0.25);
 }
 
-TEST(IteratedBody, GoesOnFromARestoredState) {
+TEST(IteratedBody, TakesFewerIterationsFromTheLastAnswer) {
   const auto seeds = straight_crack({20.0, 20.0}, 0.0, 12);
   Both<2> both({48, 40}, 2.5, seeds);
   IteratedBody<2>& body = *both.iterated;
