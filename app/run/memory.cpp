@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "modules/solid/equilibrium/cracked_solver.hpp"
 #include "modules/solid/equilibrium/stiffness_solver.hpp"
 
 namespace perifrac {
@@ -78,8 +79,11 @@ bool takes_multigrid(const Section& scene, double points) {
   const std::string solver = scene.word("solid.linear_solver.type");
   const bool has_cracks = scene.has("damage") || scene.count("cracks") > 0;
   const bool is_lattice = scene.number("body.jitter") == 0.0;
-  return solver != "direct" && !has_cracks && is_lattice &&
-         (solver == "multigrid" || points >= points_worth_multigrid(scene.integer("dimension")));
+  const int dimension = scene.integer("dimension");
+  const double worth =
+      has_cracks ? points_worth_iteration(dimension) : points_worth_multigrid(dimension);
+  return solver != "direct" && is_lattice && !scene.has("solid.crack_friction") &&
+         (solver == "multigrid" || points >= worth);
 }
 
 /// Of the solid, for a point, of a horizon of 2.5 spacings.

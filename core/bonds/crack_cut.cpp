@@ -56,11 +56,14 @@ bool is_cut(const CrackFacet<D>& facet, const Vector<D>& x, const Vector<D>& y) 
 
 template <int D>
 std::vector<std::pair<Index, Index>> bonds_cut_by(const CrackFacet<D>& facet,
-                                                  const Family<D>& family) {
+                                                  const Family<D>& family, double reach) {
   const Blade<D> blade(facet);
+  const Vector<D> centre = middle<D>(facet);
+  const double far = 1.001 * (norm(facet[0] - centre) + reach);
   std::vector<std::pair<Index, Index>> cut;
   for (Index i = 0; i < family.point_count; ++i) {
     const Vector<D> x = vector_at(family.position, i);
+    if (squared_norm(x - centre) > far * far) continue;
     const double below = blade.height(x);
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       const Index j = family.other[bond];
@@ -75,8 +78,8 @@ std::vector<std::pair<Index, Index>> bonds_cut_by(const CrackFacet<D>& facet,
 template bool is_cut<2>(const CrackFacet<2>&, const Vector<2>&, const Vector<2>&);
 template bool is_cut<3>(const CrackFacet<3>&, const Vector<3>&, const Vector<3>&);
 template std::vector<std::pair<Index, Index>> bonds_cut_by<2>(const CrackFacet<2>&,
-                                                              const Family<2>&);
+                                                              const Family<2>&, double);
 template std::vector<std::pair<Index, Index>> bonds_cut_by<3>(const CrackFacet<3>&,
-                                                              const Family<3>&);
+                                                              const Family<3>&, double);
 
 }  // namespace perifrac

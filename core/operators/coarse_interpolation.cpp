@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/base/for_each_point.hpp"
+#include "core/base/small_vector.hpp"
+#include "core/bonds/crack_cut.hpp"
 
 namespace perifrac {
 
@@ -130,6 +132,45 @@ auto CoarseInterpolation<D>::transpose(const Rows& rows, Index columns) -> Rows 
     }
   }
   return result;
+}
+
+template <int D>
+float& CoarseInterpolation<D>::Rows::at(Index row, Index wanted) {
+  const auto first = column.begin() + begin[row];
+  const auto found = std::find(first, column.begin() + begin[row + 1], wanted);
+  return weight[found - column.begin()];
+}
+
+/// What is left of a point's weights is scaled to be 1 again, as if the nearest coarse layer on its
+/// own side stood for the one behind the crack.
+template <int D>
+void CoarseInterpolation<D>::cut(const CrackFacet<D>& facet, const Points<D>& fine,
+                                 const Family<D>& family, double reach) {
+  const Vector<D> centre = middle<D>(facet);
+  const double far = norm(facet[0] - centre) + reach;
+  for (Index i = 0; i < fine_points_; ++i) {
+    const Vector<D> x = fine.at(i);
+    if (squared_norm(x - centre) > far * far) continue;
+    const auto is_behind = [&](Index k) {
+      const Index node = from_nodes_.column[k];
+      const Index point = node < coarse_points_ ? node : family.ghost_source[node - coarse_points_];
+      return is_cut<D>(facet, x, vector_at(family.position, point));
+    };
+    float lost = 0.0f, all = 0.0f;
+    std::vector<Index> behind;
+    for (Index k = from_nodes_.begin[i]; k < from_nodes_.begin[i + 1]; ++k) {
+      all += from_nodes_.weight[k];
+      if (from_nodes_.weight[k] == 0.0f || !is_behind(k)) continue;
+      lost += from_nodes_.weight[k];
+      behind.push_back(k);
+    }
+    if (behind.empty() || all - lost < 0.01f) continue;
+    for (const Index k : behind) from_nodes_.weight[k] = 0.0f;
+    for (Index k = from_nodes_.begin[i]; k < from_nodes_.begin[i + 1]; ++k) {
+      from_nodes_.weight[k] *= all / (all - lost);
+      to_nodes_.at(from_nodes_.column[k], i) = from_nodes_.weight[k];
+    }
+  }
 }
 
 template <int D>

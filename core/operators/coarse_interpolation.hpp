@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "core/body/coarse_body.hpp"
+#include "core/bonds/crack_facet.hpp"
 #include "core/bonds/family.hpp"
 #include "core/bonds/mirror_condition.hpp"
 
@@ -25,6 +26,12 @@ class CoarseInterpolation {
   /// The transpose: coarse = P^T fine.
   void restrict(const Eigen::VectorXd& fine, Eigen::VectorXd& coarse) const;
 
+  /// A crack opens along a facet: fine points hear no more of coarse ones behind it, where they
+  /// hear of others. `fine` and `family` as of the constructor, in which no bond is longer than
+  /// `reach` [m].
+  void cut(const CrackFacet<D>& facet, const Points<D>& fine, const Family<D>& family,
+           double reach);
+
   std::size_t bytes() const;
 
  private:
@@ -35,6 +42,7 @@ class CoarseInterpolation {
     std::vector<float> weight{};  // quarters, or a preconditioner's own business
     void multiply(const double* from, double* to, bool adds) const;
     Index count() const { return static_cast<Index>(begin.size()) - 1; }
+    float& at(Index row, Index wanted);  ///< which has a place
   };
   static Rows transpose(const Rows& rows, Index columns);
 

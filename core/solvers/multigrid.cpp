@@ -45,7 +45,13 @@ Multigrid::Multigrid(std::vector<std::unique_ptr<MultigridLevel>> levels,
     for (auto vector : {&Work::residual, &Work::correction, &Work::step, &Work::image}) {
       (work_[k].*vector).setZero(size);
     }
-    if (k + 1 < levels_.size()) work_[k].largest = largest_eigenvalue(*levels_[k], work_[k]);
+  }
+  find_largest();
+}
+
+void Multigrid::find_largest() {
+  for (std::size_t k = 0; k + 1 < levels_.size(); ++k) {
+    work_[k].largest = largest_eigenvalue(*levels_[k], work_[k]);
   }
 }
 

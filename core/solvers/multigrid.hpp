@@ -52,6 +52,11 @@ class Multigrid {
   /// As solve(), from a residual b - A x that is known: adds to x what takes it below `target`.
   int correct(Eigen::VectorXd& residual, Eigen::VectorXd& x, double target);
 
+  /// The levels' operators have changed: the coarsest is factored anew.
+  void take_coarsest(const Eigen::SparseMatrix<double>& coarsest) { coarsest_.factor(coarsest); }
+  /// So much that smoothing is to be told of it.
+  void find_largest();
+
   int level_count() const { return static_cast<int>(levels_.size()); }
 
  private:

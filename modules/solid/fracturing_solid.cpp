@@ -7,6 +7,7 @@
 #include "core/base/errors.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/boundary/rigid_motion.hpp"
+#include "modules/solid/equilibrium/cracked_solver.hpp"
 #include "modules/solid/fracture/loose_piece.hpp"
 #include "modules/solid/whole_solid.hpp"
 
@@ -28,21 +29,20 @@ FracturingSolid<D>::FracturingSolid(
     std::shared_ptr<BreakableElasticity<D>> elastic, const SolidBoundary<D>& boundary,
     std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,
     FractureEnergy<D> fracture_energy, const std::optional<TensileStrength<D>>& tensile_strength,
-    std::unique_ptr<CrackFriction> friction)
+    std::unique_ptr<CrackFriction> friction, const SolverChoice& choice)
     : body_(std::move(body)),
       seeds_(std::move(seeds)),
       bonds_(body_->claim_bond_state()),
-      cracked_(family, body_->spacing(), elastic,
-               boundary.free_unknowns(boundary.mirror_condition(*family)), bonds_, initial_stress,
-               seeds_),
+      cracked_(make_cracked_body<D>(*body_, boundary, family, elastic, bonds_, initial_stress,
+                                    seeds_, friction != nullptr, choice)),
       load_(body_, elastic, boundary, boundary.mirror_condition(*family)),
       fluid_(bonds_.facet_points()),
       friction_(std::move(friction)),
-      equilibrium_(cracked_, load_, fluid_, friction_.get(), initial_stress),
+      equilibrium_(*cracked_, load_, fluid_, friction_.get(), initial_stress),
       work_(equilibrium_),
       growth_(*body_, equilibrium_, work_, std::move(fracture_energy), tensile_strength) {
   for (const auto& [face, column] : boundary.plates(boundary.mirror_condition(*family))) {
-    plates_.emplace_back(face, first_row(cracked_.free_unknowns(), column));
+    plates_.emplace_back(face, first_row(cracked_->free_unknowns(), column));
   }
   for (Index i = 0; i < family->point_count; ++i) {
     dilatation_slope_.push_back(1.0 / elastic->drained_bulk_modulus(i));
@@ -75,7 +75,7 @@ void FracturingSolid<D>::make_field_ports() {
   ports_.found({.name = "damage", .unit = "1", .negligible = negligible_strain}, *points,
                [this, count](std::vector<double>& damage) {
                  damage.resize(count);
-                 find_damage(cracked_.family(), damage);
+                 find_damage(cracked_->family(), damage);
                });
 }
 
@@ -91,19 +91,19 @@ void FracturingSolid<D>::make_crack_ports() {
   ports_.out({.name = "free_crack_opening", .unit = "m", .role = PortRole::property},
              [this, facets, opening = Eigen::VectorXd(), slope = Matrix()]() mutable {
                opening = equilibrium_.free_opening();
-               slope = cracked_.compliance();
+               slope = cracked_->opening_slope();
                const std::span<double> rows(slope.data(), static_cast<std::size_t>(slope.size()));
                return PortView{facets, view(opening), {}, rows};
              });
   ports_.total({std::string("crack_") + measure, unit}, whole_solid, [this] {
     double area = 0.0;
-    for (const FaceJump<D>& jump : cracked_.jumps()) area += jump.area;
+    for (const FaceJump<D>& jump : cracked_->jumps()) area += jump.area;
     return area;
   });
   ports_.total({std::string("open_crack_") + measure, unit}, whole_solid, [this] {
     double area = 0.0;
-    for (std::size_t f = 0; f < cracked_.jumps().size(); ++f) {
-      if (equilibrium_.faces().opening[f] > 0.0) area += cracked_.jumps()[f].area;
+    for (std::size_t f = 0; f < cracked_->jumps().size(); ++f) {
+      if (equilibrium_.faces().opening[f] > 0.0) area += cracked_->jumps()[f].area;
     }
     return area;
   });
@@ -128,7 +128,7 @@ void FracturingSolid<D>::make_energy_ports() {
   ports_.total({"crack_slip_area", "m^2"}, whole_solid, [this] {
     double area = 0.0;
     for (std::size_t f = 0; f < friction_->slip().size(); ++f) {
-      area += cracked_.jumps()[f].area * std::abs(friction_->slip()[f]);
+      area += cracked_->jumps()[f].area * std::abs(friction_->slip()[f]);
     }
     return area;
   });
@@ -136,16 +136,15 @@ void FracturingSolid<D>::make_energy_ports() {
 
 template <int D>
 std::string FracturingSolid<D>::free_motion() {
-  const Eigen::SparseMatrix<double>& stiffness = cracked_.free_stiffness();
   return rigid_motion_without_energy<D>(
-      body_->points(), [&](const Eigen::VectorXd& u) -> Eigen::VectorXd { return stiffness * u; },
-      cracked_.free_unknowns(), static_cast<Eigen::Index>(plates_.size()));
+      body_->points(), [&](const Eigen::VectorXd& u) { return cracked_->stiffness_times(u); },
+      cracked_->free_unknowns(), static_cast<Eigen::Index>(plates_.size()));
 }
 
 /// Of the point that this one of what is solved for moves.
 template <int D>
 std::string FracturingSolid<D>::place_of(Eigen::Index free) const {
-  const Index point = first_row(cracked_.free_unknowns(), free) % body_->points().size();
+  const Index point = first_row(cracked_->free_unknowns(), free) % body_->points().size();
   return describe_point(point, body_->points().at(point));
 }
 
@@ -157,12 +156,12 @@ BodyError FracturingSolid<D>::loose_piece(const std::string& piece) const {
 
 template <int D>
 void FracturingSolid<D>::initialize(double t) {
-  if (const auto loose = cracked_.loose_pieces(); !loose.empty()) {
-    throw loose_piece(describe_piece<D>(cracked_.family(), loose.front()) +
+  if (const auto loose = cracked_->loose_pieces(); !loose.empty()) {
+    throw loose_piece(describe_piece<D>(cracked_->family(), loose.front()) +
                       ", which nothing holds");
   }
   try {
-    cracked_.start();
+    cracked_->start();
   } catch (const NotPositiveDefinite& error) {
     throw loose_piece("a piece that is too thin to bear anything, at " + place_of(error.row()));
   }

@@ -15,6 +15,7 @@
 #include "modules/solid/equilibrium/cracked_equilibrium.hpp"
 #include "modules/solid/equilibrium/cracked_load.hpp"
 #include "modules/solid/equilibrium/cracked_work.hpp"
+#include "modules/solid/equilibrium/stiffness_solver.hpp"
 
 namespace perifrac {
 
@@ -45,7 +46,8 @@ class FracturingSolid final : public PhysicsModule {
                   std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,
                   FractureEnergy<D> fracture_energy,
                   const std::optional<TensileStrength<D>>& tensile_strength = {},
-                  std::unique_ptr<CrackFriction> friction = nullptr);
+                  std::unique_ptr<CrackFriction> friction = nullptr,
+                  const SolverChoice& choice = {});
 
   /// As QuasiStaticSolid's.
   std::string free_motion();
@@ -63,7 +65,7 @@ class FracturingSolid final : public PhysicsModule {
   double advance(const TimeWindow& window) override;
   double conclude(const TimeWindow& window) override;
   void visit_state(StateVisitor& visitor) override;
-  std::string path() const override { return "a sparse matrix and its factor: in equilibrium"; }
+  std::string path() const override { return cracked_->path(); }
   void on_restored(double t) override;
 
  private:
@@ -80,7 +82,7 @@ class FracturingSolid final : public PhysicsModule {
   std::vector<double> dilatation_slope_;
 
   BondState<D>& bonds_;
-  CrackedBody<D> cracked_;
+  std::unique_ptr<CrackedBody<D>> cracked_;
   CrackedLoad<D> load_;
   FluidInCracks fluid_;
   std::unique_ptr<CrackFriction> friction_;  ///< null: there is none

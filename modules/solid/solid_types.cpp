@@ -106,7 +106,7 @@ std::unique_ptr<PhysicsModule> make_fracturing(const Section& section,
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));
   auto solid = std::make_unique<FracturingSolid<D>>(
       body, family, std::move(elastic), boundary, stress, cracks.seeds, cracks.fracture_energy,
-      cracks.tensile_strength, read_crack_friction(section));
+      cracks.tensile_strength, read_crack_friction(section), read_solver_choice(section));
   solid->set_pore_stress_at_rest(read_pore_stress_at_rest<D>(section, *body));
   if (const std::string motion = solid->free_motion(); !motion.empty()) {
     section.fail(section.has("boundary") ? "boundary" : "", "nothing holds the body: " + motion,

@@ -3,6 +3,7 @@
 #include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
 #include "core/solvers/complementarity.hpp"
+#include "core/solvers/multigrid.hpp"
 
 namespace perifrac {
 
@@ -29,6 +30,7 @@ void CrackedEquilibrium<D>::start(double t) {
   if constexpr (D == 2) {
     if (friction_ != nullptr) friction_->start(cracked_);
   }
+  if (is_wet()) cracked_.ready_slope();
 }
 
 template <int D>
@@ -37,12 +39,15 @@ void CrackedEquilibrium<D>::solve(double t) {
   load_is_current_ = load_is_current_ && load_.is_steady();
   take_load();
   try {
+    if (is_wet()) cracked_.ready_slope();
     if constexpr (D == 2) {
       if (friction_ != nullptr) faces_ = friction_->faces(cracked_, pressure_in_cracks(), t_);
     }
     if (friction_ == nullptr) faces_ = cracked_.faces(pressure_in_cracks());
   } catch (const NoContact& error) {
     throw NumericalError("crack_opening", "the faces of the cracks", t_, error.what());
+  } catch (const NotConverged& error) {
+    throw NumericalError("displacement", "the whole body", t_, error.what());
   }
   unknowns_are_current_ = false;
 }
@@ -64,7 +69,7 @@ Eigen::VectorXd CrackedEquilibrium<D>::pressure_in_cracks() {
 template <int D>
 Eigen::VectorXd CrackedEquilibrium<D>::free_opening() {
   take_load();
-  Eigen::VectorXd opening = cracked_.free_opening(pressure_in_cracks());
+  Eigen::VectorXd opening = cracked_.free_opening(pressure_in_cracks(), faces_.pressure);
   if constexpr (D == 2) {
     if (friction_ != nullptr) opening += friction_->opening_by(cracked_, faces_.shear);
   }
@@ -152,6 +157,7 @@ void CrackedEquilibrium<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("face_pressure", faces_.pressure);
   visitor.visit("closed_faces", closed);
   faces_.closed.assign(closed.begin(), closed.end());
+  cracked_.visit_state(visitor);
   if (friction_ == nullptr) return;
   visitor.visit("face_shear", faces_.shear);
   friction_->visit_state(visitor);
@@ -161,6 +167,7 @@ template <int D>
 void CrackedEquilibrium<D>::on_restored(double t, std::span<const double> displacement) {
   t_ = t;
   cracked_.follow_bonds();
+  cracked_.on_restored();
   derived_ = false;
   unknowns_are_current_ = !displacement.empty();
   load_is_current_ = false;

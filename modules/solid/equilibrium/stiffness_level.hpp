@@ -34,6 +34,11 @@ class StiffnessLevel final : public MultigridLevel {
   void hold(Eigen::VectorXd& u) const;
   /// As a matrix, with rows and columns of the unit matrix for what is held.
   Eigen::SparseMatrix<double> assemble() const;
+  /// A crack opens on the way to the next coarser level (CoarseInterpolation::cut).
+  void cut_way(const CrackFacet<D>& facet, const Points<D>& fine, const Family<D>& coarse,
+               double reach) {
+    way_->cut(facet, fine, coarse, reach);
+  }
   /// The coarser level's, once it is there: what it holds goes to 0 in its residuals.
   void set_coarser(const StiffnessLevel& coarser) { coarser_ = &coarser; }
 

@@ -6,6 +6,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/law_by_region.hpp"
+#include "core/bonds/bond_state.hpp"
+#include "core/bonds/crack_cut.hpp"
 #include "core/operators/stiffness_diagonal.hpp"
 #include "core/profile/profile.hpp"
 #include "modules/solid/material/linear_exact_elasticity.hpp"
@@ -16,6 +18,9 @@ namespace {
 
 /// Few enough for a factor that costs nothing beside the rest.
 constexpr Index coarsest_points = 400;
+
+/// Of the coarsest stiffness, where cracks have cut it: what holds pieces that come loose there.
+constexpr double loose_part = 1e-4;
 
 /// Moduli are told apart to this.
 constexpr double modulus_step = 0.05;
@@ -65,10 +70,10 @@ Laws<D> few_laws(const std::vector<IsotropicElasticity<D>>& by_point) {
 }
 
 template <int D>
-std::shared_ptr<ElasticOperator<D>> make_elastic(std::shared_ptr<const Family<D>> family,
-                                                 const MirrorCondition<D, D>& mirror,
-                                                 Laws<D> laws) {
-  const auto make = [&](auto law) -> std::shared_ptr<ElasticOperator<D>> {
+std::shared_ptr<BreakableElasticity<D>> make_elastic(std::shared_ptr<const Family<D>> family,
+                                                     const MirrorCondition<D, D>& mirror,
+                                                     Laws<D> laws) {
+  const auto make = [&](auto law) -> std::shared_ptr<BreakableElasticity<D>> {
     return std::make_shared<LinearExactElasticity<D, decltype(law)>>(
         LinearExactOperator<D, decltype(law)>(std::move(family), mirror, std::move(law)));
   };
@@ -124,9 +129,9 @@ Eigen::VectorXd inverse_diagonal(const Family<D>& family, const LevelParts<D>& p
 template <int D>
 struct Coarser {
   CoarseBody<D> body;
-  std::shared_ptr<const Family<D>> family;
+  std::shared_ptr<Family<D>> family;
   MirrorCondition<D, D> mirror;
-  std::shared_ptr<ElasticOperator<D>> elastic;
+  std::shared_ptr<BreakableElasticity<D>> elastic;
 };
 
 template <int D>
@@ -135,7 +140,7 @@ std::optional<Coarser<D>> find_coarser(const LevelParts<D>& fine, const Vector<D
   try {
     CoarseBody<D> body = coarsen<D>(*fine.body, corner);
     if (2 * body.body->points().size() > fine.body->points().size()) return {};
-    auto family = body.body->family(boundary.mirrored());
+    auto family = std::make_shared<Family<D>>(*body.body->family(boundary.mirrored()));
     const MirrorCondition<D, D> mirror = boundary.mirror_condition(*family);
     auto elastic = make_elastic<D>(family, mirror, few_laws(mean_laws(fine, body)));
     return Coarser<D>{std::move(body), std::move(family), mirror, std::move(elastic)};
@@ -160,7 +165,8 @@ template <int D>
 StiffnessMultigrid<D>::StiffnessMultigrid(const Body<D>& body,
                                           std::shared_ptr<ElasticOperator<D>> elastic,
                                           const SolidBoundary<D>& boundary,
-                                          const Eigen::SparseMatrix<double>& free_unknowns) {
+                                          const Eigen::SparseMatrix<double>& free_unknowns)
+    : body_(body) {
   const ProfileScope profiled("multigrid");
   LevelParts<D> parts{&body, std::vector<bool>(elastic->size(), true), {}};
   for (Eigen::Index k = 0; k < free_unknowns.nonZeros(); ++k) {
@@ -170,34 +176,60 @@ StiffnessMultigrid<D>::StiffnessMultigrid(const Body<D>& body,
 
   const Vector<D> corner = low_corner(body);
   std::shared_ptr<const Family<D>> family = body.family(boundary.mirrored());
-  std::vector<std::unique_ptr<StiffnessLevel<D>>> levels;
-  std::vector<std::shared_ptr<const Body<D>>> bodies;
+  std::vector<std::unique_ptr<MultigridLevel>> all;
   for (;;) {
-    levels.push_back(std::make_unique<StiffnessLevel<D>>(
-        elastic, parts.held, inverse_diagonal(*family, parts, *elastic)));
+    auto level = std::make_unique<StiffnessLevel<D>>(elastic, parts.held,
+                                                     inverse_diagonal(*family, parts, *elastic));
+    levels_.push_back(level.get());
+    all.push_back(std::move(level));
     if (parts.body->points().size() <= coarsest_points) break;
     std::optional<Coarser<D>> coarser = find_coarser<D>(parts, corner, boundary);
     if (!coarser) break;
-    levels.back()->set_way(CoarseInterpolation<D>(parts.body->points(), coarser->body,
-                                                  *coarser->family, coarser->mirror));
+    levels_.back()->set_way(CoarseInterpolation<D>(parts.body->points(), coarser->body,
+                                                   *coarser->family, coarser->mirror));
     parts = {coarser->body.body.get(), held_on(coarser->body, parts.held),
              mean_laws(parts, coarser->body)};
-    bodies.push_back(coarser->body.body);
+    coarse_.push_back({coarser->body.body, coarser->family, coarser->elastic});
     family = coarser->family;
     elastic = coarser->elastic;
   }
-  for (std::size_t k = 0; k + 1 < levels.size(); ++k) levels[k]->set_coarser(*levels[k + 1]);
-  finest_ = levels.front().get();
-  const Eigen::SparseMatrix<double> coarsest = levels.back()->assemble();
-  std::vector<std::unique_ptr<MultigridLevel>> all;
-  for (auto& level : levels) all.push_back(std::move(level));
-  multigrid_.emplace(std::move(all), coarsest);
+  for (std::size_t k = 0; k + 1 < levels_.size(); ++k) levels_[k]->set_coarser(*levels_[k + 1]);
+  multigrid_.emplace(std::move(all), levels_.back()->assemble());
+}
+
+template <int D>
+void StiffnessMultigrid<D>::cut(const CrackFacet<D>& facet) {
+  const Points<D>* fine = &body_.points();
+  for (std::size_t k = 0; k < coarse_.size(); ++k) {
+    Coarse& coarse = coarse_[k];
+    const double reach = 1.001 * coarse.body->horizon();
+    levels_[k]->cut_way(facet, *fine, *coarse.family, reach);
+    fine = &coarse.body->points();
+    const auto bonds = bonds_cut_by<D>(facet, *coarse.family, reach);
+    for (const auto& [i, j] : bonds) silence(*coarse.family, i, j);
+    coarse.elastic->update(ends_of(bonds));
+    if (k + 1 == coarse_.size()) coarsest_is_old_ = coarsest_is_old_ || !bonds.empty();
+  }
+  if (coarse_.empty()) coarsest_is_old_ = true;
+}
+
+/// What its coarse bonds hold no more, finer ones may: a little of the diagonal does.
+template <int D>
+void StiffnessMultigrid<D>::factor_coarsest() {
+  Eigen::SparseMatrix<double> coarsest = levels_.back()->assemble();
+  const double some = loose_part * coarsest.diagonal().mean();
+  for (Eigen::Index k = 0; k < coarsest.cols() && !coarse_.empty(); ++k) {
+    coarsest.coeffRef(k, k) += some;
+  }
+  multigrid_->take_coarsest(coarsest);
+  coarsest_is_old_ = false;
 }
 
 template <int D>
 int StiffnessMultigrid<D>::correct(Eigen::VectorXd& residual, Eigen::VectorXd& u,
                                    double tolerance) {
-  finest_->hold(residual);
+  if (coarsest_is_old_) factor_coarsest();
+  levels_.front()->hold(residual);
   return multigrid_->correct(residual, u, tolerance);
 }
 

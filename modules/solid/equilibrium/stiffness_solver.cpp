@@ -15,17 +15,23 @@
 namespace perifrac {
 
 KeyTable linear_solver_keys() {
-  return {{.path = "linear_solver.type",
-           .type = KeyType::word,
-           .fallback = "automatic",
-           .words = {"automatic", "direct", "multigrid"},
-           .meaning = "quasi_static, without cracks: direct factors the stiffness once and takes "
-                      "memory and time beyond some ten thousand points; multigrid takes both in "
-                      "proportion to the points of a lattice; automatic chooses by their number."},
-          {.path = "linear_solver.tolerance",
-           .range = "[1e-13, 1e-2]",
-           .fallback = "1e-9",
-           .meaning = "multigrid: force that is left over, to the forces on the body."}};
+  return {
+      {.path = "linear_solver.type",
+       .type = KeyType::word,
+       .fallback = "automatic",
+       .words = {"automatic", "direct", "multigrid"},
+       .meaning = "quasi_static: direct factors the stiffness once and takes memory and time "
+                  "beyond some ten thousand points; multigrid takes both in proportion to the "
+                  "points of a lattice; automatic chooses by their number. Beside friction "
+                  "between faces: direct."},
+      {.path = "linear_solver.tolerance",
+       .range = "[1e-13, 1e-2]",
+       .fallback = "1e-9",
+       .meaning = "multigrid: force that is left over, to the forces on the body."},
+      {.path = "linear_solver.crack_tolerance",
+       .range = "[1e-12, 1e-2]",
+       .fallback = "1e-4",
+       .meaning = "The same of a body with cracks, beside what the coupling's iterations leave."}};
 }
 
 SolverChoice read_solver_choice(const Section& section) {
@@ -34,7 +40,8 @@ SolverChoice read_solver_choice(const Section& section) {
   return {.kind = type == "direct"      ? Kind::direct
                   : type == "multigrid" ? Kind::multigrid
                                         : Kind::automatic,
-          .tolerance = section.number("linear_solver.tolerance")};
+          .tolerance = section.number("linear_solver.tolerance"),
+          .crack_tolerance = section.number("linear_solver.crack_tolerance")};
 }
 
 namespace {

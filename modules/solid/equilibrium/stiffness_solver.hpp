@@ -18,7 +18,8 @@ namespace perifrac {
 struct SolverChoice {
   enum class Kind { automatic, direct, multigrid };
   Kind kind = Kind::automatic;
-  double tolerance = 1e-9;  ///< multigrid: force left over, to the body's forces
+  double tolerance = 1e-9;        ///< multigrid: force left over, to the body's forces
+  double crack_tolerance = 1e-4;  ///< the same of a body with cracks
 };
 
 /// From so many points on a lattice `automatic` takes multigrid: it is the faster one, its first

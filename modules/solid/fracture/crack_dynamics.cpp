@@ -227,7 +227,7 @@ std::vector<Vector<2>> CrackDynamics::jumps_at(std::span<const double> unknowns)
 }
 
 /// K_I falls as length^(-3/2) where the volume stays, in a body that is large beside the crack.
-double CrackDynamics::intensity_at_fixed_volume(Index facet) const {
+double CrackDynamics::intensity_at_fixed_volume(Index facet) {
   std::set<Vector<2>> ends(facets()[facet].begin(), facets()[facet].end());
   std::vector<bool> is_part(facets().size(), false);
   double length = 0.0;

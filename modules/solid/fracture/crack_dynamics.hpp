@@ -35,9 +35,9 @@ class CrackDynamics final : public CutBody<2>, public BodyFracture {
   void start(ElasticDynamics<2>& system, double t);
 
   bool cut(const CrackFacet<2>& facet) override;
-  double intensity_at_fixed_volume(Index facet) const override;
+  double intensity_at_fixed_volume(Index facet) override;
   std::optional<double> find_answer(std::span<const Index>, const Vector<2>&,
-                                    std::span<const Index>, std::span<double>) const override {
+                                    std::span<const Index>, std::span<double>) override {
     return {};
   }
   /// After the last cut of a step: how openings answer to pressure.

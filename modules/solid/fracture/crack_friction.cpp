@@ -36,7 +36,7 @@ void CrackFriction::follow(CrackedBody<2>& body) {
     layer_.push_back(jump.reach * softness);
   }
   compliance_.resize(2 * count, 2 * count);
-  compliance_ << body.compliance(), body.compliance(0, 1), body.compliance(1, 0),
+  compliance_ << body.compliance(0, 0), body.compliance(0, 1), body.compliance(1, 0),
       body.compliance(1, 1);
   for (Eigen::Index f = 0; f < count; ++f) compliance_(count + f, count + f) += layer_[f];
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
@@ -10,6 +13,9 @@ namespace {
 /// Where behind the front openings are looked at, and how far to both sides of that: nearer ones
 /// are the lattice's, farther ones the whole crack's [spacings].
 constexpr double depth = 1.5, either_side = 1.0;
+/// So many facets as a crack has for each square that goes in one step: what it takes down the
+/// energy release by is that part of the volume.
+constexpr std::size_t facets_a_step = 50;
 /// How far along the front [spacings].
 constexpr double along_front = 1.0;
 
@@ -119,30 +125,49 @@ double CrackFront::find_readiness(const CrackState<3>& state) {
   return most;
 }
 
-double CrackFront::grow(const CrackState<3>& state) {
-  const Next* chosen = nullptr;
+/// Of what is ready the squares nearest to their front, none beside another.
+std::vector<CrackFront::Next> CrackFront::choose() const {
+  std::vector<const Next*> due;
   for (const Next& next : next_) {
-    if (next.readiness < ready) continue;
-    if (chosen == nullptr || next.behind_front > chosen->behind_front) chosen = &next;
+    if (next.readiness >= ready) due.push_back(&next);
   }
-  if (chosen == nullptr) return 0.0;
-  const CrackFacet<3> facet = chosen->facet;
-  const double energy = area<3>(facet) * chosen->law.fracture_energy;
-  const double before = intensity_at_fixed_volume(chosen->behind);
-  cracked_.cut(facet);
-  since_.push_back(state.t);
+  std::ranges::stable_sort(due, std::greater{}, &Next::behind_front);
+  const std::size_t most = std::max<std::size_t>(1, cracked_.facets().size() / facets_a_step);
+  std::vector<Next> chosen;
+  for (const Next* next : due) {
+    if (chosen.size() == most) break;
+    const Vector<3> at = middle<3>(next->facet);
+    const bool is_beside = std::ranges::any_of(chosen, [&](const Next& other) {
+      return norm(middle<3>(other.facet) - at) < 1.5 * body_.spacing();
+    });
+    if (!is_beside) chosen.push_back(*next);
+  }
+  return chosen;
+}
+
+double CrackFront::grow(const CrackState<3>& state) {
+  const std::vector<Next> chosen = choose();
+  if (chosen.empty()) return 0.0;
+  double energy = 0.0, before = 0.0, after = 0.0;
+  for (const Next& next : chosen) before += intensity_at_fixed_volume(next.behind);
+  for (const Next& next : chosen) {
+    cracked_.cut(next.facet);
+    since_.push_back(state.t);
+    energy += area<3>(next.facet) * next.law.fracture_energy;
+  }
   follow_facets();
-  for (const CrackPlane& plane : planes_) {
-    const auto cell = plane.cell_of(facet);
-    if (!cell) continue;
-    const double after = intensity_at_fixed_volume(behind(plane, *cell));
-    intensity_ratio_ = std::min(1.0, after / before);
+  for (const Next& next : chosen) {
+    for (const CrackPlane& plane : planes_) {
+      const auto cell = plane.cell_of(next.facet);
+      if (cell) after += intensity_at_fixed_volume(behind(plane, *cell));
+    }
   }
+  intensity_ratio_ = std::min(1.0, after / before);
   return energy;
 }
 
 /// K_I beside a square under a uniform pressure, by the volume of the crack, up to a factor.
-double CrackFront::intensity_at_fixed_volume(const std::vector<Behind>& behind) const {
+double CrackFront::intensity_at_fixed_volume(const std::vector<Behind>& behind) {
   double opening = 0.0, needed = 0.0;
   for (const auto& [f, distance, weight] : behind) {
     opening += weight * cracked_.intensity_at_fixed_volume(f);

@@ -18,7 +18,7 @@ namespace perifrac {
 /// of toughness, and of viscosity and Carter's leak-off for the front's speed where fluid is there.
 /// The front is taken to lie evenly through the squares (CrackPlane::behind_front). Under fluid of
 /// fixed volume a whole square takes the energy release down on its way: the mean of its beginning
-/// and end counts, by what the last square did.
+/// and end counts, by what the last squares did.
 class CrackFront {
  public:
   CrackFront(const Body<3>& body, CutBody<3>& cracked, FractureEnergy<3> fracture_energy);
@@ -27,8 +27,8 @@ class CrackFront {
 
   /// How close the fronts are to growth, the largest: 1 at it.
   double find_readiness(const CrackState<3>& state);
-  /// Of what was found ready the square nearest to its front becomes a facet; returns the energy
-  /// that it takes [J].
+  /// Of what was found ready the squares nearest to their front become facets, one for every fifty
+  /// that there are, or one; returns the energy that they take [J].
   double grow(const CrackState<3>& state);
 
   void visit_state(StateVisitor& visitor);
@@ -52,9 +52,10 @@ class CrackFront {
 
   void follow_facets();
   void find_next();
+  std::vector<Next> choose() const;
   std::vector<Behind> behind(const CrackPlane& plane, const CrackPlane::Cell& cell) const;
   double readiness(const Next& next, const CrackState<3>& state) const;
-  double intensity_at_fixed_volume(const std::vector<Behind>& behind) const;
+  double intensity_at_fixed_volume(const std::vector<Behind>& behind);
 
   const Body<3>& body_;
   CutBody<3>& cracked_;

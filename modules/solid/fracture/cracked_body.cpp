@@ -1,27 +1,9 @@
 #include "modules/solid/fracture/cracked_body.hpp"
 
-#include <algorithm>
-#include <iterator>
-#include <set>
-
-#include <Eigen/Dense>
-
 #include "core/base/require.hpp"
-#include "core/bonds/crack_cut.hpp"
-#include "core/solvers/complementarity.hpp"
 #include "modules/solid/fracture/loose_piece.hpp"
 
 namespace perifrac {
-
-namespace {
-
-double along(const std::vector<std::pair<int, double>>& mode, const Eigen::VectorXd& x) {
-  double sum = 0.0;
-  for (const auto& [place, coefficient] : mode) sum += coefficient * x[place];
-  return sum;
-}
-
-}  // namespace
 
 template <int D>
 CrackedBody<D>::CrackedBody(std::shared_ptr<Family<D>> family, double spacing,
@@ -31,68 +13,17 @@ CrackedBody<D>::CrackedBody(std::shared_ptr<Family<D>> family, double spacing,
                             std::vector<CrackFacet<D>> seeds)
     : CutBody<D>(std::move(family), spacing, std::move(elastic), bonds, initial_stress,
                  std::move(seeds)),
-      free_unknowns_(std::move(free_unknowns)),
-      free_of_(free_unknowns_.rows(), {-1, 0.0}),
-      load_(Eigen::VectorXd::Zero(free_unknowns_.cols())) {
-  for (int column = 0; column < free_unknowns_.cols(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(free_unknowns_, column); entry; ++entry) {
-      free_of_[entry.row()] = {column, entry.value()};
-    }
-  }
-}
+      free_unknowns_(std::move(free_unknowns)) {}
 
 template <int D>
-const Eigen::SparseMatrix<double>& CrackedBody<D>::free_stiffness() {
-  if (stiffness_.size() == 0) {
-    stiffness_ = free_unknowns_.transpose() * elastic_->assemble() * free_unknowns_;
-  }
-  return stiffness_;
-}
-
-template <int D>
-void CrackedBody<D>::start() {
-  factor_.factor(free_stiffness());
-  stiffness_ = {};
-  inverse_ = std::make_unique<CondensedInverse>(factor_, free_unknowns_.cols());
-  jumps_.clear();
-  modes_.clear();
-  pressed_.clear();
-  for (const CrackFacet<D>& seed : seeds_) add_mode(face_jump<D>(seed, intact_, spacing_));
-  intact_move_.resize(0);
-  set_load(load_);
-  compliance_ = compliance(0, 0);
+void CrackedBody<D>::add_jump(const FaceJump<D>& jump) {
+  jumps_.push_back(jump);
+  pressed_.push_back(this->pressed_by(static_cast<Index>(jumps_.size()) - 1));
 }
 
 template <int D>
 std::vector<std::vector<Index>> CrackedBody<D>::loose_pieces() {
   return find_loose_pieces<D>(*elastic_, *family_, free_unknowns_);
-}
-
-template <int D>
-bool CrackedBody<D>::cut(const CrackFacet<D>& facet) {
-  const auto bonds = bonds_cut_by<D>(facet, *family_);
-  if (bonds.empty()) return false;
-  const FaceJump<D> jump = face_jump<D>(facet, intact_, spacing_);
-  std::set<Index> points;
-  for (const auto& [i, j] : bonds) points.insert({i, j});
-  Parts parts;
-  for (const Index i : points) parts.less.push_back(on_free(elastic_->point_stiffness(i)));
-  this->break_bonds(bonds);
-  try {
-    for (const Index i : points) parts.more.push_back(on_free(elastic_->point_stiffness(i)));
-    check_pieces(bonds);
-    change_stiffness(parts);
-  } catch (...) {
-    this->heal_bonds(bonds);
-    find_opening();  // of a block that may have grown
-    throw;
-  }
-  bonds_.add_facet(facet, bonds);
-  followed_ = bonds_.version();
-  add_mode(jump);
-  compliance_ = compliance(0, 0);
-  find_opening();
-  return true;
 }
 
 /// Throws PieceCutFree where the cut leaves a piece that nothing holds.
@@ -104,125 +35,14 @@ void CrackedBody<D>::check_pieces(std::span<const std::pair<Index, Index>> cut) 
 }
 
 template <int D>
-void CrackedBody<D>::change_stiffness(const Parts& parts) {
-  std::set<int> unknowns;
-  for (const auto* side : {&parts.less, &parts.more}) {
-    for (const PointStiffness& part : *side)
-      unknowns.insert(part.unknowns.begin(), part.unknowns.end());
-  }
-  inverse_->add(std::vector<int>(unknowns.begin(), unknowns.end()));
-  std::vector<int> places;
-  for (const int unknown : unknowns) places.push_back(inverse_->place(unknown));
-  const auto row = [&](Index unknown) {
-    return std::distance(unknowns.begin(), unknowns.find(unknown));
-  };
-  Eigen::MatrixXd delta = Eigen::MatrixXd::Zero(places.size(), places.size());
-  const auto add = [&](const PointStiffness& part, double sign) {
-    std::vector<Eigen::Index> rows;
-    for (const Index unknown : part.unknowns) rows.push_back(row(unknown));
-    for (std::size_t a = 0; a < rows.size(); ++a) {
-      for (std::size_t b = 0; b < rows.size(); ++b) {
-        delta(rows[a], rows[b]) += sign * part.matrix(a, b);
-      }
-    }
-  };
-  for (const PointStiffness& part : parts.less) add(part, -1.0);
-  for (const PointStiffness& part : parts.more) add(part, 1.0);
-  inverse_->change(places, delta);
-}
-
-template <int D>
 void CrackedBody<D>::follow_bonds() {
   if (bonds_.version() == followed_) return;
   const std::vector<CrackFacet<D>> facets(bonds_.facets().begin(), bonds_.facets().end());
   bonds_ = BondState<D>(bonds_.version());
   this->mend();
   this->cut_seeds();
-  start();
+  rebuild();
   for (const CrackFacet<D>& facet : std::span(facets).subspan(seeds_.size())) cut(facet);
-}
-
-template <int D>
-PointStiffness CrackedBody<D>::on_free(const PointStiffness& all) const {
-  std::set<Index> free;
-  for (const Index unknown : all.unknowns) {
-    if (free_of_[unknown].first >= 0) free.insert(free_of_[unknown].first);
-  }
-  PointStiffness result{{free.begin(), free.end()},
-                        Eigen::MatrixXd::Zero(free.size(), free.size())};
-  const auto place = [&](Index unknown) {
-    return std::ranges::lower_bound(result.unknowns, free_of_[unknown].first) -
-           result.unknowns.begin();
-  };
-  for (std::size_t a = 0; a < all.unknowns.size(); ++a) {
-    const auto& [free_a, by_a] = free_of_[all.unknowns[a]];
-    if (free_a < 0) continue;
-    for (std::size_t b = 0; b < all.unknowns.size(); ++b) {
-      const auto& [free_b, by_b] = free_of_[all.unknowns[b]];
-      if (free_b < 0) continue;
-      result.matrix(place(all.unknowns[a]), place(all.unknowns[b])) +=
-          by_a * by_b * all.matrix(a, b);
-    }
-  }
-  return result;
-}
-
-template <int D>
-void CrackedBody<D>::add_mode(const FaceJump<D>& jump) {
-  std::vector<int> unknowns;
-  for (const auto& [point, coefficient] : jump.terms) {
-    for (int a = 0; a < D; ++a) {
-      const int free = free_of_[a * family_->point_count + point].first;
-      if (free >= 0) unknowns.push_back(free);
-    }
-  }
-  inverse_->add(unknowns);
-  Mode mode;
-  for (const auto& [point, coefficient] : jump.terms) {
-    for (int a = 0; a < D; ++a) {
-      const auto& [free, by] = free_of_[a * family_->point_count + point];
-      if (free < 0) continue;
-      mode[0].emplace_back(inverse_->place(free), by * coefficient * jump.normal[a]);
-      for (int k = 1; k < D; ++k) {
-        mode[k].emplace_back(inverse_->place(free), by * coefficient * jump.tangents[k - 1][a]);
-      }
-    }
-  }
-  jumps_.push_back(jump);
-  modes_.push_back(std::move(mode));
-  pressed_.push_back(this->pressed_by(static_cast<Index>(jumps_.size()) - 1));
-}
-
-template <int D>
-Eigen::MatrixXd CrackedBody<D>::compliance(int jump, int traction) const {
-  const Eigen::Index count = static_cast<Eigen::Index>(modes_.size());
-  Eigen::MatrixXd response(inverse_->block().rows(), count);
-  for (Eigen::Index g = 0; g < count; ++g) {
-    response.col(g).setZero();
-    for (const auto& [place, coefficient] : modes_[g][traction]) {
-      response.col(g) += jumps_[g].area * coefficient * inverse_->block().col(place);
-    }
-  }
-  Eigen::MatrixXd compliance(count, count);
-  for (Eigen::Index f = 0; f < count; ++f) {
-    for (Eigen::Index g = 0; g < count; ++g) {
-      double sum = 0.0;
-      for (const auto& [place, c] : modes_[f][jump]) sum += c * response(place, g);
-      compliance(f, g) = sum;
-    }
-    if (jump == 0 && traction == 0) compliance(f, f) += pressed_[f];
-  }
-  return compliance;
-}
-
-template <int D>
-void CrackedBody<D>::set_load(const Eigen::VectorXd& load) {
-  require(load.size() == free_unknowns_.cols(), "a load on other unknowns than the body has");
-  if (intact_move_.size() == load.size() && load == load_) return;
-  load_ = load;
-  intact_move_.resize(load.size());
-  factor_.solve(load_, intact_move_);
-  find_opening();
 }
 
 /// What facet f's faces carry along its normal and tangents [Pa].
@@ -235,97 +55,16 @@ Vector<D> CrackedBody<D>::face_load(std::size_t f, double pressure, std::span<co
   return load;
 }
 
-/// What the faces do on the condensed unknowns.
+/// Adds what a load of facet f's faces, along its normal and tangents [Pa], does to all unknowns.
 template <int D>
-Eigen::VectorXd CrackedBody<D>::block_force(const Eigen::VectorXd& pressure,
-                                            std::span<const double> shear) const {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
-  require(pressure.size() == std::ssize(modes_) && (shear.empty() || shear.size() == modes_.size()),
-          "pressure and shear of other facets than the body has");
-  for (std::size_t f = 0; f < modes_.size(); ++f) {
-    const Vector<D> load = face_load(f, pressure[f], shear);
-    for (int k = 0; k < D; ++k) {
-      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * load[k] * c;
+void CrackedBody<D>::add_force(std::size_t f, const Vector<D>& load, Eigen::VectorXd& force) const {
+  for (const auto& [point, coefficient] : jumps_[f].terms) {
+    for (int a = 0; a < D; ++a) {
+      double along = load[0] * jumps_[f].normal[a];
+      for (int k = 1; k < D; ++k) along += load[k] * jumps_[f].tangents[k - 1][a];
+      force[a * family_->point_count + point] += jumps_[f].area * coefficient * along;
     }
   }
-  return force;
-}
-
-template <int D>
-void CrackedBody<D>::find_opening() {
-  Eigen::VectorXd moved(inverse_->block().rows());
-  for (Eigen::Index k = 0; k < moved.size(); ++k) {
-    moved[k] = intact_move_[inverse_->unknowns()[k]];
-  }
-  loaded_ = inverse_->correct_block(moved);
-  const auto count = static_cast<Eigen::Index>(modes_.size());
-  const Eigen::VectorXd x = loaded_ + inverse_->block() * block_force(Eigen::VectorXd::Zero(count));
-  opening_.resize(count);
-  for (Eigen::Index f = 0; f < count; ++f) {
-    opening_[f] = along(modes_[f][0], x) + pressed_[f] * this->relief(static_cast<Index>(f))[0];
-  }
-}
-
-template <int D>
-Eigen::VectorXd CrackedBody<D>::free_opening(const Eigen::VectorXd& pressure) const {
-  require(opening_.size() == pressure.size() && compliance_.cols() == pressure.size(),
-          "pressure of other facets than the body has");
-  return opening_ + compliance_ * pressure;
-}
-
-template <int D>
-typename CrackedBody<D>::Faces CrackedBody<D>::faces(const Eigen::VectorXd& pressure) const {
-  Complementarity contact =
-      solve_complementarity(compliance_, free_opening(pressure), 1e-14 * spacing_);
-  return {contact.y.cwiseMax(0.0), pressure + contact.x, std::move(contact.held)};
-}
-
-/// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
-/// changes as it does K_I.
-template <int D>
-double CrackedBody<D>::intensity_at_fixed_volume(Index facet) const {
-  const Eigen::VectorXd opening = compliance_.rowwise().sum();
-  double volume = 0.0;
-  for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].area * opening[f];
-  return opening[facet] / volume;
-}
-
-template <int D>
-std::optional<double> CrackedBody<D>::find_answer(std::span<const Index> faces,
-                                                  const Vector<D>& traction,
-                                                  std::span<const Index> named,
-                                                  std::span<double> all) const {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
-  for (const Index f : faces) {
-    for (int k = 0; k < D; ++k) {
-      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * traction[k] * c;
-    }
-  }
-  const Eigen::VectorXd block = inverse_->block() * force;
-  const Eigen::VectorXd moved = solve_named(force, block, named);
-  Eigen::Index next = 0;
-  for (const Index unknown : named) {
-    const auto [free, by] = free_of_[unknown];
-    all[unknown] = free < 0 ? 0.0 : by * moved[next++];
-  }
-  double volume = 0.0;
-  for (const Index f : faces) {
-    volume += jumps_[f].area * (along(modes_[f][0], block) + pressed_[f] * traction[0]);
-  }
-  return volume;
-}
-
-template <int D>
-Eigen::VectorXd CrackedBody<D>::solve_named(const Eigen::VectorXd& force,
-                                            const Eigen::VectorXd& block,
-                                            std::span<const Index> named) const {
-  std::vector<int> wanted;
-  for (const Index unknown : named) {
-    if (free_of_[unknown].first >= 0) wanted.push_back(free_of_[unknown].first);
-  }
-  Eigen::VectorXd moved(std::ssize(wanted));
-  factor_.solve_part(inverse_->unknowns(), block_force_on_first_body(force, block), wanted, moved);
-  return moved;
 }
 
 template <int D>
@@ -334,98 +73,24 @@ Eigen::VectorXd CrackedBody<D>::face_force(const Eigen::VectorXd& pressure, bool
   Eigen::VectorXd force = Eigen::VectorXd::Zero(free_unknowns_.rows());
   require(pressure.size() == std::ssize(jumps_), "pressure of other facets than the body has");
   for (std::size_t f = 0; f < jumps_.size(); ++f) {
-    const Vector<D> load = face_load(f, pressure[f], shear, relief);
-    for (const auto& [point, coefficient] : jumps_[f].terms) {
-      for (int a = 0; a < D; ++a) {
-        double along = load[0] * jumps_[f].normal[a];
-        for (int k = 1; k < D; ++k) along += load[k] * jumps_[f].tangents[k - 1][a];
-        force[a * family_->point_count + point] += jumps_[f].area * coefficient * along;
-      }
-    }
+    add_force(f, face_load(f, pressure[f], shear, relief), force);
   }
   return force;
 }
 
-/// What would move the body with its first cracks alone as the faces' force moves the present one;
-/// on the condensed unknowns, for it is nothing elsewhere.
 template <int D>
-Eigen::VectorXd CrackedBody<D>::block_force_on_first_body(const Eigen::VectorXd& force,
-                                                          const Eigen::VectorXd& block) const {
-  return force - inverse_->force_of_changes(block);
-}
-
-template <int D>
-Eigen::VectorXd CrackedBody<D>::force_on_first_body(const Eigen::VectorXd& force,
-                                                    const Eigen::VectorXd& block) const {
-  const Eigen::VectorXd own = block_force_on_first_body(force, block);
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(free_unknowns_.cols());
-  for (Eigen::Index k = 0; k < own.size(); ++k) all[inverse_->unknowns()[k]] = own[k];
-  return all;
-}
-
-template <int D>
-Eigen::VectorXd CrackedBody<D>::unknowns(const Eigen::VectorXd& pressure,
-                                         std::span<const double> shear) const {
-  const Eigen::VectorXd force = block_force(pressure, shear);
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
-  const Eigen::VectorXd all = force_on_first_body(force, block);
-  Eigen::VectorXd moved(all.size());
-  factor_.solve(all, moved);
-  return free_unknowns_ * (intact_move_ + moved);
-}
-
-template <int D>
-void CrackedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
-                                   std::span<double> all, std::span<const double> shear) const {
-  const Eigen::VectorXd force = block_force(pressure, shear);
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
-  const Eigen::VectorXd moved = solve_named(force, block, named);
-  Eigen::Index next = 0;
-  for (const Index unknown : named) {
-    const auto [free, by] = free_of_[unknown];
-    all[unknown] = free < 0 ? 0.0 : by * (intact_move_[free] + moved[next++]);
-  }
-}
-
-template <int D>
-std::vector<Vector<D>> CrackedBody<D>::jumps_under(const Eigen::VectorXd& pressure,
-                                                   std::span<const double> shear) const {
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure, shear);
-  std::vector<Vector<D>> jumps;
-  for (std::size_t f = 0; f < modes_.size(); ++f) {
-    Vector<D>& jump = jumps.emplace_back();
-    for (int k = 0; k < D; ++k) jump[k] = along(modes_[f][k], block);
-    jump[0] += pressed_[f] * face_load(f, pressure[f], {})[0];
-  }
-  return jumps;
-}
-
-template <int D>
-typename CrackedBody<D>::Energies CrackedBody<D>::energies(const Eigen::VectorXd& pressure,
-                                                           std::span<const double> shear) const {
-  const Eigen::VectorXd force = block_force(pressure, shear);
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
-  Energies energies{};
-  // The factor's inverse is symmetric, so that load times displacement needs no displacement.
-  energies.load = intact_move_.dot(load_ + force_on_first_body(force, block));
-  energies.elastic = 0.5 * (energies.load + force.dot(block));
-  for (std::size_t f = 0; f < modes_.size(); ++f) {
-    const Vector<D> load = this->relief(static_cast<Index>(f));
-    double sum = 0.0;
-    for (int k = 0; k < D; ++k) sum += load[k] * along(modes_[f][k], block);
-    energies.relief += jumps_[f].area * sum;
-  }
-  const Energies pressed = pressed_energies(pressure);
-  energies.elastic += pressed.elastic;
-  energies.relief += pressed.relief;
-  return energies;
+Eigen::VectorXd CrackedBody<D>::traction_force(std::span<const Index> faces,
+                                               const Vector<D>& traction) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(free_unknowns_.rows());
+  for (const Index f : faces) add_force(f, traction, force);
+  return force;
 }
 
 template <int D>
 typename CrackedBody<D>::Energies CrackedBody<D>::pressed_energies(
     const Eigen::VectorXd& pressure) const {
   Energies energies{};
-  for (std::size_t f = 0; f < modes_.size(); ++f) {
+  for (std::size_t f = 0; f < jumps_.size(); ++f) {
     const double load = face_load(f, pressure[f], {})[0];
     const double apart = jumps_[f].area * pressed_[f] * load;
     energies.elastic += 0.5 * apart * load;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/crack_cut.hpp"
 
 namespace perifrac {
@@ -40,13 +41,19 @@ CutBody<D>::CutBody(std::shared_ptr<Family<D>> family, double spacing,
         std::ranges::minmax(std::span(family_->position[a]).first(family_->point_count));
     box_[a] = {least, largest};
   }
+  for (Index i = 0; i < family_->point_count; ++i) {
+    const Vector<D> x = vector_at(family_->position, i);
+    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+      longest_ = std::max(longest_, norm(vector_at(family_->position, family_->other[bond]) - x));
+    }
+  }
   cut_seeds();
 }
 
 template <int D>
 void CutBody<D>::cut_seeds() {
   for (const CrackFacet<D>& seed : seeds_) {
-    const auto cut = bonds_cut_by<D>(seed, *family_);
+    const auto cut = bonds_cut_by<D>(seed, *family_, longest_);
     break_bonds(cut);
     bonds_.add_facet(seed, cut);
   }
@@ -75,7 +82,7 @@ void CutBody<D>::mend() {
 
 template <int D>
 bool CutBody<D>::is_intact_along(const CrackFacet<D>& facet) const {
-  return !bonds_cut_by<D>(facet, *family_).empty();
+  return !bonds_cut_by<D>(facet, *family_, longest_).empty();
 }
 
 template <int D>

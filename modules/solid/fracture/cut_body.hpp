@@ -35,14 +35,14 @@ class CutBody {
 
   /// K_I at a tip that this facet is close behind, up to a factor that stays, under fluid of fixed
   /// volume.
-  virtual double intensity_at_fixed_volume(Index facet) const = 0;
+  virtual double intensity_at_fixed_volume(Index facet) = 0;
 
   /// What the same traction on the faces named, along normal and tangents [Pa], and nothing else
   /// does to the unknowns named; the others of `all` are left. Returns the volume that opens there
   /// [m^3], in 2D per metre; nothing where no equilibrium says it.
   virtual std::optional<double> find_answer(std::span<const Index> faces, const Vector<D>& traction,
                                             std::span<const Index> named,
-                                            std::span<double> all) const = 0;
+                                            std::span<double> all) = 0;
 
   std::span<const FaceJump<D>> jumps() const { return jumps_; }
   /// Normal and tangential stress that facet f is relieved of [Pa].
@@ -78,6 +78,7 @@ class CutBody {
   std::shared_ptr<Family<D>> family_;
   Family<D> intact_;
   double spacing_;
+  double longest_ = 0.0;  ///< bond [m]
   std::shared_ptr<BreakableElasticity<D>> elastic_;
   BondState<D>& bonds_;
   std::uint64_t followed_ = 0;  ///< version of the bonds that this body has

@@ -21,7 +21,8 @@ struct Crossing {
 }  // namespace
 
 template <int D>
-FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, double spacing) {
+FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, double spacing,
+                      double longest) {
   FaceJump<D> jump;
   const auto axes = frame<D>(facet);
   jump.normal = axes[0];
@@ -30,7 +31,7 @@ FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, doubl
 
   std::vector<Crossing> crossings;
   double shortest = INFINITY;
-  for (const auto& [i, j] : bonds_cut_by<D>(facet, family)) {
+  for (const auto& [i, j] : bonds_cut_by<D>(facet, family, longest)) {
     const Vector<D> x = vector_at(family.position, i), xi = vector_at(family.position, j) - x;
     const double across = dot(jump.normal, xi), to_i = dot(jump.normal, x - facet[0]);
     const Vector<D> at = x - to_i / across * xi;
@@ -65,7 +66,7 @@ FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, doubl
   return jump;
 }
 
-template FaceJump<2> face_jump<2>(const CrackFacet<2>&, const Family<2>&, double);
-template FaceJump<3> face_jump<3>(const CrackFacet<3>&, const Family<3>&, double);
+template FaceJump<2> face_jump<2>(const CrackFacet<2>&, const Family<2>&, double, double);
+template FaceJump<3> face_jump<3>(const CrackFacet<3>&, const Family<3>&, double, double);
 
 }  // namespace perifrac

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "core/bonds/bond_state.hpp"
@@ -28,8 +29,9 @@ struct FaceJump {
   double reach;  ///< along the normal between the points, in the mean: the rock in the jump [m]
 };
 
-/// `family`: all bonds of the intact body.
+/// `family`: all bonds of the intact body, none longer than `longest` [m].
 template <int D>
-FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, double spacing);
+FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, double spacing,
+                      double longest = std::numeric_limits<double>::infinity());
 
 }  // namespace perifrac

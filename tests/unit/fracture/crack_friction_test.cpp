@@ -184,7 +184,7 @@ TEST(CrackFriction, TakesWhatACycleOfSlipDissipates) {
 /// It has borne nothing: seeds alone begin under what presses on them at rest.
 TEST(CrackFriction, TakesNothingWhereAFacetThatWasCutSlidesOpen) {
   ShearedPlate sheared(0.0, 10);
-  CrackedBody<2>& cracked = *sheared.plate.cracked;
+  CondensedBody<2>& cracked = *sheared.plate.cracked;
   CrackFriction friction(1.0);
   friction.start(cracked);
   const Vector<2> tip = cracked.facets().back()[1];

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "modules/solid/fracture/cracked_body.hpp"
+#include "modules/solid/fracture/condensed_body.hpp"
 #include "modules/solid/fracture/energy_release.hpp"
 #include "tests/unit/fracture/crystal_crack.hpp"
 #include "tests/unit/fracture/exact_crack.hpp"
@@ -29,7 +29,7 @@ struct CrackedPlate {
   std::shared_ptr<BreakableElasticity<2>> elastic;
   BondState<2> bonds;
   std::vector<Index> told;
-  std::unique_ptr<CrackedBody<2>> cracked;
+  std::unique_ptr<CondensedBody<2>> cracked;
   Eigen::VectorXd prescribed;
 
   double shear_modulus() const { return 0.5 * (1.0 - poisson_ratio); }
@@ -66,8 +66,8 @@ struct CrackedPlate {
     Eigen::SparseMatrix<double> free(2 * points, column);
     free.setFromTriplets(ones.begin(), ones.end());
     free_ = free;
-    cracked = std::make_unique<CrackedBody<2>>(family, 1.0, elastic, free, bonds, initial_stress,
-                                               std::move(seeds));
+    cracked = std::make_unique<CondensedBody<2>>(family, 1.0, elastic, free, bonds, initial_stress,
+                                                 std::move(seeds));
     cracked->start();
     prescribed = Eigen::VectorXd::Zero(2 * points);
   }

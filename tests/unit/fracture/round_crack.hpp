@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "modules/solid/fracture/cracked_body.hpp"
+#include "modules/solid/fracture/condensed_body.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 #include "tests/unit/solid/elastic.hpp"
 
@@ -28,7 +28,7 @@ struct RoundCrack {
   std::shared_ptr<Family<3>> family;
   std::shared_ptr<BreakableElasticity<3>> elastic;
   BondState<3> bonds;
-  std::unique_ptr<CrackedBody<3>> cracked;
+  std::unique_ptr<CondensedBody<3>> cracked;
 
   RoundCrack(int count, const std::vector<CrackFacet<3>>& seeds, double horizon_ratio = 2.0,
              bool rollers = true)
@@ -43,8 +43,9 @@ struct RoundCrack {
     const auto mirror = boundary.mirror_condition(*family);
     elastic = std::make_shared<LinearExactElasticity<3, IsotropicElasticity<3>>>(
         LinearExactOperator<3, IsotropicElasticity<3>>(family, mirror, law));
-    cracked = std::make_unique<CrackedBody<3>>(family, 1.0, elastic, boundary.free_unknowns(mirror),
-                                               bonds, std::optional<InitialStress<3>>{}, seeds);
+    cracked =
+        std::make_unique<CondensedBody<3>>(family, 1.0, elastic, boundary.free_unknowns(mirror),
+                                           bonds, std::optional<InitialStress<3>>{}, seeds);
     cracked->start();
   }
 

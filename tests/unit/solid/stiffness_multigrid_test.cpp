@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eigen_view.hpp"
+#include "core/bonds/crack_cut.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
+#include "tests/unit/fracture/rock.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 #include "tests/unit/solid/elastic.hpp"
 
@@ -19,6 +21,7 @@ struct Case {
   std::shared_ptr<const Body<D>> body;
   SolidBoundary<D> boundary;
   std::shared_ptr<ElasticOperator<D>> elastic{};
+  std::vector<CrackFacet<D>> cracks{};
 
   explicit Case(const std::array<int, D>& counts, double horizon_ratio = 2.0)
       : body(test::box_body<D>(counts, 0.5, test::Cloud::lattice, horizon_ratio)),
@@ -26,6 +29,20 @@ struct Case {
 
   void make(IsotropicElasticity<D> law = {1.0, 1.0}) {
     elastic = test::elastic<D>(*body, boundary, law);
+  }
+
+  /// Of bonds that facets cut.
+  void make_cracked(std::vector<CrackFacet<D>> facets, IsotropicElasticity<D> law = {1.0, 1.0}) {
+    const auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
+    const auto cracked = test::breakable<D>(test::Rock::linear_exact, family,
+                                            boundary.mirror_condition(*family), law);
+    for (const CrackFacet<D>& facet : facets) {
+      const auto bonds = bonds_cut_by<D>(facet, *family);
+      for (const auto& [i, j] : bonds) silence(*family, i, j);
+      cracked->update(ends_of(bonds));
+    }
+    elastic = cracked;
+    cracks = std::move(facets);
   }
 
   /// Rollers at the low faces, the others free.
@@ -48,6 +65,8 @@ struct Case {
     std::mt19937 bits(5);
     for (double& force : load) force = std::uniform_real_distribution<double>(-1.0, 1.0)(bits);
     StiffnessMultigrid<D> multigrid(*body, elastic, boundary, free);
+    for (const CrackFacet<D>& facet : cracks) multigrid.cut(facet);
+    if (!cracks.empty()) multigrid.find_largest();
     Eigen::VectorXd residual = load, u = Eigen::VectorXd::Zero(free.rows());
     multigrid.hold(residual);
     const int iterations = multigrid.correct(residual, u, 1e-10 * residual.norm());
@@ -133,6 +152,45 @@ TEST(StiffnessMultigrid, SolvesForTheLinearPeridynamicSolid) {
   plane.on_rollers();
   plane.elastic = test::lps<2>(*plane.body, plane.boundary, {1.0, 1.0});
   expect_agreement(plane.solve(), 20);
+}
+
+/// Facets of a straight crack at this angle, one spacing each.
+std::vector<CrackFacet<2>> straight_crack(const Vector<2>& from, double angle, int count) {
+  std::vector<CrackFacet<2>> facets;
+  const auto at = [&](int k) -> Vector<2> {
+    return {from[0] + 0.5 * k * std::cos(angle), from[1] + 0.5 * k * std::sin(angle)};
+  };
+  for (int k = 0; k < count; ++k) facets.push_back({at(k), at(k + 1)});
+  return facets;
+}
+
+/// Half of the section, at a height between coarse cells and at others.
+TEST(StiffnessMultigrid, SolvesForBodiesWithCracks) {
+  for (const double height : {12.0, 12.5, 13.0, 11.0}) {
+    Case<2> plane({64, 48}, 2.5);
+    plane.on_rollers();
+    plane.make_cracked(straight_crack({0.0, height}, 0.0, 32));
+    expect_agreement(plane.solve(), 20);
+  }
+  for (const double angle : {0.3, 0.7, 1.2}) {
+    Case<2> plane({64, 48}, 2.5);
+    plane.on_rollers();
+    plane.make_cracked(straight_crack({8.0, 5.0}, angle, 24));
+    expect_agreement(plane.solve(), 20);
+  }
+  for (const int layer : {6, 7, 8, 9}) {
+    Case<3> box({12, 12, 16});
+    box.on_rollers();
+    std::vector<CrackFacet<3>> facets;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 12; ++j) {
+        const auto at = [&](int a, int b) -> Vector<3> { return {0.5 * a, 0.5 * b, 0.5 * layer}; };
+        facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+    }
+    box.make_cracked(std::move(facets));
+    expect_agreement(box.solve(), 20);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,376 @@
+#include "modules/solid/fracture/condensed_body.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+#include <Eigen/Dense>
+
+#include "core/base/require.hpp"
+#include "core/bonds/crack_cut.hpp"
+#include "core/solvers/complementarity.hpp"
+#include "modules/solid/fracture/loose_piece.hpp"
+
+namespace perifrac {
+
+namespace {
+
+double along(const std::vector<std::pair<int, double>>& mode, const Eigen::VectorXd& x) {
+  double sum = 0.0;
+  for (const auto& [place, coefficient] : mode) sum += coefficient * x[place];
+  return sum;
+}
+
+}  // namespace
+
+template <int D>
+CondensedBody<D>::CondensedBody(std::shared_ptr<Family<D>> family, double spacing,
+                                std::shared_ptr<BreakableElasticity<D>> elastic,
+                                Eigen::SparseMatrix<double> free_unknowns, BondState<D>& bonds,
+                                std::optional<InitialStress<D>> initial_stress,
+                                std::vector<CrackFacet<D>> seeds, std::string why)
+    : CrackedBody<D>(std::move(family), spacing, std::move(elastic), std::move(free_unknowns),
+                     bonds, std::move(initial_stress), std::move(seeds)),
+      why_(why.empty() ? why : ": " + why),
+      free_of_(free_unknowns_.rows(), {-1, 0.0}),
+      load_(Eigen::VectorXd::Zero(free_unknowns_.cols())) {
+  for (int column = 0; column < free_unknowns_.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(free_unknowns_, column); entry; ++entry) {
+      free_of_[entry.row()] = {column, entry.value()};
+    }
+  }
+}
+
+template <int D>
+const Eigen::SparseMatrix<double>& CondensedBody<D>::free_stiffness() {
+  if (stiffness_.size() == 0) {
+    stiffness_ = free_unknowns_.transpose() * elastic_->assemble() * free_unknowns_;
+  }
+  return stiffness_;
+}
+
+template <int D>
+void CondensedBody<D>::start() {
+  factor_.factor(free_stiffness());
+  stiffness_ = {};
+  inverse_ = std::make_unique<CondensedInverse>(factor_, free_unknowns_.cols());
+  jumps_.clear();
+  modes_.clear();
+  pressed_.clear();
+  for (const CrackFacet<D>& seed : seeds_)
+    add_mode(face_jump<D>(seed, intact_, spacing_, longest_));
+  intact_move_.resize(0);
+  set_load(load_);
+  compliance_ = compliance(0, 0);
+}
+
+template <int D>
+bool CondensedBody<D>::cut(const CrackFacet<D>& facet) {
+  const auto bonds = bonds_cut_by<D>(facet, *family_, longest_);
+  if (bonds.empty()) return false;
+  const FaceJump<D> jump = face_jump<D>(facet, intact_, spacing_, longest_);
+  std::set<Index> points;
+  for (const auto& [i, j] : bonds) points.insert({i, j});
+  Parts parts;
+  for (const Index i : points) parts.less.push_back(on_free(elastic_->point_stiffness(i)));
+  this->break_bonds(bonds);
+  try {
+    for (const Index i : points) parts.more.push_back(on_free(elastic_->point_stiffness(i)));
+    this->check_pieces(bonds);
+    change_stiffness(parts);
+  } catch (...) {
+    this->heal_bonds(bonds);
+    find_opening();  // of a block that may have grown
+    throw;
+  }
+  bonds_.add_facet(facet, bonds);
+  followed_ = bonds_.version();
+  add_mode(jump);
+  compliance_ = compliance(0, 0);
+  find_opening();
+  return true;
+}
+
+template <int D>
+void CondensedBody<D>::change_stiffness(const Parts& parts) {
+  std::set<int> unknowns;
+  for (const auto* side : {&parts.less, &parts.more}) {
+    for (const PointStiffness& part : *side)
+      unknowns.insert(part.unknowns.begin(), part.unknowns.end());
+  }
+  inverse_->add(std::vector<int>(unknowns.begin(), unknowns.end()));
+  std::vector<int> places;
+  for (const int unknown : unknowns) places.push_back(inverse_->place(unknown));
+  const auto row = [&](Index unknown) {
+    return std::distance(unknowns.begin(), unknowns.find(unknown));
+  };
+  Eigen::MatrixXd delta = Eigen::MatrixXd::Zero(places.size(), places.size());
+  const auto add = [&](const PointStiffness& part, double sign) {
+    std::vector<Eigen::Index> rows;
+    for (const Index unknown : part.unknowns) rows.push_back(row(unknown));
+    for (std::size_t a = 0; a < rows.size(); ++a) {
+      for (std::size_t b = 0; b < rows.size(); ++b) {
+        delta(rows[a], rows[b]) += sign * part.matrix(a, b);
+      }
+    }
+  };
+  for (const PointStiffness& part : parts.less) add(part, -1.0);
+  for (const PointStiffness& part : parts.more) add(part, 1.0);
+  inverse_->change(places, delta);
+}
+
+template <int D>
+PointStiffness CondensedBody<D>::on_free(const PointStiffness& all) const {
+  std::set<Index> free;
+  for (const Index unknown : all.unknowns) {
+    if (free_of_[unknown].first >= 0) free.insert(free_of_[unknown].first);
+  }
+  PointStiffness result{{free.begin(), free.end()},
+                        Eigen::MatrixXd::Zero(free.size(), free.size())};
+  const auto place = [&](Index unknown) {
+    return std::ranges::lower_bound(result.unknowns, free_of_[unknown].first) -
+           result.unknowns.begin();
+  };
+  for (std::size_t a = 0; a < all.unknowns.size(); ++a) {
+    const auto& [free_a, by_a] = free_of_[all.unknowns[a]];
+    if (free_a < 0) continue;
+    for (std::size_t b = 0; b < all.unknowns.size(); ++b) {
+      const auto& [free_b, by_b] = free_of_[all.unknowns[b]];
+      if (free_b < 0) continue;
+      result.matrix(place(all.unknowns[a]), place(all.unknowns[b])) +=
+          by_a * by_b * all.matrix(a, b);
+    }
+  }
+  return result;
+}
+
+template <int D>
+void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
+  std::vector<int> unknowns;
+  for (const auto& [point, coefficient] : jump.terms) {
+    for (int a = 0; a < D; ++a) {
+      const int free = free_of_[a * family_->point_count + point].first;
+      if (free >= 0) unknowns.push_back(free);
+    }
+  }
+  inverse_->add(unknowns);
+  Mode mode;
+  for (const auto& [point, coefficient] : jump.terms) {
+    for (int a = 0; a < D; ++a) {
+      const auto& [free, by] = free_of_[a * family_->point_count + point];
+      if (free < 0) continue;
+      mode[0].emplace_back(inverse_->place(free), by * coefficient * jump.normal[a]);
+      for (int k = 1; k < D; ++k) {
+        mode[k].emplace_back(inverse_->place(free), by * coefficient * jump.tangents[k - 1][a]);
+      }
+    }
+  }
+  this->add_jump(jump);
+  modes_.push_back(std::move(mode));
+}
+
+template <int D>
+Eigen::MatrixXd CondensedBody<D>::compliance(int jump, int traction) {
+  const Eigen::Index count = static_cast<Eigen::Index>(modes_.size());
+  Eigen::MatrixXd response(inverse_->block().rows(), count);
+  for (Eigen::Index g = 0; g < count; ++g) {
+    response.col(g).setZero();
+    for (const auto& [place, coefficient] : modes_[g][traction]) {
+      response.col(g) += jumps_[g].area * coefficient * inverse_->block().col(place);
+    }
+  }
+  Eigen::MatrixXd compliance(count, count);
+  for (Eigen::Index f = 0; f < count; ++f) {
+    for (Eigen::Index g = 0; g < count; ++g) {
+      double sum = 0.0;
+      for (const auto& [place, c] : modes_[f][jump]) sum += c * response(place, g);
+      compliance(f, g) = sum;
+    }
+    if (jump == 0 && traction == 0) compliance(f, f) += pressed_[f];
+  }
+  return compliance;
+}
+
+template <int D>
+void CondensedBody<D>::set_load(const Eigen::VectorXd& load) {
+  require(load.size() == free_unknowns_.cols(), "a load on other unknowns than the body has");
+  if (intact_move_.size() == load.size() && load == load_) return;
+  load_ = load;
+  intact_move_.resize(load.size());
+  factor_.solve(load_, intact_move_);
+  find_opening();
+}
+
+/// What the faces do on the condensed unknowns.
+template <int D>
+Eigen::VectorXd CondensedBody<D>::block_force(const Eigen::VectorXd& pressure,
+                                              std::span<const double> shear) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
+  require(pressure.size() == std::ssize(modes_) && (shear.empty() || shear.size() == modes_.size()),
+          "pressure and shear of other facets than the body has");
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
+    const Vector<D> load = this->face_load(f, pressure[f], shear);
+    for (int k = 0; k < D; ++k) {
+      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * load[k] * c;
+    }
+  }
+  return force;
+}
+
+template <int D>
+void CondensedBody<D>::find_opening() {
+  Eigen::VectorXd moved(inverse_->block().rows());
+  for (Eigen::Index k = 0; k < moved.size(); ++k) {
+    moved[k] = intact_move_[inverse_->unknowns()[k]];
+  }
+  loaded_ = inverse_->correct_block(moved);
+  const auto count = static_cast<Eigen::Index>(modes_.size());
+  const Eigen::VectorXd x = loaded_ + inverse_->block() * block_force(Eigen::VectorXd::Zero(count));
+  opening_.resize(count);
+  for (Eigen::Index f = 0; f < count; ++f) {
+    opening_[f] = along(modes_[f][0], x) + pressed_[f] * this->relief(static_cast<Index>(f))[0];
+  }
+}
+
+template <int D>
+Eigen::VectorXd CondensedBody<D>::free_opening(const Eigen::VectorXd& pressure,
+                                               const Eigen::VectorXd&) {
+  require(opening_.size() == pressure.size() && compliance_.cols() == pressure.size(),
+          "pressure of other facets than the body has");
+  return opening_ + compliance_ * pressure;
+}
+
+template <int D>
+typename CrackedBody<D>::Faces CondensedBody<D>::faces(const Eigen::VectorXd& pressure) {
+  Complementarity contact =
+      solve_complementarity(compliance_, free_opening(pressure, pressure), 1e-14 * spacing_);
+  return {contact.y.cwiseMax(0.0), pressure + contact.x, std::move(contact.held)};
+}
+
+/// Under a uniform pressure, the opening of a facet by the volume of all, which a step of the tip
+/// changes as it does K_I.
+template <int D>
+double CondensedBody<D>::intensity_at_fixed_volume(Index facet) {
+  const Eigen::VectorXd opening = compliance_.rowwise().sum();
+  double volume = 0.0;
+  for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].area * opening[f];
+  return opening[facet] / volume;
+}
+
+template <int D>
+std::optional<double> CondensedBody<D>::find_answer(std::span<const Index> faces,
+                                                    const Vector<D>& traction,
+                                                    std::span<const Index> named,
+                                                    std::span<double> all) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
+  for (const Index f : faces) {
+    for (int k = 0; k < D; ++k) {
+      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * traction[k] * c;
+    }
+  }
+  const Eigen::VectorXd block = inverse_->block() * force;
+  const Eigen::VectorXd moved = solve_named(force, block, named);
+  Eigen::Index next = 0;
+  for (const Index unknown : named) {
+    const auto [free, by] = free_of_[unknown];
+    all[unknown] = free < 0 ? 0.0 : by * moved[next++];
+  }
+  double volume = 0.0;
+  for (const Index f : faces) {
+    volume += jumps_[f].area * (along(modes_[f][0], block) + pressed_[f] * traction[0]);
+  }
+  return volume;
+}
+
+template <int D>
+Eigen::VectorXd CondensedBody<D>::solve_named(const Eigen::VectorXd& force,
+                                              const Eigen::VectorXd& block,
+                                              std::span<const Index> named) const {
+  std::vector<int> wanted;
+  for (const Index unknown : named) {
+    if (free_of_[unknown].first >= 0) wanted.push_back(free_of_[unknown].first);
+  }
+  Eigen::VectorXd moved(std::ssize(wanted));
+  factor_.solve_part(inverse_->unknowns(), block_force_on_first_body(force, block), wanted, moved);
+  return moved;
+}
+
+/// What would move the body with its first cracks alone as the faces' force moves the present one;
+/// on the condensed unknowns, for it is nothing elsewhere.
+template <int D>
+Eigen::VectorXd CondensedBody<D>::block_force_on_first_body(const Eigen::VectorXd& force,
+                                                            const Eigen::VectorXd& block) const {
+  return force - inverse_->force_of_changes(block);
+}
+
+template <int D>
+Eigen::VectorXd CondensedBody<D>::force_on_first_body(const Eigen::VectorXd& force,
+                                                      const Eigen::VectorXd& block) const {
+  const Eigen::VectorXd own = block_force_on_first_body(force, block);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(free_unknowns_.cols());
+  for (Eigen::Index k = 0; k < own.size(); ++k) all[inverse_->unknowns()[k]] = own[k];
+  return all;
+}
+
+template <int D>
+Eigen::VectorXd CondensedBody<D>::unknowns(const Eigen::VectorXd& pressure,
+                                           std::span<const double> shear) {
+  const Eigen::VectorXd force = block_force(pressure, shear);
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  const Eigen::VectorXd all = force_on_first_body(force, block);
+  Eigen::VectorXd moved(all.size());
+  factor_.solve(all, moved);
+  return free_unknowns_ * (intact_move_ + moved);
+}
+
+template <int D>
+void CondensedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
+                                     std::span<double> all, std::span<const double> shear) {
+  const Eigen::VectorXd force = block_force(pressure, shear);
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  const Eigen::VectorXd moved = solve_named(force, block, named);
+  Eigen::Index next = 0;
+  for (const Index unknown : named) {
+    const auto [free, by] = free_of_[unknown];
+    all[unknown] = free < 0 ? 0.0 : by * (intact_move_[free] + moved[next++]);
+  }
+}
+
+template <int D>
+std::vector<Vector<D>> CondensedBody<D>::jumps_under(const Eigen::VectorXd& pressure,
+                                                     std::span<const double> shear) {
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure, shear);
+  std::vector<Vector<D>> jumps;
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
+    Vector<D>& jump = jumps.emplace_back();
+    for (int k = 0; k < D; ++k) jump[k] = along(modes_[f][k], block);
+    jump[0] += pressed_[f] * this->face_load(f, pressure[f], {})[0];
+  }
+  return jumps;
+}
+
+template <int D>
+typename CrackedBody<D>::Energies CondensedBody<D>::energies(const Eigen::VectorXd& pressure,
+                                                             std::span<const double> shear) {
+  const Eigen::VectorXd force = block_force(pressure, shear);
+  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  Energies energies{};
+  // The factor's inverse is symmetric, so that load times displacement needs no displacement.
+  energies.load = intact_move_.dot(load_ + force_on_first_body(force, block));
+  energies.elastic = 0.5 * (energies.load + force.dot(block));
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
+    const Vector<D> load = this->relief(static_cast<Index>(f));
+    double sum = 0.0;
+    for (int k = 0; k < D; ++k) sum += load[k] * along(modes_[f][k], block);
+    energies.relief += jumps_[f].area * sum;
+  }
+  const Energies pressed = this->pressed_energies(pressure);
+  energies.elastic += pressed.elastic;
+  energies.relief += pressed.relief;
+  return energies;
+}
+
+template class CondensedBody<2>;
+template class CondensedBody<3>;
+
+}  // namespace perifrac

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/solvers/condensed_inverse.hpp"
+#include "core/solvers/sparse_cholesky.hpp"
+#include "modules/solid/fracture/cracked_body.hpp"
+
+namespace perifrac {
+
+/// A cracked body whose stiffness with its first cracks is factored once; every later facet is a
+/// low-rank change of it. Slopes are exact. Memory and time are those of the factor.
+template <int D>
+class CondensedBody final : public CrackedBody<D> {
+ public:
+  /// As CrackedBody.
+  CondensedBody(std::shared_ptr<Family<D>> family, double spacing,
+                std::shared_ptr<BreakableElasticity<D>> elastic,
+                Eigen::SparseMatrix<double> free_unknowns, BondState<D>& bonds,
+                std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,
+                std::string why = {});
+
+  void start() override;
+  std::string path() const override { return "a factor of the stiffness" + why_; }
+  bool cut(const CrackFacet<D>& facet) override;
+  void set_load(const Eigen::VectorXd& load) override;
+
+  using Faces = typename CrackedBody<D>::Faces;
+  using Energies = typename CrackedBody<D>::Energies;
+  Faces faces(const Eigen::VectorXd& pressure) override;
+  /// Exact, whatever the face pressure.
+  Eigen::VectorXd free_opening(const Eigen::VectorXd& pressure,
+                               const Eigen::VectorXd& = {}) override;
+  const Eigen::MatrixXd& opening_slope() override { return compliance_; }
+  /// d(free_opening)/d(pressure) [m/Pa].
+  const Eigen::MatrixXd& compliance() const { return compliance_; }
+  Eigen::MatrixXd compliance(int jump, int traction) override;
+  double intensity_at_fixed_volume(Index facet) override;
+  std::optional<double> find_answer(std::span<const Index> faces, const Vector<D>& traction,
+                                    std::span<const Index> named, std::span<double> all) override;
+  std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure,
+                                     std::span<const double> shear = {}) override;
+  Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure,
+                           std::span<const double> shear = {}) override;
+  void find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
+                     std::span<double> all, std::span<const double> shear = {}) override;
+  /// At no back-substitution.
+  Energies energies(const Eigen::VectorXd& pressure, std::span<const double> shear = {}) override;
+
+  /// Of what is solved for, with all bonds that are broken now; kept for start().
+  const Eigen::SparseMatrix<double>& free_stiffness();
+  Eigen::VectorXd stiffness_times(const Eigen::VectorXd& x) override {
+    return free_stiffness() * x;
+  }
+
+ private:
+  using CutBody<D>::family_;
+  using CutBody<D>::intact_;
+  using CutBody<D>::longest_;
+  using CutBody<D>::spacing_;
+  using CutBody<D>::elastic_;
+  using CutBody<D>::bonds_;
+  using CutBody<D>::followed_;
+  using CutBody<D>::seeds_;
+  using CutBody<D>::jumps_;
+  using CrackedBody<D>::free_unknowns_;
+  using CrackedBody<D>::pressed_;
+
+  /// A facet's jump along its normal and tangents, of the condensed unknowns.
+  using Mode = std::array<std::vector<std::pair<int, double>>, D>;
+
+  /// A symmetric matrix of all unknowns on those solved for.
+  PointStiffness on_free(const PointStiffness& all) const;
+  /// What a change of stiffness takes and what it gives.
+  struct Parts {
+    std::vector<PointStiffness> less, more;
+  };
+  void change_stiffness(const Parts& parts);
+  void add_mode(const FaceJump<D>& jump);
+  void find_opening();
+  Eigen::VectorXd block_force(const Eigen::VectorXd& pressure,
+                              std::span<const double> shear = {}) const;
+  Eigen::VectorXd solve_named(const Eigen::VectorXd& force, const Eigen::VectorXd& block,
+                              std::span<const Index> named) const;
+  Eigen::VectorXd block_force_on_first_body(const Eigen::VectorXd& force,
+                                            const Eigen::VectorXd& block) const;
+  Eigen::VectorXd force_on_first_body(const Eigen::VectorXd& force,
+                                      const Eigen::VectorXd& block) const;
+
+  std::string why_;
+  std::vector<std::pair<int, double>> free_of_;  ///< by unknown: what moves it (-1: nothing)
+
+  Eigen::SparseMatrix<double> stiffness_;  ///< until start() has factored it
+  SparseCholesky factor_;
+  std::unique_ptr<CondensedInverse> inverse_;
+  std::vector<Mode> modes_;
+  Eigen::MatrixXd compliance_;
+
+  Eigen::VectorXd load_;         ///< of those solved for
+  Eigen::VectorXd intact_move_;  ///< what it does to the body with its first cracks
+  Eigen::VectorXd loaded_;       ///< what it does now, on the condensed unknowns
+  Eigen::VectorXd opening_;      ///< by load and relief, without pressure
+};
+
+}  // namespace perifrac
