@@ -20,7 +20,7 @@ int draw(const std::string& script, const std::vector<std::string>& folders, boo
     if (end.signal == 0) return end.exit_code;
   } catch (const std::system_error&) {
   }
-  log_warning(fmt::format("no report: {} could not be run", python));
+  log_warning(fmt::format("no report: {} could not be run", words.front()));
   return 1;
 }
 

@@ -34,21 +34,21 @@ struct CrackFilling {
 ///
 /// Ports, on the facets ("crack"): in `free_crack_opening` [m], takes rate and a slope of count *
 /// count values against `crack_pressure`; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
-/// `crack_wetted_fraction`, where rates are known `crack_flow_rate` [m^2/s] from a facet's first end to its second, the
-/// properties `crack_viscosity` [Pa s] and, by Carter's law, `crack_leak_off` [m/s^0.5], 0 where
-/// less than half a facet is wet. On its own: `wetted_length` and `fluid_lag` [m], `crack_volume`
-/// [m^2], `mean_crack_pressure` [Pa] (crack_extent.hpp), `inlet_<name>_pressure` [Pa],
-/// `inlet_<name>_opening` [m], with leak-off `leak_off_volume` [m^2] at zero pressure, since the
-/// start, and `leak_off_rate` [m^2/s], the mean of the last window; for the ledger
-/// `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off `leaked_crack_fluid_mass`
-/// (negative, of Carter's) [kg/m], `crack_fluid_energy`, `crack_fluid_work`,
-/// `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on the body's points:
-/// in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`, `pore_mobility`
-/// [m^2/(Pa s)]; out `exchanged_mass` [kg/m]. With inlets from free fluid, on their mouths: in
-/// `mouth_pressure` [Pa], `mouth_stiffness`, `mouth_volume_stiffness` [Pa m/kg], `mouth_relaxation`
-/// [s], `mouth_given` [kg/m]; out `mouth_taken` [kg/m]; for the ledger `mass_taken_by_cracks`
-/// (negative) [kg/m]. In 3D without the /m of totals, and m^3 for m^2; `wetted_area` and `dry_area`
-/// [m^2] in place of the two lengths, and no `crack_flow_rate`.
+/// `crack_wetted_fraction`, where rates are known `crack_flow_rate` [m^2/s] from a facet's first
+/// end to its second, the properties `crack_viscosity` [Pa s] and, by Carter's law,
+/// `crack_leak_off` [m/s^0.5], 0 where less than half a facet is wet. On its own: `wetted_length`
+/// and `fluid_lag` [m], `crack_volume` [m^2], `mean_crack_pressure` [Pa] (crack_extent.hpp),
+/// `inlet_<name>_pressure` [Pa], `inlet_<name>_opening` [m], with leak-off `leak_off_volume` [m^2]
+/// at zero pressure, since the start, and `leak_off_rate` [m^2/s], the mean of the last window; for
+/// the ledger `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
+/// `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
+/// `crack_fluid_work`, `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on
+/// the body's points: in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`,
+/// `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg/m]. With inlets from free fluid, on their
+/// mouths: in `mouth_pressure` [Pa], `mouth_stiffness`, `mouth_volume_stiffness` [Pa m/kg],
+/// `mouth_relaxation` [s], `mouth_given` [kg/m]; out `mouth_taken` [kg/m]; for the ledger
+/// `mass_taken_by_cracks` (negative) [kg/m]. In 3D without the /m of totals, and m^3 for m^2;
+/// `wetted_area` and `dry_area` [m^2] in place of the two lengths, and no `crack_flow_rate`.
 template <int D>
 class CrackFluid final : public PhysicsModule {
  public:
