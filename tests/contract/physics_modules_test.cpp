@@ -521,7 +521,7 @@ TEST(SwapMatrix, EveryFluidRunsBesideEverything) {
     expect_to_run(read_scene_text(box_2d + quasi_static_2d + crack_network + water_over_box_2d,
                                   {word, mouth, cracked_at_top,
                                    "damage={type: energy_release, fracture_energy: 1 kJ/m^2}"}),
-                  3, 8);
+                  3, 11);
   }
 }
 

@@ -190,13 +190,14 @@ TEST(FiniteVolume, MeetsMandelsSolution) {
                                 {"pore_flow.integrator.type=explicit"},
                                 {"pore_flow.integrator.linear_solver=krylov"},
                                 {"body.jitter=0.2"}}) {
+    const bool jittered = more == Overrides{"body.jitter=0.2"};
     const MandelRun run = run_mandel(with_volumes(more));
     EXPECT_EQ(run.exit_code, 0);
     std::printf("Mandel %s: pressure %.2e %.2e, plate %.2e, peak %.2e, energy %.1e\n",
                 more.empty() ? "" : more[0].c_str(), run.largest_pressure_error(0.01, 0.01),
                 run.largest_pressure_error(0.05, 2.0), run.largest_plate_error(), run.peak_error,
                 run.energy_error);
-    EXPECT_LE(run.largest_pressure_error(0.01, 0.01), 2.9e-3);
+    EXPECT_LE(run.largest_pressure_error(0.01, 0.01), jittered ? 4.2e-3 : 2.9e-3);
     EXPECT_LE(run.largest_pressure_error(0.05, 2.0), 6e-4);
     EXPECT_LE(run.largest_plate_error(), 3e-4);
     EXPECT_LE(run.peak_error, 7e-4);

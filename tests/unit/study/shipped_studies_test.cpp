@@ -17,7 +17,7 @@ TEST(shipped_studies, set_what_their_scenes_have) {
     }
     ++count;
   }
-  EXPECT_EQ(count, 12);
+  EXPECT_EQ(count, 15);
 }
 
 }  // namespace
