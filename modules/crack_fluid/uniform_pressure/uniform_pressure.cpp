@@ -11,12 +11,12 @@ namespace perifrac {
 
 namespace {
 
-constexpr int most_iterations = 60;
+constexpr int most_newton_steps = 60;
 /// From here on every other step is halved: pressures of several cracks may chase each other.
 constexpr int patience = 20;
-constexpr double tolerance = 1e-12;  ///< of what a crack holds when full
+constexpr double balance_tolerance = 1e-12;  ///< of what a crack holds when full
 /// Of the fluid's bulk modulus: below this a pressure that an inlet holds is as good as none.
-constexpr double smallest_pressure = 5e-7;
+constexpr double least_held_pressure = 5e-7;
 
 }  // namespace
 
@@ -50,11 +50,11 @@ void UniformPressure::evaluate(const CrackStep& step, const Eigen::VectorXd& unk
   rest(step, by_facet(unknown), answer_ * pressure);
   balance_ = by_crack(residual_);
   const Eigen::VectorXd capacity = by_crack(capacity_);
-  allowed_ = tolerance * capacity + 1e-14 * by_crack(rounding_);
+  allowed_ = balance_tolerance * capacity + 1e-14 * by_crack(rounding_);
   for (Index c = 0; c < crack_count(); ++c) {
     // A pressure that is held is weighed to be a mass.
     const double weight =
-        capacity[c] / std::max(std::abs(unknown[c]), smallest_pressure * liquid_.bulk_modulus);
+        capacity[c] / std::max(std::abs(unknown[c]), least_held_pressure * liquid_.bulk_modulus);
     balance_[c] = inflows_[c].balance(unknown[c], balance_[c], weight);
     allowed_[c] += 1e-14 * std::abs(inflows_[c].total());
   }
@@ -165,7 +165,7 @@ FlowReport UniformPressure::solve(const CrackStep& step, Eigen::VectorXd& v) {
     unknown[crack_[f]] = std::max(unknown[crack_[f]], v[f]);
   }
   FlowReport report;
-  for (; report.iterations < most_iterations; ++report.iterations) {
+  for (; report.iterations < most_newton_steps; ++report.iterations) {
     evaluate(step, unknown);
     report.converged = is_balanced(report);
     if (report.converged) break;

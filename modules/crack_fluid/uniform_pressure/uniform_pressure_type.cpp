@@ -46,14 +46,14 @@ void check_pressures(const Section& section, const Body<D>& body) {
     Vector<D> at;
     std::ranges::copy(section.numbers(inlet + ".at"), at.begin());
     const auto facet = static_cast<Index>(nearest_to<D>(at, facets));
-    const auto [first, is_new] =
-        held.try_emplace(graph.crack(facet), section.text(inlet + ".name"));
-    if (is_new) continue;
+    const auto found = held.try_emplace(graph.crack(facet), section.text(inlet + ".name"));
+    if (found.second) continue;
+    const std::string& other = found.first->second;
     mistakes.note([&] {
       section.fail(inlet,
                    fmt::format("holds a pressure in the crack in which '{}' holds one, and fluid "
                                "without viscosity has one",
-                               first->second),
+                               other),
                    "one such inlet a crack, or type: network");
     });
   }

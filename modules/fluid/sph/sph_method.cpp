@@ -29,7 +29,7 @@ class SphMethod final : public FluidMethod<D> {
 };
 
 template <int D>
-std::unique_ptr<FluidMethod<D>> make_method(const FluidScheme& scheme) {
+std::unique_ptr<FluidMethod<D>> make_sph(const FluidScheme& scheme) {
   return std::make_unique<SphMethod<D>>(scheme);
 }
 
@@ -41,7 +41,7 @@ FluidMethodType sph_method() {
               "Free fluid by smoothed particle hydrodynamics, weakly compressible, with the "
               "density diffusion of delta-SPH; explicit.",
           .fallbacks = {{"horizon_ratio", "3"}, {"particle_shifting", "0.5"}},
-          .make = {make_method<2>, make_method<3>}};
+          .make = {make_sph<2>, make_sph<3>}};
 }
 
 }  // namespace perifrac

@@ -99,7 +99,8 @@ template <int D>
 void TwoPointFlow<D>::follow(const BondState<D>& bonds) {
   std::ranges::fill(open_, std::uint8_t{1});
   for (const BrokenBond& bond : bonds.broken()) cut(bond.i, bond.j);
-  for (const auto& [i, j] : far_) {
+  for (const auto& pair : far_) {
+    const Index i = pair.first, j = pair.second;
     const bool through = std::ranges::any_of(bonds.facets(), [&](const CrackFacet<D>& facet) {
       return is_cut<D>(facet, place(i), place(j));
     });
