@@ -9,7 +9,7 @@ from perifrac_runs import CONFIGS, MANDEL, RunTest, perifrac, settings
 
 MEGABYTE = 1 << 20
 SHORT = {"body.spacing": "4 m", "time.end": "1 s", "output.times": "[]"}
-FINE = {"body.spacing": "0.2 mm"}  # 750,000 points: more than 10 GB
+FINE = {"body.spacing": "0.2 mm", "solid.linear_solver.type": "direct"}  # 750,000 points: more than 10 GB
 
 
 def limited(which, size):
