@@ -160,10 +160,10 @@ void Link::deliver_sum() {
 void Link::add_earlier_shares() {
   told_ = value_;
   told_rate_ = rate_;
-  std::vector<double> earlier(value_.size());
-  counter_sum_->add_up(0, counter_place_, earlier);
+  earlier_.resize(value_.size());
+  counter_sum_->add_up(0, counter_place_, earlier_);
   for (std::size_t i = 0; i < value_.size(); ++i) {
-    const double answer = slope_[i] * earlier[i];
+    const double answer = slope_[i] * earlier_[i];
     told_[i] += answer;
     if (length_ > 0.0) told_rate_[i] += answer / length_;
   }

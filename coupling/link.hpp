@@ -162,7 +162,8 @@ class Link {
   std::vector<double> rate_;
   std::vector<double> slope_;
   std::vector<double> used_;
-  std::vector<double> told_, told_rate_;  // workspace: the value with earlier shares
+  std::vector<double> earlier_, told_,
+      told_rate_;  // workspace: earlier shares, the value with them
   Mismatch mismatch_;
 
   Mapping mapping_;

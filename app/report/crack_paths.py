@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from crack_path import neighbours
+
 MOST_FACETS = 4000
 
 
@@ -18,15 +20,7 @@ class Paths:
     joined: list[tuple[int, int]] = field(default_factory=list)  # a branch's first facet and what it begins at
 
 
-def neighbours(points: np.ndarray) -> list[np.ndarray]:
-    """Facets within 1.6 of the usual distance between facets: on a lattice they also meet at corners."""
-    apart = np.hypot(*(points[:, None, :] - points[None, :, :]).transpose(2, 0, 1))
-    np.fill_diagonal(apart, np.inf)
-    reach = 1.6 * float(np.median(apart.min(axis=1)))
-    return [np.flatnonzero(row <= reach) for row in apart]
-
-
-def tree_of(root: int, links: list[np.ndarray], points: np.ndarray, parent: np.ndarray) -> list[int]:
+def tree_of(root: int, links: list[list[int]], points: np.ndarray, parent: np.ndarray) -> list[int]:
     """The facets that hang together with `root`, nearest first; fills in what each follows."""
     order, queue = [root], [root]
     while queue:
@@ -76,7 +70,10 @@ def crack_paths(points: np.ndarray) -> Paths | None:
     found = Paths(np.zeros(count, dtype=int), np.zeros(count))
     if count == 1:
         return found
-    links = neighbours(points)
+    links: list[list[int]] = [[] for _ in range(count)]
+    for i, j in neighbours(points)[0]:
+        links[i].append(int(j))
+        links[j].append(int(i))
     parent = np.full(count, -2)
     next_branch = 0
     for root in range(count):

@@ -21,7 +21,7 @@ def missing() -> str:
     """What the tests lack; empty: nothing."""
     packages = [name for name, there in (("chromium", BROWSER.exists()), ("chromium-driver", DRIVER.exists()),
                                          ("python3-selenium", webdriver is not None)) if not there]  # fmt: skip
-    return f"not installed: {', '.join(packages)}; tools/install browser installs them" if packages else ""
+    return f"not installed: {', '.join(packages)}; tools/install test installs them" if packages else ""
 
 
 class BrowserTest(unittest.TestCase):
