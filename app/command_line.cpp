@@ -1,11 +1,14 @@
 #include "app/command_line.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <new>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <omp.h>
 
 #include "app/command_pages.hpp"
@@ -18,11 +21,14 @@
 #include "app/run/check.hpp"
 #include "app/run/run.hpp"
 #include "app/run/version.hpp"
+#include "app/simulation/outside_modules.hpp"
 #include "app/study/study.hpp"
 #include "app/writing/explain.hpp"
 #include "app/writing/json_schema.hpp"
+#include "app/writing/new_code.hpp"
 #include "app/writing/new_scene.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/names.hpp"
 
 namespace perifrac {
 
@@ -39,9 +45,14 @@ struct Request {
   WatchRequest watch;
   bool page = false;
   double trial = 4.0;  ///< [s]
-  std::string key, kind, new_scene;
+  std::string key, kind, name, new_scene;
   std::string example, file, shell;
 };
+
+void add_allow_modules(CLI::App& verb) {
+  verb.add_flag_callback("--allow-modules", allow_outside_modules,
+                         "load the libraries that the scene names; their code may do all you may");
+}
 
 void add_scene_options(CLI::App& verb, Request& request) {
   CLI::Option* const scene = verb.add_option("scene", request.run.scene, "scene file (YAML)");
@@ -54,6 +65,7 @@ void add_scene_options(CLI::App& verb, Request& request) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb.add_flag("--json", request.run.json, "machine-readable output");
+  add_allow_modules(verb);
 }
 
 void add_overwrite(CLI::App& verb, Overwrite& overwrite) {
@@ -105,6 +117,7 @@ void add_study_options(CLI::App& verb, StudyRequest& study) {
   verb.add_flag("--fresh", study.fresh, "run everything again");
   verb.add_flag("!--no-report", study.report, "make no picture and no page");
   verb.add_flag("--json", study.json, "machine-readable output");
+  add_allow_modules(verb);
 }
 
 void add_report_options(CLI::App& verb, std::vector<std::string>& folders) {
@@ -123,9 +136,15 @@ void add_watch_options(CLI::App& verb, WatchRequest& watch) {
 
 /// Of verbs that help to write a scene.
 void add_writing_verbs(CLI::App& app, Request& request) {
-  CLI::App& fresh = *app.add_subcommand("new", "write a commented scene to begin with");
-  fresh.add_option("kind", request.kind, "what it is of; a wrong word lists them")->required();
-  fresh.add_option("--output", request.new_scene, "its file; KIND.yaml")->type_name("FILE");
+  CLI::App& fresh =
+      *app.add_subcommand("new", "write a commented scene, a module or a material to begin with");
+  fresh
+      .add_option("kind", request.kind,
+                  "what it is of; a wrong word lists them; module or material: code")
+      ->required();
+  fresh.add_option("name", request.name, "of a module or material of your own, as in my_rock");
+  fresh.add_option("--output", request.new_scene, "its file, KIND.yaml; of code its folder, NAME")
+      ->type_name("PATH");
   CLI::App& explained = *app.add_subcommand("explain", "what is known of a key");
   explained.add_option("key", request.key, "as in pore_flow.porosity, porosity or pore_flow")
       ->required();
@@ -154,6 +173,15 @@ void find_scene(const CLI::App& app, Request& request) {
   }
 }
 
+int write_new(const std::string& kind, const std::string& name, const std::string& output) {
+  const std::vector<std::string> code = code_kinds();
+  if (std::ranges::find(code, kind) != code.end()) return write_new_code(kind, name, output);
+  if (name.empty()) return write_new_scene(kind, output);
+  throw InputError(
+      fmt::format("perifrac new: {} stands beside a scene; expected KIND alone, or {} NAME",
+                  in_quotes(name), fmt::join(code, " NAME or ")));
+}
+
 int print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   return 0;
@@ -171,7 +199,7 @@ int dispatch(const CLI::App& app, const Request& request) {
   if (app.got_subcommand("study")) return run_study(request.study);
   if (app.got_subcommand("report")) return make_report(request.folders, false);
   if (app.got_subcommand("watch")) return watch(request.watch);
-  if (app.got_subcommand("new")) return write_new_scene(request.kind, request.new_scene);
+  if (app.got_subcommand("new")) return write_new(request.kind, request.name, request.new_scene);
   if (app.got_subcommand("explain")) return explain(request.key);
   if (app.got_subcommand("schema")) return print_json_schema();
   if (app.got_subcommand("info")) return print_info(request.file, request.run.json);

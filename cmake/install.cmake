@@ -53,6 +53,7 @@ endforeach()
 set(share ${CMAKE_INSTALL_DATADIR}/perifrac)
 install(DIRECTORY configs DESTINATION ${share} COMPONENT program)
 install(DIRECTORY app/writing/templates DESTINATION ${share}/app/writing COMPONENT program)
+install(DIRECTORY docs/example_module docs/example_material DESTINATION ${share}/docs COMPONENT program)
 install(DIRECTORY app/report DESTINATION ${share}/app COMPONENT program
         PATTERN "*.?pp" EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN README.md EXCLUDE)
 install(DIRECTORY app/study/drawing DESTINATION ${share}/app/study COMPONENT program
@@ -89,16 +90,20 @@ install(TARGETS perifrac_options perifrac_core perifrac_modules perifrac_couplin
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/perifrac)
 install(EXPORT perifracTargets NAMESPACE perifrac:: DESTINATION ${config_folder}
         COMPONENT development)
-foreach(folder core modules coupling app)
+foreach(folder core modules coupling app ${CMAKE_BINARY_DIR}/core)
   install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/perifrac
-          COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+          COMPONENT development FILES_MATCHING PATTERN "*.hpp" PATTERN CMakeFiles EXCLUDE)
 endforeach()
+install(FILES tests/contract/module_contract.hpp
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/perifrac/tests/contract COMPONENT development)
 include(CMakePackageConfigHelpers)
 configure_package_config_file(cmake/perifracConfig.cmake.in ${CMAKE_BINARY_DIR}/perifracConfig.cmake
                               INSTALL_DESTINATION ${config_folder})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/perifracConfigVersion.cmake
                                  COMPATIBILITY ExactVersion)
-install(FILES ${CMAKE_BINARY_DIR}/perifracConfig.cmake ${CMAKE_BINARY_DIR}/perifracConfigVersion.cmake
+configure_file(cmake/perifracModule.cmake.in ${CMAKE_BINARY_DIR}/perifracModule.cmake @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/perifracConfig.cmake ${CMAKE_BINARY_DIR}/perifracModule.cmake
+              ${CMAKE_BINARY_DIR}/perifracConfigVersion.cmake
         DESTINATION ${config_folder} COMPONENT development)
 
 # --- Libraries of others, for the folder that runs from anywhere -------------------------------------

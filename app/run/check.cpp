@@ -17,6 +17,7 @@
 #include "app/run/scene_echo.hpp"
 #include "app/run/scene_keys.hpp"
 #include "app/run/summary.hpp"
+#include "app/simulation/outside_modules.hpp"
 #include "app/simulation/simulation.hpp"
 #include "app/warnings/resolution_warnings.hpp"
 #include "app/warnings/scene_regime.hpp"
@@ -254,6 +255,7 @@ nlohmann::json built_if_it_fits(const CheckRequest& request, const Section& scen
 }  // namespace
 
 int check_scene(const CheckRequest& request) {
+  load_outside_modules(request.scene, request.overrides);
   const Section scene = read_scene(request.scene, request.overrides, scene_catalogue());
   nlohmann::json result = built_if_it_fits(request, scene);
   result["scene"] = request.scene;

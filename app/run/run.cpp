@@ -20,6 +20,7 @@
 #include "app/run/scene_keys.hpp"
 #include "app/run/summary.hpp"
 #include "app/run/version.hpp"
+#include "app/simulation/outside_modules.hpp"
 #include "app/simulation/simulation.hpp"
 #include "app/warnings/energy_warnings.hpp"
 #include "app/warnings/resolution_warnings.hpp"
@@ -46,6 +47,7 @@ constexpr std::int64_t windows_between_restart_points = 50, windows_before_an_ou
 
 Section read(const RunRequest& request) {
   const ProfilePart profiled("scene");
+  load_outside_modules(request.scene, request.overrides);
   return read_scene(request.scene, request.overrides, scene_catalogue());
 }
 

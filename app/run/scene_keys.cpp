@@ -1,6 +1,9 @@
 #include "app/run/scene_keys.hpp"
 
+#include <utility>
+
 #include "app/references/reference_types.hpp"
+#include "app/simulation/outside_modules.hpp"
 #include "app/simulation/register_modules.hpp"
 #include "core/body/crack_seeds.hpp"
 #include "coupling/coupling_keys.hpp"
@@ -19,6 +22,10 @@ KeyTable top_level_keys() {
        .range = "[2, 3]",
        .required = true,
        .meaning = "2: plane strain, totals per metre of thickness. 3."},
+      {.path = "modules",
+       .type = KeyType::tree,
+       .meaning = "Libraries with modules and materials from outside the program, their paths seen "
+                  "from the scene's folder. Loaded with --allow-modules alone."},
       {.path = "gravity",
        .type = KeyType::vector,
        .unit = "m/s^2",
@@ -114,7 +121,10 @@ constexpr const char* interface_meaning =
 }  // namespace
 
 const Catalogue& scene_catalogue() {
-  static const Catalogue catalogue = [] {
+  // Modules from outside come while a scene is read.
+  static Catalogue catalogue;
+  static std::size_t types = 0;
+  if (catalogue.empty() || types != added_types()) {
     Catalogue all = {{"", "", top_level_keys()},
                      {"body", "", body_keys(), body_meaning, true},
                      {"time", "", time_keys()},
@@ -127,8 +137,9 @@ const Catalogue& scene_catalogue() {
     for (const ModuleType& type : module_types()) {
       all.push_back({type.section, type.name, type.keys, type.meaning});
     }
-    return all;
-  }();
+    catalogue = std::move(all);
+    types = added_types();
+  }
   return catalogue;
 }
 

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
+#include <fmt/format.h>
+
+#include "app/simulation/outside_modules.hpp"
 #include "modules/crack_fluid/network/network_type.hpp"
 #include "modules/crack_fluid/uniform_pressure/uniform_pressure_type.hpp"
 #include "modules/fluid/fluid_type.hpp"
@@ -14,8 +18,10 @@
 
 namespace perifrac {
 
-const std::vector<ModuleType>& module_types() {
-  static const std::vector<ModuleType> types = {
+namespace {
+
+std::vector<ModuleType>& all_types() {
+  static std::vector<ModuleType> types = {
       quasi_static_solid_type(), dynamic_solid_type(),
       rigid_solid_type(),        darcy_type(),
       finite_volume_type(),      fluid_type<semi_lagrangian_method>(),
@@ -25,10 +31,38 @@ const std::vector<ModuleType>& module_types() {
   return types;
 }
 
-const std::vector<std::string>& physics_order() {
-  static const std::vector<std::string> order = {"fluid", "crack_fluid", "pore_flow", "solid"};
+std::vector<std::string>& whole_order() {
+  static std::vector<std::string> order = {"fluid", "crack_fluid", "pore_flow", "solid"};
   return order;
 }
+
+std::size_t added = 0;
+
+}  // namespace
+
+const std::vector<ModuleType>& module_types() { return all_types(); }
+
+const std::vector<std::string>& physics_order() { return whole_order(); }
+
+void add_module_type(ModuleType type) {
+  if (std::ranges::count(whole_order(), type.section) == 0) whole_order().push_back(type.section);
+  all_types().push_back(std::move(type));
+  ++added;
+}
+
+void add_material(MaterialType type) {
+  for (ModuleType& solid : all_types()) {
+    const auto word = std::ranges::find(solid.keys, "material.type", &Key::path);
+    if (solid.section != "solid" || word == solid.keys.end()) continue;
+    word->words.push_back(type.name);
+    word->meaning += fmt::format(" {}: {}.", type.name, type.meaning);
+    for (Key& key : keys_of(type)) solid.keys.push_back(std::move(key));
+  }
+  add_material_type(std::move(type));
+  ++added;
+}
+
+std::size_t added_types() { return added; }
 
 std::vector<std::string> physics_of(const Section& scene) {
   const std::vector<std::string> written = scene.names("");

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/simulation/outside_modules.hpp"
 #include "app/study/study_keys.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/names.hpp"
@@ -166,11 +167,14 @@ const StudyAxis& Study::axis(const std::string& name) const {
 
 Study read_study(const std::string& file) {
   const Section section = check_tree(parse_yaml_file(file), file, study_catalogue());
+  const std::string scene =
+      std::filesystem::path(section.file("scene")).lexically_normal().string();
+  if (std::filesystem::exists(scene)) load_outside_modules(scene);
   const SceneKeys keys;
   Study study{.file = file,
               .title = section.has("title") ? section.text("title")
                                             : std::filesystem::path(file).stem().string(),
-              .scene = std::filesystem::path(section.file("scene")).lexically_normal().string(),
+              .scene = scene,
               .common = section.has("set") ? keys.read(section.tree("set")) : Overrides{},
               .axes = {},
               .skipped = {},

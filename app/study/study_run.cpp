@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "app/installation/data_folder.hpp"
+#include "app/simulation/outside_modules.hpp"
 #include "core/base/errors.hpp"
 #include "core/io/log.hpp"
 #include "core/io/output_folder.hpp"
@@ -104,6 +105,7 @@ class Queue {
     std::vector<std::string> words = options_.launcher;
     words.insert(words.end(), {program_, "run", variant.scene, "--no-report", "--output",
                                folder(i).string(), "--threads", std::to_string(variant.threads)});
+    if (outside_modules_are_allowed()) words.push_back("--allow-modules");
     for (const std::string& assignment : assignments(variant)) {
       words.insert(words.end(), {"--set", assignment});
     }

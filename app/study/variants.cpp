@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/run/scene_keys.hpp"
+#include "app/simulation/outside_modules.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/names.hpp"
 #include "core/config/override.hpp"
@@ -50,6 +51,7 @@ void add(Variant& variant, const Overrides& overrides, const std::filesystem::pa
 /// What the keys of scenes say against it.
 std::string problem_of(const Variant& variant) {
   try {
+    load_outside_modules(variant.scene);
     YamlNode written = parse_yaml_file(variant.scene);
     for (const Override& override : variant.overrides)
       set_key(written, override.key, override.value);

@@ -1,17 +1,14 @@
 #include "app/writing/new_scene.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "app/installation/data_folder.hpp"
+#include "app/writing/new_file.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/names.hpp"
 #include "core/io/input_file.hpp"
@@ -21,16 +18,6 @@ namespace perifrac {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One that may not be there yet.
-void write_new_file(const fs::path& path, const std::string& text) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wxe"),
-                                                             &std::fclose);
-  if (!file) throw OutputError(path.string(), std::strerror(errno));
-  if (std::fputs(text.c_str(), file.get()) < 0 || std::fflush(file.get()) != 0) {
-    throw OutputError(path.string(), std::strerror(errno));
-  }
-}
 
 fs::path templates() { return data_folder() / "app/writing/templates"; }
 

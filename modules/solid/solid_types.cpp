@@ -71,6 +71,21 @@ struct CrackedParts {
   std::optional<InitialStress<D>> stress;
 };
 
+/// A plate without mass follows from a linear equilibrium.
+template <int D>
+void check_plates_have_mass(const Section& section, const Body<D>& body,
+                            const SolidBoundary<D>& boundary, const std::string& beside) {
+  const auto mirror = boundary.mirror_condition(*body.family(boundary.mirrored()));
+  for (const auto& plate : boundary.plates(mirror)) {
+    const auto face = std::ranges::find(body.faces(), plate.face, &Face::name);
+    if (!body.layer(static_cast<int>(face - body.faces().begin())).empty()) continue;
+    section.fail(fmt::format("boundary.{}.type", plate.face),
+                 "a plate without mass beside " + beside,
+                 fmt::format("body.boundary.{}: layer{}", plate.face,
+                             is_corotational(section) ? ", or kinematics: small" : ""));
+  }
+}
+
 /// What does not turn with the body.
 template <int D>
 void check_large_rotations(const Section& section, const Body<D>& body,
@@ -87,14 +102,10 @@ void check_large_rotations(const Section& section, const Body<D>& body,
   for (const char* stress : {"confining_stress", "total_stress"}) {
     if (section.has(stress)) refuse(stress, "a stress of the body at rest", "loads on the faces");
   }
-  const auto family = body.family(boundary.mirrored());
-  if (family->curved) refuse("boundary", "a mirrored sphere", "a free sphere");
-  for (const auto& plate : boundary.plates(boundary.mirror_condition(*family))) {
-    const auto face = std::ranges::find(body.faces(), plate.face, &Face::name);
-    if (!body.layer(static_cast<int>(face - body.faces().begin())).empty()) continue;
-    refuse(fmt::format("boundary.{}.type", plate.face), "a plate without mass",
-           fmt::format("body.boundary.{}: layer", plate.face));
+  if (body.family(boundary.mirrored())->curved) {
+    refuse("boundary", "a mirrored sphere", "a free sphere");
   }
+  check_plates_have_mass(section, body, boundary, "kinematics: corotational");
 }
 
 template <int D>
@@ -137,9 +148,19 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
                        "solid.type: quasi_static, damage.type: critical_stretch or dimension: 2");
 }
 
+/// Equilibrium is found with one stiffness: a law with another at every strain is not solved.
+void check_is_linear(const Section& section) {
+  if (is_linear_material(section)) return;
+  section.fail("material.type",
+               fmt::format("'{}', which is not linear, in a solid in equilibrium",
+                           section.word("material.type")),
+               "type: dynamic (damped, it comes to rest), or a linear material");
+}
+
 template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
+  check_is_linear(section);
   if (has_cracks(section)) return make_fracturing(section, body);
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
@@ -179,6 +200,10 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
                                             std::shared_ptr<const Body<D>> body) {
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   check_large_rotations(section, *body, boundary);
+  if (!is_linear_material(section)) {
+    check_plates_have_mass(section, *body, boundary,
+                           "material.type: " + section.word("material.type"));
+  }
   const auto make = [&](std::shared_ptr<ElasticOperator<D>> elastic,
                         std::unique_ptr<CriticalStretch<D>> breaking) {
     return std::make_unique<DynamicSolid<D>>(

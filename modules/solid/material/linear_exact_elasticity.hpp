@@ -111,7 +111,14 @@ class LinearExactElasticity : public BreakableElasticity<D> {
 
   double drained_bulk_modulus(Index i) const override { return law(i).drained_bulk_modulus(); }
 
-  const IsotropicElasticity<D>& law(Index i) const override { return law_at(operator_.law(), i); }
+  const IsotropicElasticity<D>& law(Index i) const override {
+    const auto& own = law_at(operator_.law(), i);
+    if constexpr (requires { own.isotropic(); }) {
+      return own.isotropic();
+    } else {
+      return own;
+    }
+  }
 
   void append_unknowns(Index i, std::vector<Index>& unknowns) const override {
     operator_.append_unknowns(i, unknowns);

@@ -11,11 +11,18 @@
 #include "modules/solid/material/isotropic_elasticity.hpp"
 #include "modules/solid/material/linear_exact_elasticity.hpp"
 #include "modules/solid/material/lps_elasticity.hpp"
+#include "modules/solid/material/material_type.hpp"
 #include "modules/solid/material/stress_at_rest.hpp"
 
 namespace perifrac {
 
 KeyTable material_keys() {
+  std::vector<std::string> words;
+  std::string meaning;
+  for (const MaterialType& type : material_types()) {
+    words.push_back(type.name);
+    meaning += (meaning.empty() ? "" : "; ") + type.name + ": " + type.meaning;
+  }
   KeyTable keys = {
       {.path = "kinematics",
        .type = KeyType::word,
@@ -26,16 +33,17 @@ KeyTable material_keys() {
       {.path = "material.type",
        .type = KeyType::word,
        .fallback = "linear_exact",
-       .words = {"linear_exact", "lps", "lps_printed"},
-       .meaning = "linear_exact: isotropic, exact for linear fields on any points; lps: the linear "
-                  "peridynamic solid, whose moduli on a lattice are off (docs/materials.md); "
-                  "lps_printed: the same with the paper's misprints, 2D, for comparison only."}};
+       .words = words,
+       .meaning = meaning + "."}};
   for (Key& key : stress_at_rest_keys()) keys.push_back(std::move(key));
   for (Key key : elastic_constant_keys()) {
     keys.push_back(key);
     key.path = "regions.*." + key.path;
     key.meaning = "The same in a region of the body, where two constants take the others' place.";
     keys.push_back(key);
+  }
+  for (const MaterialType& type : material_types()) {
+    for (Key& key : keys_of(type)) keys.push_back(std::move(key));
   }
   for (Key& key : scatter_keys("material.scatter", "the stiffness, Poisson's ratio apart,")) {
     keys.push_back(std::move(key));
@@ -95,7 +103,60 @@ std::unique_ptr<BreakableElasticity<D>> make_linear_exact(std::shared_ptr<const 
   return law.laws.size() == 1 ? make(law.laws.front()) : make(std::move(law));
 }
 
+template <int D>
+std::unique_ptr<ElasticOperator<D>> make_linear_exact_type(const MaterialParts<D>& parts) {
+  return make_linear_exact<D>(parts.family, parts.mirror, parts.rock, parts.initial_stress,
+                              is_corotational(parts.section));
+}
+
+template <int D, bool printed>
+std::unique_ptr<ElasticOperator<D>> make_lps_type(const MaterialParts<D>& parts) {
+  LawByRegion<IsotropicElasticity<D>> law = parts.rock;
+  if (printed) misprint(parts.section, law);
+  return std::make_unique<LpsElasticity<D>>(parts.family, parts.mirror, std::move(law),
+                                            parts.initial_stress, printed ? -1.0 : 1.0);
+}
+
+std::vector<MaterialType>& all_materials() {
+  static std::vector<MaterialType> types = {
+      {.name = "linear_exact",
+       .meaning = "isotropic, exact for linear fields on any points",
+       .make_2d = make_linear_exact_type<2>,
+       .make_3d = make_linear_exact_type<3>},
+      {.name = "lps",
+       .meaning = "the linear peridynamic solid, whose moduli on a lattice are off "
+                  "(docs/materials.md)",
+       .make_2d = make_lps_type<2, false>,
+       .make_3d = make_lps_type<3, false>},
+      {.name = "lps_printed",
+       .meaning = "the same with the paper's misprints, 2D, for comparison only",
+       .make_2d = make_lps_type<2, true>,
+       .make_3d = make_lps_type<3, true>}};
+  return types;
+}
+
+const MaterialType& type_named(const std::string& name) {
+  return *std::ranges::find(material_types(), name, &MaterialType::name);
+}
+
 }  // namespace
+
+const std::vector<MaterialType>& material_types() { return all_materials(); }
+
+void add_material_type(MaterialType type) { all_materials().push_back(std::move(type)); }
+
+KeyTable keys_of(const MaterialType& type) {
+  KeyTable keys = type.keys;
+  for (Key& key : keys) {
+    key.path = "material." + key.path;
+    if (key.when.empty()) key.when = "type=" + type.name;
+  }
+  return keys;
+}
+
+bool is_linear_material(const Section& section) {
+  return type_named(section.word("material.type")).is_linear;
+}
 
 bool is_corotational(const Section& section) {
   return section.word("kinematics") == "corotational";
@@ -107,16 +168,14 @@ std::unique_ptr<ElasticOperator<D>> read_material(const Section& section, const 
   const auto family = body.family(boundary.mirrored());
   const auto mirror = boundary.mirror_condition(*family);
   const auto initial_stress = read_uniform_stress<D>(section);
-  LawByRegion<IsotropicElasticity<D>> law = read_laws<D>(section, body);
-  const std::string type = section.word("material.type");
-  if (type.starts_with("lps")) {
-    const bool printed = type == "lps_printed";
-    if (printed) misprint(section, law);
-    return std::make_unique<LpsElasticity<D>>(family, mirror, std::move(law), initial_stress,
-                                              printed ? -1.0 : 1.0);
+  const MaterialParts<D> parts{section, family, mirror, read_laws<D>(section, body),
+                               initial_stress};
+  const MaterialType& type = type_named(section.word("material.type"));
+  if constexpr (D == 2) {
+    return type.make_2d(parts);
+  } else {
+    return type.make_3d(parts);
   }
-  return make_linear_exact<D>(family, mirror, std::move(law), initial_stress,
-                              is_corotational(section));
 }
 
 template <int D>

@@ -29,6 +29,9 @@ std::unique_ptr<BreakableElasticity<D>> read_breakable_material(
     const Section& section, const Body<D>& body, std::shared_ptr<const Family<D>> family,
     const MirrorCondition<D, D>& mirror);
 
+/// Its forces follow displacements linearly.
+bool is_linear_material(const Section& section);
+
 /// Rotations may be large.
 bool is_corotational(const Section& section);
 

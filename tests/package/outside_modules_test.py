@@ -1,0 +1,279 @@
+#!/usr/bin/python3
+"""Modules and materials outside the tree: what `perifrac new module` writes is built against an installed program,
+runs, and each way in which a library does not fit is one line and exit code 2.
+
+Usage: outside_modules_test.py CMAKE BUILD [unittest's arguments]
+"""
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+CMAKE = sys.argv.pop(1)
+BUILD = Path(sys.argv.pop(1)).resolve()
+
+THROWING = """#include <stdexcept>
+#include "core/module/outside_modules.hpp"
+extern "C" void perifrac_modules(std::vector<perifrac::ModuleType>&) { throw std::runtime_error("no licence\\nfound"); }
+"""
+THROWING_EARLY = """#include <stdexcept>
+#include "core/module/outside_modules.hpp"
+namespace { const int value = [] { if (true) throw std::runtime_error("at the start"); return 1; }(); }
+"""
+LACKING = """#include "core/module/outside_modules.hpp"
+namespace perifrac { ModuleType not_there_type(); }
+PERIFRAC_MODULES(perifrac::not_there_type())
+"""
+EMPTY = """#include "core/module/outside_modules.hpp"
+"""
+# Energy per volume 1/2 F : C : F + 1/4 c |E|^4; WRONG is 1, or what it is multiplied with in the stress alone.
+NONLINEAR = """#include "modules/solid/material/law_material.hpp"
+#include "modules/solid/material/outside_materials.hpp"
+namespace perifrac {
+template <int D>
+struct Stiffening {
+  static constexpr int components = D;
+  static constexpr bool is_linear = LINEAR;
+  IsotropicElasticity<D> rock;
+  using Gradient = std::array<double, D * D>;
+  static Stiffening read(const Section&, const IsotropicElasticity<D>& rock) { return {rock}; }
+  static Gradient strain(const Gradient& g) {
+    Gradient e;
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) e[a * D + b] = 0.5 * (g[a * D + b] + g[b * D + a]);
+    return e;
+  }
+  double hard() const { return 1e4 * rock.shear_modulus; }
+  Gradient stress(const Gradient& g) const {
+    const Gradient e = strain(g);
+    Gradient s = rock.stress(g);
+    for (int k = 0; k < D * D; ++k) s[k] += WRONG * hard() * squared_norm(e) * e[k];
+    return s;
+  }
+  double energy(const Gradient& g) const {
+    const double square = squared_norm(strain(g));
+    return 0.5 * dot(g, rock.stress(g)) + 0.25 * hard() * square * square;
+  }
+  double stabilisation() const { return rock.stabilisation(); }
+  double drained_bulk_modulus() const { return rock.drained_bulk_modulus(); }
+  double stiffening() const { return 2.0; }
+  const IsotropicElasticity<D>& isotropic() const { return rock; }
+};
+}
+PERIFRAC_MATERIALS(perifrac::law_material<perifrac::Stiffening>("NAME", "stiffens"))
+"""
+PLATE = """modules: [LIBRARY]
+dimension: 2
+body: {shape: box, size: [10 m, 10 m], spacing: 1 m}
+solid:
+  type: TYPE
+  density: 2000 kg/m^3
+  material: {type: NAME, lame_lambda: 4 GPa, shear_modulus: 3 GPa}
+  boundary:
+    left: {type: roller}
+    bottom: {type: roller}
+    top: {type: roller}
+    right: {type: traction, traction: [20 MPa, 0 Pa]}
+time: {end: 0.05 s}
+"""
+
+
+def nonlinear(name, wrong="1.0", linear="false"):
+    return NONLINEAR.replace("NAME", name).replace("WRONG", wrong).replace("LINEAR", linear)
+
+
+def run(*words, **more):
+    return subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False, **more)
+
+
+class OutsideModules(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        cls.prefix = cls.folder / "usr"
+        for component in ("set", "program", "development"):
+            subprocess.run([CMAKE, "--install", BUILD, "--prefix", cls.prefix, "--component", component],
+                           check=True, stdout=subprocess.DEVNULL)  # fmt: skip
+        cls.program = cls.prefix / "bin/perifrac"
+        cls.rock = cls.new("module", "my_rock")
+
+    @classmethod
+    def new(cls, kind, name):
+        done = run(cls.program, "new", kind, name, cwd=cls.folder)
+        assert done.returncode == 0, done.stderr
+        cls.build(cls.folder / name)
+        return cls.folder / name
+
+    @classmethod
+    def build(cls, project, *targets):
+        # Not with the launcher of compilers that the environment may name: as somebody else's machine has it.
+        made = run(CMAKE, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={cls.prefix}", "-DCMAKE_BUILD_TYPE=Release")  # fmt: skip
+        assert made.returncode == 0, made.stderr
+        made = run(CMAKE, "--build", project / "build", *targets)
+        assert made.returncode == 0, made.stdout[-4000:]
+
+    def library(self, name, source):
+        """A library of that one source."""
+        project = self.folder / name
+        project.mkdir()
+        (project / "library.cpp").write_text(source)
+        (project / "CMakeLists.txt").write_text(
+            f"""cmake_minimum_required(VERSION 3.25)
+project({name} LANGUAGES CXX)
+find_package(perifrac REQUIRED COMPONENTS modules)
+perifrac_add_module({name} library.cpp)
+"""
+        )
+        self.build(project)
+        return project / f"build/lib{name}.so"
+
+    def run_scene(self, scene, *options, verb="run"):
+        self.output = self.folder / f"out_{self.id().rsplit('.', 1)[-1]}"
+        words = ["--output", self.output, "--no-report"] if verb == "run" else ["--trial", 0]
+        return run(self.program, verb, scene, *words, "--threads", 1, *options)
+
+    def refused(self, text, *expected, options=("--allow-modules",)):
+        """One line that places what it says at the scene's list; nothing written."""
+        scene = self.rock / "wrong.yaml"
+        written = (self.rock / "scene.yaml").read_text().splitlines()
+        scene.write_text("\n".join([text] + written[1:]))
+        for verb in ("run", "check"):
+            done = self.run_scene(scene, *options, verb=verb)
+            self.assertEqual((done.returncode, done.stderr.count("\n"), done.stdout), (2, 1, ""), done.stderr)
+            self.assertRegex(done.stderr, re.escape(str(scene)) + r":\d+:\d+: modules")
+            for words in expected:
+                self.assertIn(words, done.stderr)
+            self.assertFalse(self.output.exists())
+
+    def test_runs_and_settles(self):
+        """Drained at the end, every point is a spring under the overburden: dilatation -q / stiffness."""
+        done = self.run_scene(self.rock / "scene.yaml", "--allow-modules", "--set", "time.end=1e6 s",
+                              "--set", "coupling.window.largest=2e4 s")  # fmt: skip
+        self.assertEqual(done.returncode, 0, done.stderr)
+        stored = [float(value) for key, value in self.history().items() if key.startswith("energy_stored")]
+        q, stiffness, area = 1e6, 1.2e9, 160.0
+        self.assertAlmostEqual(stored[0] / (0.5 * q * q / stiffness * area), 1.0, delta=1e-6)
+
+    def test_is_the_module_in_the_tree(self):
+        """The contract suite that the folder brings, against the installed libraries."""
+        self.build(self.rock, "--target", "my_rock_test")
+        done = run(self.rock / "build/my_rock_test", "--gtest_brief=1")
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:])
+        self.assertRegex(done.stdout, r"\d\d tests")
+
+    def test_needs_the_users_word(self):
+        self.refused("modules: [build/libmy_rock.so]", "expected --allow-modules", options=())
+
+    def test_missing_file(self):
+        self.refused("modules: [./libnone.so]", "modules[0]: './libnone.so' is not there")
+
+    def test_no_library(self):
+        self.refused("modules: [my_rock.cpp]", "is no library of modules")
+        self.refused("modules: [.]", "is no library of modules")
+
+    def test_other_build(self):
+        library = self.rock / "build/libmy_rock.so"
+        stamp = b"built-as:perifrac "
+        for before, after in ((stamp + b"0.1.0", stamp + b"9.9.9"), (b", compiler ", b", compiled ")):
+            other = self.rock / "build/libother.so"
+            other.write_bytes(library.read_bytes().replace(before, after))
+            self.refused("modules: [build/libother.so]", "was built as 'perifrac", "build it anew")
+
+    def test_duplicate_name(self):
+        (self.rock / "build/libagain.so").write_bytes((self.rock / "build/libmy_rock.so").read_bytes())
+        self.refused("modules: [build/libmy_rock.so, build/libagain.so]", "modules[1]", "there is one already")
+
+    def test_exceptions(self):
+        self.refused(f"modules: [{self.library('throwing', THROWING)}]", "threw an exception", "no licence found")
+        self.refused(f"modules: [{self.library('early', THROWING_EARLY)}]", "threw an exception", "at the start")
+
+    def test_lacking(self):
+        self.refused(f"modules: [{self.library('lacking', LACKING)}]", "cannot be loaded", "not_there_type")
+        self.refused(f"modules: [{self.library('empty', EMPTY)}]", "shows nothing")
+
+    def test_no_list(self):
+        for text in ("modules: build/libmy_rock.so", "modules: []", "modules: [[a]]"):
+            self.refused(text, "text")
+
+    def test_wrong_keys_of_it_are_told(self):
+        scene = self.rock / "wrong_key.yaml"
+        scene.write_text((self.rock / "scene.yaml").read_text().replace("stiffness:", "stifness:"))
+        done = self.run_scene(scene, "--allow-modules")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("did you mean 'stiffness'", done.stderr)
+
+    def history(self):
+        with open(self.output / "history.csv", encoding="utf-8") as file:
+            return list(csv.DictReader(file))[-1]
+
+    def test_anisotropic_material(self):
+        """Stretched by sigma / (lambda + 2 mu + k), as the scene's first lines say."""
+        law = self.new("material", "my_law")
+        done = self.run_scene(law / "scene.yaml", "--allow-modules")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        stretch = [float(value) for key, value in self.history().items() if "dilatation" in key][0]
+        self.assertAlmostEqual(stretch / 1e-4, 1.0, delta=1e-9)
+        self.build(law, "--target", "my_law_test")
+        done = run(law / "build/my_law_test", "--gtest_brief=1")
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:])
+
+    def plate(self, name, library, kind):
+        scene = self.folder / f"{name}_{kind}.yaml"
+        words = {"LIBRARY": str(library), "TYPE": kind, "NAME": name}
+        text = PLATE
+        for word, value in words.items():
+            text = text.replace(word, value)
+        scene.write_text(text)
+        return scene
+
+    def test_nonlinear_material(self):
+        """With inertia its energy is kept; in equilibrium it is refused, not solved as if it were linear."""
+        library = self.library("stiffening", nonlinear("stiffening"))
+        done = self.run_scene(self.plate("stiffening", library, "dynamic"), "--allow-modules")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads((self.output / "summary.json").read_text())
+        self.assertLess(summary["ledger"]["energy_error"], 1e-3)
+        done = self.run_scene(self.plate("stiffening", library, "quasi_static"), "--allow-modules")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        self.assertIn("which is not linear, in a solid in equilibrium", done.stderr)
+
+    def test_laws_that_are_none(self):
+        for name, options, expected in (
+            ("mistaken", {"wrong": "1.5"}, "is not the derivative of its energy"),
+            ("pretending", {"linear": "true"}, "says that it is linear, and is not"),
+        ):
+            library = self.library(name, nonlinear(name, **options))
+            done = self.run_scene(self.plate(name, library, "dynamic"), "--allow-modules")
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn(expected, done.stderr)
+
+    def test_studies_load_them(self):
+        study = self.rock / "study.yaml"
+        study.write_text("scene: scene.yaml\naxes:\n  - {key: solid.stiffness, values: [1 GPa, 2 GPa]}\nrepetitions: 1\n")
+        for options, code in (((), 2), (("--allow-modules",), 0)):
+            done = run(self.program, "study", study, "--no-report", "--output", self.folder / "study", *options)
+            self.assertEqual(done.returncode, code, done.stderr)
+
+    def test_new_says_what_it_cannot_write(self):
+        for words, expected in (
+            (("module",), "the name is missing"),
+            (("module", "My-Rock"), "is no name"),
+            (("module", "my_rock"), "is there already"),
+            (("kgd", "my_rock"), "stands beside a scene"),
+        ):
+            done = run(self.program, "new", *words, cwd=self.folder)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn(expected, done.stderr)
+
+
+if __name__ == "__main__":
+    for launcher in ("CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_C_COMPILER_LAUNCHER"):
+        os.environ.pop(launcher, None)
+    unittest.main()

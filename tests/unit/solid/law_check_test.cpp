@@ -1,0 +1,60 @@
+// What law_problem() says of laws, of the built-in one and of ones that are wrong in one way each.
+#include "modules/solid/material/law_check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "modules/solid/material/isotropic_elasticity.hpp"
+#include "modules/solid/material/tangent_law.hpp"
+
+namespace perifrac {
+namespace {
+
+using testing::HasSubstr;
+
+template <int D>
+constexpr IsotropicElasticity<D> rock{4e9, 3e9};
+
+/// Isotropic, with one thing changed.
+template <int D>
+struct Changed {
+  static constexpr int components = D;
+  IsotropicElasticity<D> isotropic_rock = rock<D>;
+  double coupling = 0.0;  ///< of xx by yy, and not of yy by xx
+  double spin = 0.0;      ///< stiffness against rotation
+  double softening = 0.0;
+
+  std::array<double, D * D> stress(const std::array<double, D * D>& g) const {
+    std::array<double, D* D> s = isotropic_rock.stress(g);
+    s[0] += coupling * g[D + 1] - softening * g[0];
+    s[1] += spin * (g[1] - g[D]);
+    s[D] -= spin * (g[1] - g[D]);
+    return s;
+  }
+  double stabilisation() const { return isotropic_rock.stabilisation(); }
+  double drained_bulk_modulus() const { return isotropic_rock.drained_bulk_modulus(); }
+  const IsotropicElasticity<D>& isotropic() const { return isotropic_rock; }
+};
+
+template <int D>
+void hold() {
+  for (const double size : {1e-6, 1e-3, 1.0}) EXPECT_EQ(law_problem<D>(rock<D>, size), "");
+  EXPECT_EQ(law_problem<D>(Changed<D>{}), "");
+  EXPECT_EQ(law_problem<D>(TangentLaw<D>::of(Changed<D>{})), "");
+  EXPECT_THAT(law_problem<D>(Changed<D>{.coupling = 1e8}), HasSubstr("not the derivative"));
+  EXPECT_THAT(law_problem<D>(Changed<D>{.spin = 1e8}), HasSubstr("rotation alone"));
+  EXPECT_THAT(law_problem<D>(Changed<D>{.softening = 1e11}), HasSubstr("does not resist"));
+}
+
+TEST(LawCheck, TellsLawsFromWhatAreNone2d) { hold<2>(); }
+TEST(LawCheck, TellsLawsFromWhatAreNone3d) { hold<3>(); }
+
+TEST(LawCheck, ATangentIsTheLawAtRest) {
+  const auto tangent = TangentLaw<3>::of(Changed<3>{});
+  const std::array<double, 9> gradient{1e-3, 2e-3, 0.0, 5e-4, -1e-3, 3e-3, 1e-4, 0.0, 2e-3};
+  const auto expected = rock<3>.stress(gradient), found = tangent.stress(gradient);
+  for (int k = 0; k < 9; ++k) EXPECT_NEAR(found[k], expected[k], 1e-8 * 4e7);
+}
+
+}  // namespace
+}  // namespace perifrac
