@@ -62,7 +62,9 @@ class FracturingSolid final : public PhysicsModule {
   void initialize(double t) override;
   void connect(PortId in) override { ports_.connect(in); }
   double stable_time_step() const override;
+  void prepare(const TimeWindow& window) override { growth_.begin(window); }
   double advance(const TimeWindow& window) override;
+  bool wants_another_pass() const override { return !tips_are_found_; }
   double conclude(const TimeWindow& window) override;
   void visit_state(StateVisitor& visitor) override;
   std::string path() const override { return cracked_->path(); }
@@ -89,6 +91,7 @@ class FracturingSolid final : public PhysicsModule {
   CrackedEquilibrium<D> equilibrium_;
   CrackedWork<D> work_;
   CrackGrowth<D> growth_;
+  bool tips_are_found_ = true;
   PortTable ports_;
 };
 

@@ -75,7 +75,6 @@ CrackFacet<2> CrackTips::next_facet(const CrackTip& tip, double turn) const {
   return {tip.place, tip.place + body_.spacing() * ahead};
 }
 
-/// Per length of it [J/m^2].
 double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
   return fracture_energy_.at(middle<2>(facet));
 }
@@ -173,7 +172,7 @@ double CrackTips::beyond_mean(const Tip& tip, const CrackState<2>& state) const 
   if (state.leak_off.empty() || tip.took == 0.0) return 1.0;
   const double took = std::min(tip.took, state.t - tip.since);
   double volume = 0.0, lost = 0.0;
-  for (const Index f : crack_of(tip.at)) {
+  for (const Index f : crack_of(tip.at.facet)) {
     const double length = cracked_.jumps()[f].area;
     volume += length * std::max(0.0, state.opening[f]);
     for (const Tip& other : tips_) {
@@ -192,7 +191,7 @@ void CrackTips::ask_even_loads(Tip& tip) const {
   if (!energy_release_.is_straight(tip.at, bent)) return;
   const std::vector<Index> named = energy_release_.looks_at(tip.at);
   std::vector<double> unknowns(cracked_.elastic().size(), 0.0);
-  const std::vector<Index> faces = crack_of(tip.at);
+  const std::vector<Index> faces = crack_of(tip.at.facet);
   std::optional<double> volume;
   const auto under = [&](const Vector<2>& traction) -> std::optional<TipLoad> {
     volume = cracked_.find_answer(faces, traction, named, unknowns);
@@ -223,12 +222,11 @@ void CrackTips::ask_even_loads(Tip& tip) const {
   tip.even.sliding = slid / mode_two * mode_one / apart;
 }
 
-/// The facets that hang together with the tip's.
-std::vector<Index> CrackTips::crack_of(const CrackTip& tip) const {
+std::vector<Index> CrackTips::crack_of(Index facet) const {
   const std::span<const CrackFacet<2>> facets = cracked_.facets();
-  std::vector<Index> crack = {tip.facet};
+  std::vector<Index> crack = {facet};
   std::vector<bool> taken(facets.size(), false);
-  taken[tip.facet] = true;
+  taken[facet] = true;
   for (std::size_t next = 0; next < crack.size(); ++next) {
     const CrackFacet<2>& from = facets[crack[next]];
     for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -314,18 +312,29 @@ double CrackTips::find_readiness(const CrackState<2>& state) {
   return most;
 }
 
+double CrackTips::turn_of(const Tip& tip, std::span<const Vector<2>> jumps) const {
+  const double turn =
+      kink_angle(tip.modes ? *tip.modes : modes_of(energy_release_.jump(tip.at, jumps)));
+  return std::abs(turn) < straight ? 0.0 : turn;
+}
+
+std::vector<std::pair<CrackTip, double>> CrackTips::take_ready(const CrackState<2>& state) {
+  const std::vector<Vector<2>> jumps = state.jumps();
+  std::vector<std::pair<CrackTip, double>> taken;
+  std::erase_if(tips_, [&](const Tip& tip) {
+    if (!tip.grows || tip.readiness < ready) return false;
+    taken.emplace_back(tip.at, turn_of(tip, jumps));
+    return true;
+  });
+  return taken;
+}
+
 double CrackTips::grow(const CrackState<2>& state) {
   // Where to is asked before the first facet makes the displacements old.
   const std::vector<Vector<2>> jumps = state.jumps();
   const auto goes_on = [](const Tip& tip) { return tip.grows && tip.readiness >= ready; };
   std::vector<double> turns;
-  for (const Tip& tip : tips_) {
-    double turn = 0.0;
-    if (goes_on(tip)) {
-      turn = kink_angle(tip.modes ? *tip.modes : modes_of(energy_release_.jump(tip.at, jumps)));
-    }
-    turns.push_back(std::abs(turn) < straight ? 0.0 : turn);
-  }
+  for (const Tip& tip : tips_) turns.push_back(goes_on(tip) ? turn_of(tip, jumps) : 0.0);
   double energy = 0.0;
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     Tip& tip = tips_[k];
@@ -375,7 +384,6 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   return jump.area * energy_to_cut(facet);
 }
 
-/// The facet would come close to an end of another crack's, where it is to end.
 bool CrackTips::joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const {
   double nearest = 0.75 * body_.spacing();
   bool found = false;

@@ -1,0 +1,417 @@
+#include "modules/solid/equilibrium/moving_tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "core/base/eigen_view.hpp"
+#include "core/base/small_vector.hpp"
+#include "core/state/visit_each.hpp"
+
+namespace perifrac {
+
+namespace {
+
+/// A tip is found where the logarithm of what drives it over what holds it is below this.
+constexpr double tolerance = 5e-4;
+/// It is looked for up to so far beyond its facet, in facets.
+constexpr double farthest = 1.25;
+/// It has crossed its facet from here on.
+constexpr double crossed = 0.005;
+constexpr int most_tries = 15;
+/// A turn below this is rounding [rad].
+constexpr double straight = 1e-6;
+
+}  // namespace
+
+MovingTips::MovingTips(const Body<2>& body, CrackedEquilibrium<2>& equilibrium,
+                       CrackedWork<2>& work, CrackTips& tips)
+    : body_(body),
+      equilibrium_(equilibrium),
+      work_(work),
+      tips_(tips),
+      energy_release_(equilibrium.body(), body.spacing()) {}
+
+void MovingTips::start() { moving_.clear(); }
+
+/// Under one load the energy release of a crack goes as its length.
+double MovingTips::opened(const Tip& tip, double part) const {
+  return part + 0.5 * tip.per_spacing * part * (part - 1.0);
+}
+
+void MovingTips::hold() {
+  std::vector<PartialCut> cuts;
+  for (const Tip& tip : moving_) cuts.push_back({tip.facet, opened(tip, tip.trial)});
+  equilibrium_.set_partial(cuts);
+}
+
+CrackTip MovingTips::end_of(const Tip& tip) const {
+  const CrackedBody<2>& cracked = equilibrium_.body();
+  return {cracked.facets()[tip.facet][1], cracked.jumps()[tip.facet].tangents[0], tip.facet,
+          tip.at.facet};
+}
+
+bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips) {
+  const std::size_t first = moving_.size();
+  equilibrium_.set_partial({});
+  CrackedBody<2>& cracked = equilibrium_.body();
+  std::vector<Tip> found;
+  for (const auto& [at, turned] : tips) {
+    Tip& tip = found.emplace_back(Tip{.at = at});
+    tip.intensity[0] = root_of_j(at, {1.0, 0.0}, nullptr);
+    if (at.before != no_facet) tip.per_spacing = cracked.intensity_at_fixed_volume(at.before);
+  }
+  for (std::size_t k = 0; k < tips.size(); ++k) {
+    if (!cut_for(tips[k].first, tips[k].second)) continue;
+    moving_.back().intensity[0] = found[k].intensity[0];
+    moving_.back().per_spacing = found[k].per_spacing;
+  }
+  ask_even_loads(first);
+  hold();
+  return moving_.size() > first;
+}
+
+bool MovingTips::cut_for(const CrackTip& at, double turn) {
+  CrackedBody<2>& cracked = equilibrium_.body();
+  CrackFacet<2> facet = tips_.next_facet(at, turn);
+  const bool joined = tips_.joins(facet, at, facet[1]);
+  if (!cracked.cut(facet)) return false;
+  Tip tip{.at = at,
+          .facet = static_cast<Index>(cracked.facets().size()) - 1,
+          .nearest = body_.nearest_point(middle<2>(facet))};
+  tip.ends = joined || !cracked.is_intact_along(tips_.next_facet(end_of(tip), 0.0));
+  moving_.push_back(tip);
+  return true;
+}
+
+/// Of an even traction on the faces of the crack; 0: not known.
+double MovingTips::root_of_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const {
+  CrackedBody<2>& cracked = equilibrium_.body();
+  const std::vector<Index> named = energy_release_.looks_at(at);
+  std::vector<double> unknowns(cracked.elastic().size(), 0.0);
+  const std::vector<Index> faces = tips_.crack_of(at.facet);
+  if (!cracked.find_answer(faces, traction, named, unknowns)) return 0.0;
+  const TipLoad load = energy_release_.under(at, unknowns, faces, traction);
+  if (jump != nullptr) *jump = load;
+  return std::sqrt(std::max(0.0, load.energy_release));
+}
+
+/// Of the tips from `first` on, all facets cut whole.
+void MovingTips::ask_even_loads(std::size_t first) {
+  CrackedBody<2>& cracked = equilibrium_.body();
+  std::vector<PartialCut> cuts;
+  for (const Tip& tip : moving_) cuts.push_back({tip.facet, 1.0});
+  const auto volume = [&](std::span<const Index> faces, std::span<const Vector<2>> jumps) {
+    double sum = 0.0;
+    for (const Index f : faces) sum += cracked.jumps()[f].area * jumps[f][0];
+    return sum;
+  };
+  for (std::size_t k = first; k < moving_.size(); ++k) {
+    Tip& tip = moving_[k];
+    const std::vector<Index> faces = tips_.crack_of(tip.facet);
+    const bool known = tip.at.before != no_facet && tip.per_spacing > 0.0;
+    const double ratio =
+        known ? cracked.intensity_at_fixed_volume(tip.at.facet) / tip.per_spacing : 1.0;
+    tip.per_spacing = (1.0 - std::min(1.0, ratio)) / 1.5;
+    TipJump pressed{}, sheared{};
+    tip.intensity[1] = root_of_j(end_of(tip), {1.0, 0.0}, &pressed);
+    const double mode_two = root_of_j(end_of(tip), {0.0, 1.0}, &sheared);
+    const double slid = std::abs(sheared.sliding);
+    const bool has_modes = std::min({pressed.opening, slid, mode_two, tip.intensity[1]}) > 0.0;
+    tip.sliding = has_modes ? slid / mode_two * tip.intensity[1] / pressed.opening : 0.0;
+    const auto whole = cracked.jumps_by(faces, {1.0, 0.0});
+    cuts[k].opened = 0.0;
+    equilibrium_.set_partial(cuts);
+    const auto uncut = cracked.jumps_by(faces, {1.0, 0.0});
+    cuts[k].opened = 1.0;
+    equilibrium_.set_partial(cuts);
+    tip.release = volume(faces, whole) - volume(faces, uncut);
+    for (const int behind : {0, 1}) {
+      const Index facet = behind == 0 ? tip.at.facet : tip.at.before;
+      if (facet == no_facet) continue;
+      tip.cut[behind] = whole[facet][0];
+      tip.held[behind] = uncut[facet][0];
+    }
+  }
+}
+
+void MovingTips::begin(const TimeWindow& window) {
+  window_ = window;
+  if (moving_.empty()) return;
+  for (Tip& tip : moving_) {
+    tip.trial = std::min(tip.part + tip.rate * window.length(), std::max(1.0, tip.part));
+    tip.tries = 0;
+    tip.low = tip.part;
+    tip.high = farthest;
+    tip.low_excess = tip.high_excess = NAN;
+  }
+  hold();
+}
+
+TipLaw MovingTips::law(const Tip& tip) const {
+  CrackedBody<2>& cracked = equilibrium_.body();
+  return {cracked.elastic().law(tip.nearest).plane_strain_modulus(),
+          tips_.energy_to_cut(cracked.facets()[tip.facet])};
+}
+
+/// That of the last facet that is whole.
+TipFluid MovingTips::fluid(const Tip& tip) const {
+  const CrackState<2> state = equilibrium_.state();
+  const auto at = static_cast<std::size_t>(tip.at.facet);
+  return {at < state.viscosity.size() ? state.viscosity[at] : 0.0,
+          at < state.leak_off.size() ? state.leak_off[at] : 0.0};
+}
+
+double MovingTips::speed(const Tip& tip, double part) const {
+  return body_.spacing() * std::max(part - tip.part, 1e-12) / window_.length();
+}
+
+double MovingTips::within_crack(const Tip& tip, double s) const {
+  return s * (1.0 - 0.5 * s * tip.per_spacing / body_.spacing());
+}
+
+/// Root of J by an even load, the tip being where it is tried.
+double MovingTips::intensity(const Tip& tip) const {
+  return tip.intensity[0] + tip.trial * (tip.intensity[1] - tip.intensity[0]);
+}
+
+/// The opening `behind` (0: the last whole facet, 1: the one before), over what holds the tip.
+double MovingTips::by_law(const Tip& tip, int behind) const {
+  const Index facet = behind == 0 ? tip.at.facet : tip.at.before;
+  const double s = (tip.trial + 0.5 + behind) * body_.spacing();
+  const double share = opened(tip, tip.trial);
+  const double even = (1.0 - share) * tip.held[behind] + share * tip.cut[behind];
+  const TipLaw held = law(tip);
+  const TipLaw unit{held.plane_strain_modulus, 1.0};
+  const double over = even / (intensity(tip) * unit.opening(within_crack(tip, s), 0.0, {}, 1.0));
+  CrackTip at = tip.at;
+  at.place = at.place + tip.trial * body_.spacing() * at.direction;
+  const double open =
+      equilibrium_.faces().opening[facet] / over - tips_.opening_by_layers(at, s, held);
+  return open / held.opening(within_crack(tip, s), s, fluid(tip), speed(tip, tip.trial));
+}
+
+/// The logarithm of K over what holds the tip.
+double MovingTips::excess(const Tip& tip, std::size_t k, const CutLoad& load,
+                          std::span<const Vector<2>> jumps) const {
+  const auto& faces = equilibrium_.faces();
+  const PartialCuts& partial = equilibrium_.body().partial();
+  const bool has_viscosity = fluid(tip).viscosity > 0.0 && tip.at.before != no_facet;
+  CutLoad away = load;
+  if (has_viscosity) {
+    const double pressure = faces.pressure[tip.facet];
+    away.traction[0] -= pressure;
+    away.apart -= pressure * partial.whole_compliance(k).col(0);
+  }
+  const double released = away.apart[0] > 0.0 ? partial.release(k, away, away) : 0.0;
+  const double dry = intensity(tip) * std::sqrt(std::max(0.0, released / tip.release) /
+                                                law(tip).fracture_energy);
+  if (!has_viscosity) return std::log(std::max(dry, 1e-6));
+  const double opening = (1.0 - tip.trial) * by_law(tip, 1) + tip.trial * by_law(tip, 0);
+  const double ratio = mode_ratio(tip, energy_release_.jump(tip.at, jumps));
+  const double followed = opening > 0.0 ? kink_intensity({opening, opening * ratio}) : 0.0;
+  return std::log(std::max({followed, dry, 1e-6}));
+}
+
+/// K_II / K_I.
+double MovingTips::mode_ratio(const Tip& tip, const TipJump& jump) const {
+  if (!(jump.opening > 0.0)) return 0.0;
+  const double sliding = tip.sliding > 0.0 ? jump.sliding / tip.sliding : modes_of(jump).sliding;
+  return sliding / jump.opening;
+}
+
+bool MovingTips::find() {
+  if (moving_.empty() || !(window_.length() > 0.0)) return true;
+  CrackedBody<2>& cracked = equilibrium_.body();
+  const auto& faces = equilibrium_.faces();
+  const auto loads = cracked.cut_loads(faces.pressure, faces.shear);
+  const auto jumps = cracked.jumps_under(faces.pressure, faces.shear);
+  bool settled = true;
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    moving_[k].excess = excess(moving_[k], k, loads[k], jumps);
+    settled = !look_further(moving_[k]) && settled;
+  }
+  if (!settled) hold();
+  return settled;
+}
+
+/// What the tip would meet there under fluid of fixed volume: intensity falls as the crack grows.
+double MovingTips::next_trial(const Tip& tip) const {
+  const TipLaw held = law(tip);
+  const TipFluid follows = fluid(tip);
+  const auto holds = [&](double part) {
+    const double s = (part + 0.5) * body_.spacing(), dry = within_crack(tip, s);
+    const TipFluid none{0.0, 0.0};
+    return std::log(held.opening(dry, s, follows, speed(tip, part)) /
+                    held.opening(dry, s, none, 1.0));
+  };
+  const double now = holds(tip.trial);
+  const auto left = [&](double part) {
+    return tip.excess + now - holds(part) - 1.5 * tip.per_spacing * (part - tip.trial);
+  };
+  double low = tip.low, high = tip.high;
+  if (left(high) >= 0.0) return high;
+  for (int n = 0; n < 40; ++n) {
+    const double middle = 0.5 * (low + high);
+    (left(middle) > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// True where another place has to be tried.
+bool MovingTips::look_further(Tip& tip) {
+  ++tip.tries;
+  const bool stands = tip.trial <= tip.part && tip.excess <= tolerance;
+  const bool beyond = tip.trial >= farthest && tip.excess >= -tolerance;
+  if (std::abs(tip.excess) <= tolerance || stands || beyond || tip.tries > most_tries) return false;
+  if (tip.excess > 0.0) {
+    tip.low = tip.trial;
+    tip.low_excess = tip.excess;
+  } else {
+    tip.high = tip.trial;
+    tip.high_excess = tip.excess;
+  }
+  double next = next_trial(tip);
+  if (std::isfinite(tip.low_excess) && std::isfinite(tip.high_excess)) {
+    const double share = tip.low_excess / (tip.low_excess - tip.high_excess);
+    next = tip.low + std::clamp(share, 0.05, 0.95) * (tip.high - tip.low);
+  }
+  tip.trial = std::clamp(next, tip.part, farthest);
+  return true;
+}
+
+double MovingTips::first_crossed() const {
+  double share = 1.0;
+  for (const Tip& tip : moving_) {
+    if (tip.trial <= 1.0 + crossed) continue;
+    share = std::min(share, std::clamp((1.0 - tip.part) / (tip.trial - tip.part), 0.02, 0.98));
+  }
+  return share < 1.0 ? window_.begin + share * window_.length() : window_.end;
+}
+
+/// Between a linear body before and after, what a partial cut sets free is this, exactly.
+void MovingTips::book() {
+  CrackedBody<2>& cracked = equilibrium_.body();
+  const auto& faces = equilibrium_.faces();
+  const auto loads = cracked.cut_loads(faces.pressure, faces.shear);
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    Tip& tip = moving_[k];
+    const double part = std::min(tip.trial, 1.0);
+    const double spent =
+        cracked.jumps()[tip.facet].area * (part - tip.part) * law(tip).fracture_energy;
+    if (tip.part == 0.0) {
+      // Nothing was done on its faces yet: fluid follows the tip, and opens it at what it comes to.
+      tip.load.apart += cracked.partial().whole_compliance(k) *
+                        (loads[k].traction - tip.load.traction);
+      tip.load.traction = loads[k].traction;
+    }
+    const double released = 0.5 * (opened(tip, tip.trial) - opened(tip, tip.part)) *
+                            cracked.partial().release(k, tip.load, loads[k]);
+    work_.spend(spent);
+    if (tip.trial > tip.part) work_.radiate(released - spent);
+    if (window_.length() > 0.0) tip.rate = (tip.trial - tip.part) / window_.length();
+    tip.load = loads[k];
+    tip.part = tip.trial = part;
+  }
+}
+
+double MovingTips::turn(const Tip& tip, std::span<const Vector<2>> jumps) const {
+  const TipJump jump = energy_release_.jump(end_of(tip), jumps);
+  const double ratio = mode_ratio(tip, jump);
+  const double turn = kink_angle({1.0, ratio});
+  return std::abs(turn) < straight ? 0.0 : turn;
+}
+
+bool MovingTips::conclude() {
+  if (moving_.empty()) return false;
+  book();
+  const auto done = [](const Tip& tip) { return tip.part >= 1.0 - crossed; };
+  if (std::ranges::none_of(moving_, done)) return false;
+  std::vector<std::pair<CrackTip, double>> going_on;
+  std::vector<double> rates;
+  const std::vector<Vector<2>> jumps = equilibrium_.state().jumps();
+  for (const Tip& tip : moving_) {
+    if (!done(tip) || tip.ends) continue;
+    going_on.emplace_back(end_of(tip), turn(tip, jumps));
+    rates.push_back(tip.rate);
+  }
+  std::erase_if(moving_, done);
+  hold();
+  const std::size_t first = moving_.size();
+  add(going_on);
+  if (moving_.size() == first + rates.size()) {
+    for (std::size_t k = 0; k < rates.size(); ++k) moving_[first + k].rate = rates[k];
+  }
+  equilibrium_.solve(equilibrium_.time());
+  return true;
+}
+
+void MovingTips::note_loads() {
+  if (moving_.empty()) return;
+  const auto& faces = equilibrium_.faces();
+  const auto loads = equilibrium_.body().cut_loads(faces.pressure, faces.shear);
+  for (std::size_t k = 0; k < moving_.size(); ++k) moving_[k].load = loads[k];
+}
+
+std::vector<double>& MovingTips::parts() {
+  parts_.assign(equilibrium_.body().facets().size(), 1.0);
+  for (const Tip& tip : moving_) parts_[tip.facet] = std::min(1.0, tip.trial);
+  return parts_;
+}
+
+void MovingTips::visit_state(StateVisitor& visitor) {
+  const std::vector<Tip> before = moving_;
+  visit_each(visitor, "moving_tips", moving_,  //
+             FieldOfEach("x", [](Tip& tip) -> double& { return tip.at.place[0]; }),
+             FieldOfEach("y", [](Tip& tip) -> double& { return tip.at.place[1]; }),
+             FieldOfEach("direction_x", [](Tip& tip) -> double& { return tip.at.direction[0]; }),
+             FieldOfEach("direction_y", [](Tip& tip) -> double& { return tip.at.direction[1]; }),
+             FieldOfEach("facet_behind", [](Tip& tip) -> Index& { return tip.at.facet; }),
+             FieldOfEach("facet_before", [](Tip& tip) -> Index& { return tip.at.before; }),
+             FieldOfEach("facet", [](Tip& tip) -> Index& { return tip.facet; }),
+             FieldOfEach("ends", [](Tip& tip) -> bool& { return tip.ends; }),
+             FieldOfEach("nearest", [](Tip& tip) -> Index& { return tip.nearest; }),
+             FieldOfEach("part", [](Tip& tip) -> double& { return tip.part; }),
+             FieldOfEach("per_spacing", [](Tip& tip) -> double& { return tip.per_spacing; }),
+             FieldOfEach("rate", [](Tip& tip) -> double& { return tip.rate; }),
+             FieldOfEach("intensity_begin", [](Tip& tip) -> double& { return tip.intensity[0]; }),
+             FieldOfEach("intensity_end", [](Tip& tip) -> double& { return tip.intensity[1]; }),
+             FieldOfEach("release", [](Tip& tip) -> double& { return tip.release; }),
+             FieldOfEach("sliding", [](Tip& tip) -> double& { return tip.sliding; }),
+             FieldOfEach("held", [](Tip& tip) -> double& { return tip.held[0]; }),
+             FieldOfEach("held_before", [](Tip& tip) -> double& { return tip.held[1]; }),
+             FieldOfEach("cut", [](Tip& tip) -> double& { return tip.cut[0]; }),
+             FieldOfEach("cut_before", [](Tip& tip) -> double& { return tip.cut[1]; }));
+  visit_loads(visitor);
+  // What the passes of a window look for outlasts their going back.
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    if (k < before.size() && before[k].facet == moving_[k].facet) continue;
+    moving_[k].trial = moving_[k].part;
+  }
+}
+
+/// One after the other: how many numbers, and these.
+void MovingTips::visit_loads(StateVisitor& visitor) {
+  std::vector<double> all;
+  for (const Tip& tip : moving_) {
+    all.push_back(static_cast<double>(tip.load.borne.size()));
+    all.insert(all.end(), tip.load.borne.begin(), tip.load.borne.end());
+    all.insert(all.end(), tip.load.apart.begin(), tip.load.apart.end());
+    all.insert(all.end(), tip.load.traction.begin(), tip.load.traction.end());
+  }
+  visitor.visit("tip_loads", all);
+  Eigen::Index next = 0;
+  const Eigen::VectorXd values = view(all);
+  for (Tip& tip : moving_) {
+    const auto count = static_cast<Eigen::Index>(values[next++]);
+    tip.load.borne = values.segment(next, count);
+    tip.load.apart = values.segment(next + count, 2);
+    tip.load.traction = values.segment(next + count + 2, 2);
+    next += count + 4;
+  }
+}
+
+void MovingTips::on_restored() { hold(); }
+
+}  // namespace perifrac
