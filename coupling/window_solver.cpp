@@ -125,7 +125,13 @@ double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterati
     }
     if (passes == 1 && is_enough_at_once(iterations.at_once)) return reached;
     if (passes == 1) weigh_links();
-    if (watch.is_diverging(weighted_mismatch())) fail(window.end, passes, "diverges");
+    if (!is_settled()) {
+      // Modules change what they answer: what was learned of it is of no use.
+      acceleration_->reset();
+      watch = {};
+    } else if (watch.is_diverging(weighted_mismatch())) {
+      fail(window.end, passes, "diverges");
+    }
     if (passes == iterations.max) fail(window.end, passes, "does not converge");
     accelerate(window.length());
     go_back(window.begin);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstdio>
 
 #include <Eigen/Dense>
 
@@ -20,6 +22,8 @@ constexpr double farthest = 1.25;
 /// It has crossed its facet from here on.
 constexpr double crossed = 0.005;
 constexpr int most_tries = 15;
+/// Between places so close, in facets, of which one is too far and one not, either will do.
+constexpr double narrow = 1e-3;
 /// A turn below this is rounding [rad].
 constexpr double straight = 1e-6;
 
@@ -137,14 +141,16 @@ void MovingTips::ask_even_loads(std::size_t first) {
 }
 
 void MovingTips::begin(const TimeWindow& window) {
+  const bool again = window.begin == window_.begin;
   window_ = window;
   if (moving_.empty()) return;
   for (Tip& tip : moving_) {
-    tip.trial = std::min(tip.part + tip.rate * window.length(), std::max(1.0, tip.part));
+    const double rate = again && tip.expected_rate > 0.0 ? tip.expected_rate : tip.rate;
+    tip.trial = std::min(tip.part + rate * window.length(), std::max(1.0, tip.part));
     tip.tries = 0;
     tip.low = tip.part;
     tip.high = farthest;
-    tip.low_excess = tip.high_excess = NAN;
+    tip.excess_before = tip.trial_before = NAN;
   }
   hold();
 }
@@ -230,6 +236,7 @@ bool MovingTips::find() {
   bool settled = true;
   for (std::size_t k = 0; k < moving_.size(); ++k) {
     moving_[k].excess = excess(moving_[k], k, loads[k], jumps);
+    if (std::getenv("PF_TIPS")) fprintf(stderr, "t %.7g+%.3g facet %d part %.5f trial %.5f e %.4g visc %g p %.4g [%.4g %.4g]\n", window_.begin, window_.length(), moving_[k].facet, moving_[k].part, moving_[k].trial, moving_[k].excess, fluid(moving_[k]).viscosity, faces.pressure[moving_[k].facet], moving_[k].low, moving_[k].high);
     settled = !look_further(moving_[k]) && settled;
   }
   if (!settled) hold();
@@ -250,7 +257,7 @@ double MovingTips::next_trial(const Tip& tip) const {
   const auto left = [&](double part) {
     return tip.excess + now - holds(part) - 1.5 * tip.per_spacing * (part - tip.trial);
   };
-  double low = tip.low, high = tip.high;
+  double low = tip.part, high = farthest;
   if (left(high) >= 0.0) return high;
   for (int n = 0; n < 40; ++n) {
     const double middle = 0.5 * (low + high);
@@ -261,31 +268,41 @@ double MovingTips::next_trial(const Tip& tip) const {
 
 /// True where another place has to be tried.
 bool MovingTips::look_further(Tip& tip) {
-  ++tip.tries;
+  // The first pass is of what openings were foretold, not of the cut that is held now.
+  if (++tip.tries == 1) return true;
+  const double slope = (tip.excess - tip.excess_before) / (tip.trial - tip.trial_before);
+  const bool falls = std::isfinite(slope) && slope < 0.0;
+  // Where it would be by the last two, however far; else by what the tip meets there.
+  tip.reach = falls ? tip.trial - tip.excess / slope : next_trial(tip);
   const bool stands = tip.trial <= tip.part && tip.excess <= tolerance;
   const bool beyond = tip.trial >= farthest && tip.excess >= -tolerance;
-  if (std::abs(tip.excess) <= tolerance || stands || beyond || tip.tries > most_tries) return false;
-  if (tip.excess > 0.0) {
-    tip.low = tip.trial;
-    tip.low_excess = tip.excess;
-  } else {
-    tip.high = tip.trial;
-    tip.high_excess = tip.excess;
+  if (std::abs(tip.excess) <= tolerance || stands || beyond) return false;
+  (tip.excess > 0.0 ? tip.low : tip.high) = tip.trial;
+  // Other modules have gone on meanwhile: what was between is not any more.
+  if (!(tip.low < tip.high)) (tip.excess > 0.0 ? tip.high : tip.low) =
+      tip.excess > 0.0 ? farthest : tip.part;
+  const bool is_between = tip.tries > 2 && tip.high - tip.low < narrow;
+  if (is_between || tip.tries > most_tries) return false;
+  tip.excess_before = tip.excess;
+  tip.trial_before = tip.trial;
+  const double margin = 0.02 * (tip.high - tip.low);
+  double next = tip.reach;
+  const bool has_both = tip.low > tip.part && tip.high < farthest;
+  if (has_both && !(next > tip.low + margin && next < tip.high - margin)) {
+    next = 0.5 * (tip.low + tip.high);
   }
-  double next = next_trial(tip);
-  if (std::isfinite(tip.low_excess) && std::isfinite(tip.high_excess)) {
-    const double share = tip.low_excess / (tip.low_excess - tip.high_excess);
-    next = tip.low + std::clamp(share, 0.05, 0.95) * (tip.high - tip.low);
-  }
-  tip.trial = std::clamp(next, tip.part, farthest);
+  tip.trial = std::clamp(next, tip.low, tip.high);
   return true;
 }
 
-double MovingTips::first_crossed() const {
+double MovingTips::first_crossed() {
   double share = 1.0;
-  for (const Tip& tip : moving_) {
+  for (Tip& tip : moving_) {
+    tip.expected_rate = 0.0;
     if (tip.trial <= 1.0 + crossed) continue;
-    share = std::min(share, std::clamp((1.0 - tip.part) / (tip.trial - tip.part), 0.02, 0.98));
+    const double end = std::max(tip.trial, tip.trial >= farthest ? tip.reach : 0.0);
+    tip.expected_rate = (end - tip.part) / window_.length();
+    share = std::min(share, std::clamp((1.0 - tip.part) / (end - tip.part), 0.02, 0.98));
   }
   return share < 1.0 ? window_.begin + share * window_.length() : window_.end;
 }

@@ -39,7 +39,7 @@ class MovingTips {
   /// the window has to be passed through once more.
   bool find();
   /// The earliest time at which a tip has crossed its facet [s]; the window's end where none has.
-  double first_crossed() const;
+  double first_crossed();
   /// The window stands. True where tips have crossed their facets, and began new ones.
   bool conclude();
   /// The body is in equilibrium as the next window begins.
@@ -69,7 +69,10 @@ class MovingTips {
 
     double trial = 0.0;  ///< part at the window's end
     double excess = 0.0;
-    double low = 0.0, high = 0.0, low_excess = 0.0, high_excess = 0.0;
+    double trial_before = 0.0, excess_before = 0.0;
+    double low = 0.0, high = 0.0;  ///< it is between, in parts
+    double reach = 0.0;            ///< where it would be, beyond its facet too
+    double expected_rate = 0.0;    ///< of that, where the window is tried again [1/s]
     int tries = 0;
   };
 
