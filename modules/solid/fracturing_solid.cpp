@@ -87,9 +87,11 @@ void FracturingSolid<D>::make_crack_ports() {
   ports_.out({"crack_opening", "m"}, [this, facets] {
     return PortView{facets, view(equilibrium_.faces().opening)};
   });
-  ports_.out({.name = "crack_part", .unit = "1", .role = PortRole::property}, [this, facets] {
-    return PortView{facets, growth_.parts()};
-  });
+  if (growth_.has_moving_tips()) {
+    ports_.out({.name = "crack_part", .unit = "1", .role = PortRole::property}, [this, facets] {
+      return PortView{facets, growth_.parts()};
+    });
+  }
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   ports_.out({.name = "free_crack_opening", .unit = "m", .role = PortRole::property},
              [this, facets, opening = Eigen::VectorXd(), slope = Matrix()]() mutable {

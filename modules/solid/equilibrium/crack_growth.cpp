@@ -118,6 +118,12 @@ void CrackGrowth<D>::grow() {
   if (moving_) moving_->note_loads();
 }
 
+/// What a cut changes of how pores press on the rock is known whole or not at all.
+template <int D>
+bool CrackGrowth<D>::tips_move() const {
+  return moving_ && equilibrium_.is_wet() && equilibrium_.load().pore_stress().empty();
+}
+
 /// True where some tip has come to a facet.
 template <int D>
 bool CrackGrowth<D>::start_moving() {
@@ -133,7 +139,7 @@ bool CrackGrowth<D>::grow_tips(double most, double due) {
   while (most >= due) {
     due = ready;
     const double before = is_wet ? 0.0 : work_.released_energy();
-    const bool moves = moving_ && is_wet;
+    const bool moves = tips_move();
     const double spent = moves ? 0.0 : tips_.grow(equilibrium_.state());
     has_grown = has_grown || spent > 0.0 || (moves && start_moving());
     work_.spend(spent);

@@ -31,6 +31,8 @@ class CrackGrowth {
   void begin(const TimeWindow& window);
   /// Once its equilibrium was solved; false where it has to be passed through once more.
   bool find_tips();
+  /// Beside fluid its tips may be within facets.
+  bool has_moving_tips() const { return moving_ != nullptr; }
   /// By facet, the part of it that is crack: less than 1 where a tip is within it.
   std::vector<double>& parts();
   /// Where the window is to end [s]: at its end, or at the first event where that is far before.
@@ -42,6 +44,7 @@ class CrackGrowth {
   void on_restored();
 
  private:
+  bool tips_move() const;
   bool start_moving();
   bool grow_tips(double most, double due);
   double find_nucleus_readiness();

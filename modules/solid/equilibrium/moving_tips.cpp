@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 
 #include <Eigen/Dense>
 
@@ -147,6 +145,7 @@ void MovingTips::begin(const TimeWindow& window) {
   for (Tip& tip : moving_) {
     const double rate = again && tip.expected_rate > 0.0 ? tip.expected_rate : tip.rate;
     tip.trial = std::min(tip.part + rate * window.length(), std::max(1.0, tip.part));
+    if (tip.ends) tip.trial = 1.0;  // there is no tip any more
     tip.tries = 0;
     tip.low = tip.part;
     tip.high = farthest;
@@ -191,10 +190,10 @@ double MovingTips::by_law(const Tip& tip, int behind) const {
   const TipLaw held = law(tip);
   const TipLaw unit{held.plane_strain_modulus, 1.0};
   const double over = even / (intensity(tip) * unit.opening(within_crack(tip, s), 0.0, {}, 1.0));
-  CrackTip at = tip.at;
-  at.place = at.place + tip.trial * body_.spacing() * at.direction;
-  const double open =
-      equilibrium_.faces().opening[facet] / over - tips_.opening_by_layers(at, s, held);
+  CrackTip at = end_of(tip);
+  at.place = at.place - (1.0 - tip.trial) * body_.spacing() * at.direction;
+  const double open = equilibrium_.faces().opening[facet] / over -
+                      tips_.opening_by_layers(at, s, held, std::min(tip.trial, 1.0));
   return open / held.opening(within_crack(tip, s), s, fluid(tip), speed(tip, tip.trial));
 }
 
@@ -211,8 +210,8 @@ double MovingTips::excess(const Tip& tip, std::size_t k, const CutLoad& load,
     away.apart -= pressure * partial.whole_compliance(k).col(0);
   }
   const double released = away.apart[0] > 0.0 ? partial.release(k, away, away) : 0.0;
-  const double dry = intensity(tip) * std::sqrt(std::max(0.0, released / tip.release) /
-                                                law(tip).fracture_energy);
+  const double dry =
+      intensity(tip) * std::sqrt(std::max(0.0, released / tip.release) / law(tip).fracture_energy);
   if (!has_viscosity) return std::log(std::max(dry, 1e-6));
   const double opening = (1.0 - tip.trial) * by_law(tip, 1) + tip.trial * by_law(tip, 0);
   const double ratio = mode_ratio(tip, energy_release_.jump(tip.at, jumps));
@@ -236,7 +235,6 @@ bool MovingTips::find() {
   bool settled = true;
   for (std::size_t k = 0; k < moving_.size(); ++k) {
     moving_[k].excess = excess(moving_[k], k, loads[k], jumps);
-    if (std::getenv("PF_TIPS")) fprintf(stderr, "t %.7g+%.3g facet %d part %.5f trial %.5f e %.4g visc %g p %.4g [%.4g %.4g]\n", window_.begin, window_.length(), moving_[k].facet, moving_[k].part, moving_[k].trial, moving_[k].excess, fluid(moving_[k]).viscosity, faces.pressure[moving_[k].facet], moving_[k].low, moving_[k].high);
     settled = !look_further(moving_[k]) && settled;
   }
   if (!settled) hold();
@@ -268,6 +266,7 @@ double MovingTips::next_trial(const Tip& tip) const {
 
 /// True where another place has to be tried.
 bool MovingTips::look_further(Tip& tip) {
+  if (tip.ends) return false;
   // The first pass is of what openings were foretold, not of the cut that is held now.
   if (++tip.tries == 1) return true;
   const double slope = (tip.excess - tip.excess_before) / (tip.trial - tip.trial_before);
@@ -279,8 +278,8 @@ bool MovingTips::look_further(Tip& tip) {
   if (std::abs(tip.excess) <= tolerance || stands || beyond) return false;
   (tip.excess > 0.0 ? tip.low : tip.high) = tip.trial;
   // Other modules have gone on meanwhile: what was between is not any more.
-  if (!(tip.low < tip.high)) (tip.excess > 0.0 ? tip.high : tip.low) =
-      tip.excess > 0.0 ? farthest : tip.part;
+  if (!(tip.low < tip.high))
+    (tip.excess > 0.0 ? tip.high : tip.low) = tip.excess > 0.0 ? farthest : tip.part;
   const bool is_between = tip.tries > 2 && tip.high - tip.low < narrow;
   if (is_between || tip.tries > most_tries) return false;
   tip.excess_before = tip.excess;
@@ -319,8 +318,8 @@ void MovingTips::book() {
         cracked.jumps()[tip.facet].area * (part - tip.part) * law(tip).fracture_energy;
     if (tip.part == 0.0) {
       // Nothing was done on its faces yet: fluid follows the tip, and opens it at what it comes to.
-      tip.load.apart += cracked.partial().whole_compliance(k) *
-                        (loads[k].traction - tip.load.traction);
+      tip.load.apart +=
+          cracked.partial().whole_compliance(k) * (loads[k].traction - tip.load.traction);
       tip.load.traction = loads[k].traction;
     }
     const double released = 0.5 * (opened(tip, tip.trial) - opened(tip, tip.part)) *

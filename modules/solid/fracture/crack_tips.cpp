@@ -261,8 +261,11 @@ double CrackTips::lagging_readiness(Tip& tip, const TipLaw& tip_law,
 /// behind the tip of a long crack
 ///   w(s) = 4 / (pi E') int q ln|(sqrt s + sqrt s') / (sqrt s - sqrt s')| ds',
 ///   K_I = sqrt(8 / pi) int q / sqrt(4 s') ds'   [m].
-double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const {
+double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law,
+                                    double part) const {
   if (!cracked_.relief_varies()) return 0.0;
+  double there = cracked_.relief(at.facet)[0];
+  if (part < 1.0) there = part * there + (1.0 - part) * cracked_.relief(at.before)[0];
   const auto integral = [s](double t) {
     if (t == s) return -2.0 * s;
     const double a = std::sqrt(s), b = std::sqrt(t);
@@ -274,8 +277,10 @@ double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& 
     const auto from_tip = [&](const Vector<2>& x) {
       return std::hypot(x[0] - at.place[0], x[1] - at.place[1]);
     };
-    const double one = from_tip(facet[0]), other = from_tip(facet[1]);
-    const double more = cracked_.relief(static_cast<Index>(f))[0] - cracked_.relief(at.facet)[0];
+    const bool is_last = static_cast<Index>(f) == at.facet;
+    const double one = is_last ? 0.0 : from_tip(facet[0]);
+    const double other = is_last ? part * cracked_.jumps()[f].area : from_tip(facet[1]);
+    const double more = cracked_.relief(static_cast<Index>(f))[0] - there;
     sum += more * (integral(std::max(one, other)) - integral(std::min(one, other)));
   }
   return 4.0 / (M_PI * tip_law.plane_strain_modulus) * sum;

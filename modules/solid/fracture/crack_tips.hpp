@@ -44,7 +44,9 @@ class CrackTips {
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
   /// The facet would come close to an end of another crack's, where it is to end.
   bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
-  double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
+  /// Beyond K_I's share, `s` behind a tip that has crossed `part` of its last facet [m].
+  double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law,
+                           double part = 1.0) const;
   /// The facets that hang together with this one.
   std::vector<Index> crack_of(Index facet) const;
 

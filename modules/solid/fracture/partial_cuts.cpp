@@ -81,15 +81,15 @@ void PartialCuts::set(Part& part, double opened) {
   const Eigen::Index axes = part.basis.cols() - part.rank;
   Eigen::MatrixXd system = (1.0 - opened) * part.softened;
   system.diagonal().array() += opened;
-  const Eigen::MatrixXd held = (1.0 - opened) * part.less.asDiagonal() * part.softened *
-                               system.partialPivLu().inverse();
+  const Eigen::MatrixXd held =
+      (1.0 - opened) * part.less.asDiagonal() * part.softened * system.partialPivLu().inverse();
   part.held = 0.5 * (held + held.transpose());
   const Eigen::MatrixXd a = by_own_faces(part);
   part.acting.resize(part.basis.cols(), axes);
   part.acting.topRows(part.rank) = opened * part.held * a;
   part.acting.bottomRows(axes) = opened * Eigen::MatrixXd::Identity(axes, axes);
-  part.own = opened * (1.0 - opened) * own_jumps(part) -
-             opened * opened * a.transpose() * part.held * a;
+  part.own =
+      opened * (1.0 - opened) * own_jumps(part) - opened * opened * a.transpose() * part.held * a;
 }
 
 void PartialCuts::hold_together() {
