@@ -13,15 +13,10 @@ namespace perifrac {
 
 namespace {
 
-/// A tip is found where the logarithm of what drives it over what holds it is below this.
-constexpr double tolerance = 5e-4;
-/// It is looked for up to so far beyond its facet, in facets.
-constexpr double farthest = 1.25;
 /// It has crossed its facet from here on.
 constexpr double crossed = 0.005;
-constexpr int most_tries = 15;
-/// Between places so close, in facets, of which one is too far and one not, either will do.
-constexpr double narrow = 1e-3;
+/// Beyond this a crack has turned so far that J, of even loads, says nothing of its tip [rad].
+constexpr double bent = 0.35;
 /// A turn below this is rounding [rad].
 constexpr double straight = 1e-6;
 
@@ -44,7 +39,7 @@ double MovingTips::opened(const Tip& tip, double part) const {
 
 void MovingTips::hold() {
   std::vector<PartialCut> cuts;
-  for (const Tip& tip : moving_) cuts.push_back({tip.facet, opened(tip, tip.trial)});
+  for (const Tip& tip : moving_) cuts.push_back({tip.facet, opened(tip, tip.search.trial())});
   equilibrium_.set_partial(cuts);
 }
 
@@ -61,12 +56,12 @@ bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips) {
   std::vector<Tip> found;
   for (const auto& [at, turned] : tips) {
     Tip& tip = found.emplace_back(Tip{.at = at});
-    tip.intensity[0] = root_of_j(at, {1.0, 0.0}, nullptr);
+    tip.root_of_j[0] = ask_j(at, {1.0, 0.0}, nullptr);
     if (at.before != no_facet) tip.per_spacing = cracked.intensity_at_fixed_volume(at.before);
   }
   for (std::size_t k = 0; k < tips.size(); ++k) {
     if (!cut_for(tips[k].first, tips[k].second)) continue;
-    moving_.back().intensity[0] = found[k].intensity[0];
+    moving_.back().root_of_j[0] = found[k].root_of_j[0];
     moving_.back().per_spacing = found[k].per_spacing;
   }
   ask_even_loads(first);
@@ -87,9 +82,10 @@ bool MovingTips::cut_for(const CrackTip& at, double turn) {
   return true;
 }
 
-/// Of an even traction on the faces of the crack; 0: not known.
-double MovingTips::root_of_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const {
+/// Root of J by an even traction on the faces of the crack; 0: not known.
+double MovingTips::ask_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const {
   CrackedBody<2>& cracked = equilibrium_.body();
+  if (!energy_release_.is_straight(at, bent)) return 0.0;
   const std::vector<Index> named = energy_release_.looks_at(at);
   std::vector<double> unknowns(cracked.elastic().size(), 0.0);
   const std::vector<Index> faces = tips_.crack_of(at.facet);
@@ -117,11 +113,16 @@ void MovingTips::ask_even_loads(std::size_t first) {
         known ? cracked.intensity_at_fixed_volume(tip.at.facet) / tip.per_spacing : 1.0;
     tip.per_spacing = (1.0 - std::min(1.0, ratio)) / 1.5;
     TipJump pressed{}, sheared{};
-    tip.intensity[1] = root_of_j(end_of(tip), {1.0, 0.0}, &pressed);
-    const double mode_two = root_of_j(end_of(tip), {0.0, 1.0}, &sheared);
+    tip.root_of_j[1] = ask_j(end_of(tip), {1.0, 0.0}, &pressed);
+    const double mode_two = ask_j(end_of(tip), {0.0, 1.0}, &sheared);
     const double slid = std::abs(sheared.sliding);
-    const bool has_modes = std::min({pressed.opening, slid, mode_two, tip.intensity[1]}) > 0.0;
-    tip.sliding = has_modes ? slid / mode_two * tip.intensity[1] / pressed.opening : 0.0;
+    const double apart = pressed.opening + cracked.pressed_by(tip.at.facet);
+    const bool has_modes = std::min({apart, slid, mode_two, tip.root_of_j[1]}) > 0.0;
+    tip.sliding = has_modes ? slid / mode_two * tip.root_of_j[1] / apart : 0.0;
+    if (tip.root_of_j[1] == 0.0)
+      tip.root_of_j[1] = tip.root_of_j[0] * (1.0 + 0.5 * tip.per_spacing);
+    if (tip.root_of_j[0] == 0.0)
+      tip.root_of_j[0] = tip.root_of_j[1] / (1.0 + 0.5 * tip.per_spacing);
     const auto whole = cracked.jumps_by(faces, {1.0, 0.0});
     cuts[k].opened = 0.0;
     equilibrium_.set_partial(cuts);
@@ -144,12 +145,9 @@ void MovingTips::begin(const TimeWindow& window) {
   if (moving_.empty()) return;
   for (Tip& tip : moving_) {
     const double rate = again && tip.expected_rate > 0.0 ? tip.expected_rate : tip.rate;
-    tip.trial = std::min(tip.part + rate * window.length(), std::max(1.0, tip.part));
-    if (tip.ends) tip.trial = 1.0;  // there is no tip any more
-    tip.tries = 0;
-    tip.low = tip.part;
-    tip.high = farthest;
-    tip.excess_before = tip.trial_before = NAN;
+    const double next = tip.part + rate * window.length();
+    // Of a facet that a tip ends with it leaves nothing.
+    tip.search.begin(tip.part, tip.ends ? 1.0 : std::min(next, std::max(1.0, tip.part)));
   }
   hold();
 }
@@ -176,25 +174,35 @@ double MovingTips::within_crack(const Tip& tip, double s) const {
   return s * (1.0 - 0.5 * s * tip.per_spacing / body_.spacing());
 }
 
-/// Root of J by an even load, the tip being where it is tried.
-double MovingTips::intensity(const Tip& tip) const {
-  return tip.intensity[0] + tip.trial * (tip.intensity[1] - tip.intensity[0]);
+/// By an even load, the tip being where it is tried; 0: not known.
+double MovingTips::root_of_j(const Tip& tip) const {
+  return tip.root_of_j[0] + tip.search.trial() * (tip.root_of_j[1] - tip.root_of_j[0]);
+}
+
+/// By loads that would set `released` free by the whole facet, twice [J/m^2].
+double MovingTips::energy_release(const Tip& tip, double released) const {
+  const double even = root_of_j(tip);
+  if (even > 0.0 && tip.release > 0.0) return even * even * released / tip.release;
+  const double slope = 1.0 + tip.per_spacing * (tip.search.trial() - 0.5);
+  return 0.5 * slope * released / equilibrium_.body().jumps()[tip.facet].area;
 }
 
 /// The opening `behind` (0: the last whole facet, 1: the one before), over what holds the tip.
 double MovingTips::by_law(const Tip& tip, int behind) const {
   const Index facet = behind == 0 ? tip.at.facet : tip.at.before;
-  const double s = (tip.trial + 0.5 + behind) * body_.spacing();
-  const double share = opened(tip, tip.trial);
+  const double s = (tip.search.trial() + 0.5 + behind) * body_.spacing();
+  const double share = opened(tip, tip.search.trial());
   const double even = (1.0 - share) * tip.held[behind] + share * tip.cut[behind];
   const TipLaw held = law(tip);
   const TipLaw unit{held.plane_strain_modulus, 1.0};
-  const double over = even / (intensity(tip) * unit.opening(within_crack(tip, s), 0.0, {}, 1.0));
+  const double root = root_of_j(tip);
+  const double over =
+      root > 0.0 ? even / (root * unit.opening(within_crack(tip, s), 0.0, {}, 1.0)) : 1.0;
   CrackTip at = end_of(tip);
-  at.place = at.place - (1.0 - tip.trial) * body_.spacing() * at.direction;
+  at.place = at.place - (1.0 - tip.search.trial()) * body_.spacing() * at.direction;
   const double open = equilibrium_.faces().opening[facet] / over -
-                      tips_.opening_by_layers(at, s, held, std::min(tip.trial, 1.0));
-  return open / held.opening(within_crack(tip, s), s, fluid(tip), speed(tip, tip.trial));
+                      tips_.opening_by_layers(at, s, held, std::min(tip.search.trial(), 1.0));
+  return open / held.opening(within_crack(tip, s), s, fluid(tip), speed(tip, tip.search.trial()));
 }
 
 /// The logarithm of K over what holds the tip.
@@ -211,9 +219,10 @@ double MovingTips::excess(const Tip& tip, std::size_t k, const CutLoad& load,
   }
   const double released = away.apart[0] > 0.0 ? partial.release(k, away, away) : 0.0;
   const double dry =
-      intensity(tip) * std::sqrt(std::max(0.0, released / tip.release) / law(tip).fracture_energy);
+      std::sqrt(std::max(0.0, energy_release(tip, released)) / law(tip).fracture_energy);
   if (!has_viscosity) return std::log(std::max(dry, 1e-6));
-  const double opening = (1.0 - tip.trial) * by_law(tip, 1) + tip.trial * by_law(tip, 0);
+  const double opening =
+      (1.0 - tip.search.trial()) * by_law(tip, 1) + tip.search.trial() * by_law(tip, 0);
   const double ratio = mode_ratio(tip, energy_release_.jump(tip.at, jumps));
   const double followed = opening > 0.0 ? kink_intensity({opening, opening * ratio}) : 0.0;
   return std::log(std::max({followed, dry, 1e-6}));
@@ -234,15 +243,17 @@ bool MovingTips::find() {
   const auto jumps = cracked.jumps_under(faces.pressure, faces.shear);
   bool settled = true;
   for (std::size_t k = 0; k < moving_.size(); ++k) {
-    moving_[k].excess = excess(moving_[k], k, loads[k], jumps);
-    settled = !look_further(moving_[k]) && settled;
+    Tip& tip = moving_[k];
+    if (tip.ends) continue;
+    const double beyond = excess(tip, k, loads[k], jumps);
+    settled = !tip.search.look_further(beyond, foretold(tip, beyond)) && settled;
   }
   if (!settled) hold();
   return settled;
 }
 
 /// What the tip would meet there under fluid of fixed volume: intensity falls as the crack grows.
-double MovingTips::next_trial(const Tip& tip) const {
+double MovingTips::foretold(const Tip& tip, double excess) const {
   const TipLaw held = law(tip);
   const TipFluid follows = fluid(tip);
   const auto holds = [&](double part) {
@@ -251,11 +262,11 @@ double MovingTips::next_trial(const Tip& tip) const {
     return std::log(held.opening(dry, s, follows, speed(tip, part)) /
                     held.opening(dry, s, none, 1.0));
   };
-  const double now = holds(tip.trial);
+  const double now = holds(tip.search.trial());
   const auto left = [&](double part) {
-    return tip.excess + now - holds(part) - 1.5 * tip.per_spacing * (part - tip.trial);
+    return excess + now - holds(part) - 1.5 * tip.per_spacing * (part - tip.search.trial());
   };
-  double low = tip.part, high = farthest;
+  double low = tip.part, high = TipSearch::farthest;
   if (left(high) >= 0.0) return high;
   for (int n = 0; n < 40; ++n) {
     const double middle = 0.5 * (low + high);
@@ -264,42 +275,13 @@ double MovingTips::next_trial(const Tip& tip) const {
   return 0.5 * (low + high);
 }
 
-/// True where another place has to be tried.
-bool MovingTips::look_further(Tip& tip) {
-  if (tip.ends) return false;
-  // The first pass is of what openings were foretold, not of the cut that is held now.
-  if (++tip.tries == 1) return true;
-  const double slope = (tip.excess - tip.excess_before) / (tip.trial - tip.trial_before);
-  const bool falls = std::isfinite(slope) && slope < 0.0;
-  // Where it would be by the last two, however far; else by what the tip meets there.
-  tip.reach = falls ? tip.trial - tip.excess / slope : next_trial(tip);
-  const bool stands = tip.trial <= tip.part && tip.excess <= tolerance;
-  const bool beyond = tip.trial >= farthest && tip.excess >= -tolerance;
-  if (std::abs(tip.excess) <= tolerance || stands || beyond) return false;
-  (tip.excess > 0.0 ? tip.low : tip.high) = tip.trial;
-  // Other modules have gone on meanwhile: what was between is not any more.
-  if (!(tip.low < tip.high))
-    (tip.excess > 0.0 ? tip.high : tip.low) = tip.excess > 0.0 ? farthest : tip.part;
-  const bool is_between = tip.tries > 2 && tip.high - tip.low < narrow;
-  if (is_between || tip.tries > most_tries) return false;
-  tip.excess_before = tip.excess;
-  tip.trial_before = tip.trial;
-  const double margin = 0.02 * (tip.high - tip.low);
-  double next = tip.reach;
-  const bool has_both = tip.low > tip.part && tip.high < farthest;
-  if (has_both && !(next > tip.low + margin && next < tip.high - margin)) {
-    next = 0.5 * (tip.low + tip.high);
-  }
-  tip.trial = std::clamp(next, tip.low, tip.high);
-  return true;
-}
-
 double MovingTips::first_crossed() {
   double share = 1.0;
   for (Tip& tip : moving_) {
     tip.expected_rate = 0.0;
-    if (tip.trial <= 1.0 + crossed) continue;
-    const double end = std::max(tip.trial, tip.trial >= farthest ? tip.reach : 0.0);
+    const double trial = tip.search.trial();
+    if (trial <= 1.0 + crossed) continue;
+    const double end = trial >= TipSearch::farthest ? std::max(trial, tip.search.reach()) : trial;
     tip.expected_rate = (end - tip.part) / window_.length();
     share = std::min(share, std::clamp((1.0 - tip.part) / (end - tip.part), 0.02, 0.98));
   }
@@ -313,7 +295,7 @@ void MovingTips::book() {
   const auto loads = cracked.cut_loads(faces.pressure, faces.shear);
   for (std::size_t k = 0; k < moving_.size(); ++k) {
     Tip& tip = moving_[k];
-    const double part = std::min(tip.trial, 1.0);
+    const double part = std::min(tip.search.trial(), 1.0);
     const double spent =
         cracked.jumps()[tip.facet].area * (part - tip.part) * law(tip).fracture_energy;
     if (tip.part == 0.0) {
@@ -322,13 +304,14 @@ void MovingTips::book() {
           cracked.partial().whole_compliance(k) * (loads[k].traction - tip.load.traction);
       tip.load.traction = loads[k].traction;
     }
-    const double released = 0.5 * (opened(tip, tip.trial) - opened(tip, tip.part)) *
+    const double released = 0.5 * (opened(tip, tip.search.trial()) - opened(tip, tip.part)) *
                             cracked.partial().release(k, tip.load, loads[k]);
     work_.spend(spent);
-    if (tip.trial > tip.part) work_.radiate(released - spent);
-    if (window_.length() > 0.0) tip.rate = (tip.trial - tip.part) / window_.length();
+    if (tip.search.trial() > tip.part) work_.radiate(released - spent);
+    if (window_.length() > 0.0) tip.rate = (tip.search.trial() - tip.part) / window_.length();
     tip.load = loads[k];
-    tip.part = tip.trial = part;
+    tip.part = part;
+    tip.search.put(part);
   }
 }
 
@@ -372,7 +355,7 @@ void MovingTips::note_loads() {
 
 std::vector<double>& MovingTips::parts() {
   parts_.assign(equilibrium_.body().facets().size(), 1.0);
-  for (const Tip& tip : moving_) parts_[tip.facet] = std::min(1.0, tip.trial);
+  for (const Tip& tip : moving_) parts_[tip.facet] = std::min(1.0, tip.search.trial());
   return parts_;
 }
 
@@ -391,8 +374,8 @@ void MovingTips::visit_state(StateVisitor& visitor) {
              FieldOfEach("part", [](Tip& tip) -> double& { return tip.part; }),
              FieldOfEach("per_spacing", [](Tip& tip) -> double& { return tip.per_spacing; }),
              FieldOfEach("rate", [](Tip& tip) -> double& { return tip.rate; }),
-             FieldOfEach("intensity_begin", [](Tip& tip) -> double& { return tip.intensity[0]; }),
-             FieldOfEach("intensity_end", [](Tip& tip) -> double& { return tip.intensity[1]; }),
+             FieldOfEach("intensity_begin", [](Tip& tip) -> double& { return tip.root_of_j[0]; }),
+             FieldOfEach("intensity_end", [](Tip& tip) -> double& { return tip.root_of_j[1]; }),
              FieldOfEach("release", [](Tip& tip) -> double& { return tip.release; }),
              FieldOfEach("sliding", [](Tip& tip) -> double& { return tip.sliding; }),
              FieldOfEach("held", [](Tip& tip) -> double& { return tip.held[0]; }),
@@ -403,7 +386,7 @@ void MovingTips::visit_state(StateVisitor& visitor) {
   // What the passes of a window look for outlasts their going back.
   for (std::size_t k = 0; k < moving_.size(); ++k) {
     if (k < before.size() && before[k].facet == moving_[k].facet) continue;
-    moving_[k].trial = moving_[k].part;
+    moving_[k].search.put(moving_[k].part);
   }
 }
 

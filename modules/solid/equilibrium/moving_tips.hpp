@@ -9,6 +9,7 @@
 #include "core/state/state_visitor.hpp"
 #include "modules/solid/equilibrium/cracked_equilibrium.hpp"
 #include "modules/solid/equilibrium/cracked_work.hpp"
+#include "modules/solid/equilibrium/tip_search.hpp"
 #include "modules/solid/fracture/crack_tips.hpp"
 
 namespace perifrac {
@@ -60,20 +61,15 @@ class MovingTips {
     double rate = 0.0;         ///< at which that grew last [1/s]
     double per_spacing = 0.0;  ///< spacing over half the crack's length
     // Of even loads of 1 Pa:
-    std::array<double, 2> intensity{};  ///< root of J as its facet begins and ends [Pa m^0.5 / ...]
+    std::array<double, 2> root_of_j{};  ///< as its facet begins and ends; 0: not known
     double sliding = 0.0;  ///< over opening behind it, by even loads of one intensity each
     double release = 0.0;  ///< of its facet, whole, times 2 [m^2/Pa]
     /// Opening of the last facet and the one before, with its own not cut and cut [m].
     std::array<double, 2> held{}, cut{};
     CutLoad load{};  ///< when last booked
 
-    double trial = 0.0;  ///< part at the window's end
-    double excess = 0.0;
-    double trial_before = 0.0, excess_before = 0.0;
-    double low = 0.0, high = 0.0;  ///< it is between, in parts
-    double reach = 0.0;            ///< where it would be, beyond its facet too
-    double expected_rate = 0.0;    ///< of that, where the window is tried again [1/s]
-    int tries = 0;
+    TipSearch search{};
+    double expected_rate = 0.0;  ///< as rate, where the window is tried again [1/s]
   };
 
   double opened(const Tip& tip, double part) const;
@@ -82,16 +78,16 @@ class MovingTips {
   bool cut_for(const CrackTip& at, double turn);
   double excess(const Tip& tip, std::size_t k, const CutLoad& load,
                 std::span<const Vector<2>> jumps) const;
-  double intensity(const Tip& tip) const;
+  double root_of_j(const Tip& tip) const;
+  double energy_release(const Tip& tip, double released) const;
   double by_law(const Tip& tip, int behind) const;
   TipLaw law(const Tip& tip) const;
   TipFluid fluid(const Tip& tip) const;
   double speed(const Tip& tip, double part) const;
   double within_crack(const Tip& tip, double s) const;
-  double next_trial(const Tip& tip) const;
-  bool look_further(Tip& tip);
+  double foretold(const Tip& tip, double excess) const;
   void ask_even_loads(std::size_t first);
-  double root_of_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const;
+  double ask_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const;
   double mode_ratio(const Tip& tip, const TipJump& jump) const;
   double turn(const Tip& tip, std::span<const Vector<2>> jumps) const;
   void book();
