@@ -36,11 +36,16 @@ void CarterLeakOff<D>::note_arrivals(std::span<const double> fill, double from, 
   }
 }
 
-/// What is there and has not come in a step was there at once.
+/// What is there and has not come in a step was there at once; where a tip goes on, `part` is of
+/// the step's end.
 template <int D>
 void CarterLeakOff<D>::begin(const TimeWindow& step, std::span<const double> fill) {
   step_ = step;
-  note_arrivals(fill, step.begin, step.begin);
+  std::vector<double> unknown(fill.begin(), fill.end());
+  for (std::size_t f = 0; f < unknown.size(); ++f) {
+    if (wet_share_[f] > 0.0) unknown[f] = 0.0;
+  }
+  note_arrivals(unknown, step.begin, step.begin);
 }
 
 template <int D>
