@@ -182,7 +182,7 @@ template <int D>
 Eigen::MatrixXd CondensedBody<D>::compliance(int jump, int traction) {
   const bool of_openings = jump == 0 && traction == 0;
   Eigen::MatrixXd compliance = of_openings ? whole_compliance_ : whole_compliance(jump, traction);
-  if (!partial_.empty()) partial_.hold(compliance, jump, traction, by_partial_, areas_);
+  if (!partial_.empty()) partial_.hold(compliance, jump, traction);
   if (of_openings) {
     for (std::size_t f = 0; f < modes_.size(); ++f) compliance(f, f) += pressed_[f];
   }

@@ -129,9 +129,7 @@ class CondensedBody final : public CrackedBody<D> {
   Eigen::MatrixXd compliance_;
 
   PartialCuts partial_;
-  Eigen::MatrixXd whole_compliance_;           ///< of openings, were partial cuts whole
-  std::array<Eigen::MatrixXd, D> by_partial_;  ///< jumps of all facets by forces of partial cuts
-  Eigen::VectorXd areas_;                      ///< of facets
+  Eigen::MatrixXd whole_compliance_;  ///< of openings, were partial cuts whole
 
   Eigen::VectorXd load_;         ///< of those solved for
   Eigen::VectorXd intact_move_;  ///< what it does to the body with its first cracks

@@ -6,18 +6,23 @@ namespace perifrac {
 
 namespace {
 
-/// Of the largest, a part of stiffness that counts as nothing.
-constexpr double nothing = 1e-13;
+/// What stiffens its own place by less than this part counts as nothing.
+constexpr double nothing = 1e-9;
+/// Cuts that are far from each other answer each other so often, to this of what they do.
+constexpr int most_trials = 30;
+constexpr double rounding = 1e-14;
 
-/// A symmetric matrix as V d V^T, without what is nothing.
-void decompose(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& vectors, Eigen::VectorXd& values) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(matrix);
-  const double least = nothing * found.eigenvalues().cwiseAbs().maxCoeff();
+/// A symmetric stiffness L as V d V^T, without what is nothing, with V^T A V = 1.
+void decompose(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& moved_by,
+               Eigen::MatrixXd& vectors, Eigen::VectorXd& values) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(moved_by);
+  const Eigen::MatrixXd root = factor.matrixL();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(root.transpose() * stiffness * root);
   std::vector<Eigen::Index> kept;
-  for (Eigen::Index n = 0; n < matrix.rows(); ++n) {
-    if (std::abs(found.eigenvalues()[n]) > least) kept.push_back(n);
+  for (Eigen::Index n = 0; n < found.eigenvalues().size(); ++n) {
+    if (std::abs(found.eigenvalues()[n]) > nothing) kept.push_back(n);
   }
-  vectors = found.eigenvectors()(Eigen::all, kept);
+  vectors = factor.matrixU().solve(found.eigenvectors()(Eigen::all, kept));
   values = found.eigenvalues()(kept);
 }
 
@@ -29,7 +34,7 @@ void PartialCuts::take(std::vector<Cut> cuts, const Eigen::MatrixXd& block) {
   for (Cut& cut : cuts) {
     Part& part = parts_.emplace_back();
     Eigen::MatrixXd vectors;
-    decompose(cut.less, vectors, part.less);
+    decompose(cut.less, block(cut.places, cut.places), vectors, part.less);
     part.at = cut.at;
     part.area = cut.area;
     part.pressed = cut.pressed;
@@ -50,19 +55,41 @@ void PartialCuts::take(std::vector<Cut> cuts, const Eigen::MatrixXd& block) {
     gram_.middleRows(part.first, part.basis.cols()).noalias() =
         part.basis.transpose() * columns_(part.places, Eigen::all);
   }
+  between_ = gram_;
   for (Part& part : parts_) {
-    const auto moved = gram_.block(part.first, part.first, part.rank, part.rank);
-    Eigen::MatrixXd system = moved * part.less.asDiagonal();
-    system.diagonal().array() += 1.0;
-    part.softened = system.partialPivLu().inverse();
+    between_.block(part.first, part.first, part.rank, part.rank).setZero();
+    part.softened = (1.0 + part.less.array()).inverse();
     set(part, part.at.opened);
   }
-  hold_together();
 }
 
 void PartialCuts::open(std::span<const double> opened) {
   for (std::size_t k = 0; k < parts_.size(); ++k) set(parts_[k], opened[k]);
-  hold_together();
+  answer();
+}
+
+void PartialCuts::tell(std::vector<Eigen::MatrixXd> rows, Eigen::VectorXd area) {
+  rows_ = std::move(rows);
+  area_ = std::move(area);
+  answer();
+}
+
+/// What tractions on all facets and on the partial cuts do, along each axis.
+void PartialCuts::answer() {
+  const auto axes = static_cast<int>(rows_.size());
+  of_facets_.resize(rows_.size());
+  acting_.resize(rows_.size());
+  of_cuts_.resize(rows_.size());
+  for (int a = 0; a < axes; ++a) {
+    of_facets_[a] = taken(rows_[a].transpose());
+    acting_[a] = Eigen::MatrixXd::Zero(gram_.rows(), std::ssize(parts_));
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const Part& part = parts_[k];
+      acting_[a].col(static_cast<Eigen::Index>(k)).segment(part.first, part.basis.cols()) =
+          part.acting.col(a);
+    }
+    of_cuts_[a] = acting_[a] - taken(gram_ * acting_[a]);
+  }
 }
 
 /// V^T A m.
@@ -79,29 +106,35 @@ Eigen::MatrixXd PartialCuts::own_jumps(const Part& part) const {
 void PartialCuts::set(Part& part, double opened) {
   part.at.opened = opened;
   const Eigen::Index axes = part.basis.cols() - part.rank;
-  Eigen::MatrixXd system = (1.0 - opened) * part.softened;
-  system.diagonal().array() += opened;
-  const Eigen::MatrixXd held =
-      (1.0 - opened) * part.less.asDiagonal() * part.softened * system.partialPivLu().inverse();
-  part.held = 0.5 * (held + held.transpose());
+  part.held = (1.0 - opened) * part.less.array() * part.softened.array() /
+              (opened + (1.0 - opened) * part.softened.array());
   const Eigen::MatrixXd a = by_own_faces(part);
   part.acting.resize(part.basis.cols(), axes);
-  part.acting.topRows(part.rank) = opened * part.held * a;
+  part.acting.topRows(part.rank) = opened * part.held.asDiagonal() * a;
   part.acting.bottomRows(axes) = opened * Eigen::MatrixXd::Identity(axes, axes);
-  part.own =
-      opened * (1.0 - opened) * own_jumps(part) - opened * opened * a.transpose() * part.held * a;
+  part.own = opened * (1.0 - opened) * own_jumps(part) -
+             opened * opened * a.transpose() * part.held.asDiagonal() * a;
 }
 
-void PartialCuts::hold_together() {
-  const Eigen::Index all = gram_.rows();
-  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(all, all);
+/// (1 / H + V^T A V)^-1 in the basis, times that: each cut by itself, and again with what the
+/// others take, until nothing changes.
+Eigen::MatrixXd PartialCuts::taken(const Eigen::MatrixXd& moved) const {
+  Eigen::VectorXd alone = Eigen::VectorXd::Zero(gram_.rows());
   for (const Part& part : parts_) {
-    held.block(part.first, part.first, part.rank, part.rank) = part.held;
+    alone.segment(part.first, part.rank) =
+        (1.0 - part.at.opened) * part.less.cwiseProduct(part.softened);
   }
-  Eigen::MatrixXd system = held * gram_;
+  Eigen::MatrixXd taken = alone.asDiagonal() * moved;
+  if (parts_.size() == 1) return taken;
+  for (int trial = 0; trial < most_trials; ++trial) {
+    const Eigen::MatrixXd next = alone.asDiagonal() * (moved - between_ * taken);
+    const double change = (next - taken).cwiseAbs().maxCoeff();
+    taken = next;
+    if (change <= rounding * taken.cwiseAbs().maxCoeff()) return taken;
+  }
+  Eigen::MatrixXd system = alone.asDiagonal() * between_;  // of cuts that touch each other
   system.diagonal().array() += 1.0;
-  const Eigen::MatrixXd taken = system.partialPivLu().solve(held);
-  taken_ = 0.5 * (taken + taken.transpose());
+  return system.partialPivLu().solve(alone.asDiagonal() * moved);
 }
 
 Eigen::VectorXd PartialCuts::held(const Eigen::VectorXd& moved) const {
@@ -109,7 +142,7 @@ Eigen::VectorXd PartialCuts::held(const Eigen::VectorXd& moved) const {
   for (const Part& part : parts_) {
     named.segment(part.first, part.basis.cols()) = in_basis(part, moved);
   }
-  return moved - columns_ * (taken_ * named);
+  return moved - columns_ * taken(named);
 }
 
 /// Of a field on the block.
@@ -121,7 +154,7 @@ Eigen::VectorXd PartialCuts::force(const Eigen::VectorXd& block) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(block.size());
   for (const Part& part : parts_) {
     const Eigen::VectorXd moved = in_basis(part, block).head(part.rank);
-    sum(part.places) += part.basis.leftCols(part.rank) * (part.held * moved);
+    sum(part.places) += part.basis.leftCols(part.rank) * (part.held.asDiagonal() * moved);
   }
   return sum;
 }
@@ -143,25 +176,22 @@ Eigen::MatrixXd PartialCuts::whole_compliance(std::size_t k) const {
   return own;
 }
 
-void PartialCuts::hold(Eigen::MatrixXd& compliance, int jump, int traction,
-                       std::span<const Eigen::MatrixXd> rows, const Eigen::VectorXd& area) const {
-  const Eigen::MatrixXd &by_jump = rows[jump], &by_traction = rows[traction];
-  compliance.noalias() -= by_jump * (taken_ * by_traction.transpose()) * area.asDiagonal();
-  const auto acting = [&](const Part& part, int axis) {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(gram_.rows());
-    all.segment(part.first, part.basis.cols()) = part.acting.col(axis);
-    return Eigen::VectorXd(all - taken_ * (gram_ * all));
-  };
-  for (const Part& part : parts_) {
-    compliance.col(part.at.facet) = part.area * (by_jump * acting(part, traction));
-    compliance.row(part.at.facet) =
-        (area.asDiagonal() * (by_traction * acting(part, jump))).transpose();
+void PartialCuts::hold(Eigen::MatrixXd& compliance, int jump, int traction) const {
+  compliance -= rows_[jump] * of_facets_[traction] * area_.asDiagonal();
+  const Eigen::MatrixXd columns = rows_[jump] * of_cuts_[traction];
+  const Eigen::MatrixXd rows = area_.asDiagonal() * (rows_[traction] * of_cuts_[jump]);
+  const Eigen::MatrixXd between = acting_[jump].transpose() * (gram_ * of_cuts_[traction]);
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    compliance.col(parts_[k].at.facet) = parts_[k].area * columns.col(at);
+    compliance.row(parts_[k].at.facet) = rows.col(at).transpose();
   }
-  for (const Part& one : parts_) {
-    for (const Part& other : parts_) {
-      const Eigen::VectorXd moved =
-          gram_.middleRows(one.first, one.basis.cols()) * acting(other, traction);
-      compliance(one.at.facet, other.at.facet) = other.area * one.acting.col(jump).dot(moved);
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Part& one = parts_[k];
+    for (std::size_t n = 0; n < parts_.size(); ++n) {
+      const Part& other = parts_[n];
+      compliance(one.at.facet, other.at.facet) =
+          other.area * between(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(n));
     }
     compliance(one.at.facet, one.at.facet) += one.area * one.own(jump, traction);
   }
@@ -174,12 +204,11 @@ CutLoad PartialCuts::load(std::size_t k, const Eigen::VectorXd& block,
   const Eigen::VectorXd moved = in_basis(part, block);
   const Eigen::VectorXd push = part.area * traction;
   const Eigen::MatrixXd a = by_own_faces(part);
-  Eigen::MatrixXd system = rest * part.softened;
-  system.diagonal().array() += opened;
   CutLoad load;
   load.traction = traction;
-  load.borne = system.partialPivLu().solve(moved.head(part.rank) - opened * (a * push));
-  const Eigen::VectorXd taken = part.less.asDiagonal() * (part.softened * load.borne);
+  load.borne = (moved.head(part.rank) - opened * (a * push)).array() /
+               (opened + rest * part.softened.array());
+  const Eigen::VectorXd taken = part.less.cwiseProduct(part.softened).cwiseProduct(load.borne);
   load.apart = moved.tail(moved.size() - part.rank) + rest * (a.transpose() * taken) +
                rest * (own_jumps(part) * push);
   load.apart[0] += part.pressed * traction[0];
@@ -188,7 +217,7 @@ CutLoad PartialCuts::load(std::size_t k, const Eigen::VectorXd& block,
 
 double PartialCuts::release(std::size_t k, const CutLoad& one, const CutLoad& other) const {
   const Part& part = parts_[k];
-  const Eigen::VectorXd taken = part.less.asDiagonal() * (part.softened * other.borne);
+  const Eigen::VectorXd taken = part.less.cwiseProduct(part.softened).cwiseProduct(other.borne);
   const double across = one.traction.dot(other.apart) + other.traction.dot(one.apart) -
                         part.pressed * one.traction[0] * other.traction[0];
   return part.area * across -
@@ -200,7 +229,7 @@ double PartialCuts::energy(const Eigen::VectorXd& block) const {
   double sum = 0.0;
   for (const Part& part : parts_) {
     const Eigen::VectorXd moved = in_basis(part, block).head(part.rank);
-    sum += 0.5 * moved.dot(part.held * moved);
+    sum += 0.5 * moved.dot(part.held.asDiagonal() * moved);
   }
   return sum;
 }

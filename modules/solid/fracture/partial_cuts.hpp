@@ -29,8 +29,8 @@ struct CutLoad {
 ///   answer = answer(uncut) + opened (answer(cut) - answer(uncut)),
 /// where the faces of the facet are loaded in the cut one alone. That is a stiffness of its own
 /// across the cut: with K and A = 1 / K of the cut body and `less` = K(uncut) - K = V d V^T,
-///   K(opened) = K + V H V^T,  H = (1 - opened) d G (opened + (1 - opened) G)^-1,
-///   G = (1 + V^T A V d)^-1,
+///   K(opened) = K + V H V^T,  H = (1 - opened) d G / (opened + (1 - opened) G),  G = 1 / (1 + d),
+/// all diagonal where V^T A V = 1,
 /// so that energies follow, and that several cuts act together. H of each is as if the others were
 /// cut. A traction q of the facet's faces, with mean jumps m^T u, becomes a force f q and an
 /// opening of the facet's own E q,
@@ -52,6 +52,8 @@ class PartialCuts {
   const PartialCut& at(std::size_t k) const { return parts_[k].at; }
   /// `block`: of A, of the body with all its facets cut.
   void take(std::vector<Cut> cuts, const Eigen::MatrixXd& block);
+  /// `rows[axis]`: mean jumps of all facets times columns(); `area`: theirs.
+  void tell(std::vector<Eigen::MatrixXd> rows, Eigen::VectorXd area);
   /// Of each, in their order.
   void open(std::span<const double> opened);
 
@@ -67,9 +69,8 @@ class PartialCuts {
   Eigen::MatrixXd whole_compliance(std::size_t k) const;
 
   /// Takes a compliance of the cut body, jumps along one axis by tractions along another, to that
-  /// of the held one; `rows[axis]`: respond() of the mean jumps of all facets, `area` theirs.
-  void hold(Eigen::MatrixXd& compliance, int jump, int traction,
-            std::span<const Eigen::MatrixXd> rows, const Eigen::VectorXd& area) const;
+  /// of the held one.
+  void hold(Eigen::MatrixXd& compliance, int jump, int traction) const;
   /// What moves of the block a force on each cut's unknowns does, in the order of an inner basis.
   const Eigen::MatrixXd& columns() const { return columns_; }
 
@@ -88,8 +89,8 @@ class PartialCuts {
     Eigen::MatrixXd basis;  ///< V, then the mean jumps; on the places
     Eigen::VectorXd less;   ///< d
     Eigen::Index first = 0, rank = 0;
-    Eigen::MatrixXd softened;  ///< G
-    Eigen::MatrixXd held;      ///< H
+    Eigen::VectorXd softened;  ///< G
+    Eigen::VectorXd held;      ///< H
     Eigen::MatrixXd acting;    ///< f of unit tractions, in the basis
     Eigen::MatrixXd own;       ///< E
   };
@@ -98,12 +99,19 @@ class PartialCuts {
   Eigen::MatrixXd by_own_faces(const Part& part) const;
   Eigen::MatrixXd own_jumps(const Part& part) const;
   void set(Part& part, double opened);
-  void hold_together();
+  void answer();
+  Eigen::MatrixXd taken(const Eigen::MatrixXd& moved) const;
 
   std::vector<Part> parts_;
   Eigen::MatrixXd columns_;  ///< A times all bases
   Eigen::MatrixXd gram_;     ///< all bases^T A times all bases
-  Eigen::MatrixXd taken_;    ///< A(held) = A - columns taken columns^T
+  Eigen::MatrixXd between_;  ///< of that, one V with another
+  std::vector<Eigen::MatrixXd> rows_;
+  Eigen::VectorXd area_;
+  // By axis, in the basis:
+  std::vector<Eigen::MatrixXd> of_facets_;  ///< taken() of the jumps of all facets
+  std::vector<Eigen::MatrixXd> acting_;     ///< f of each cut
+  std::vector<Eigen::MatrixXd> of_cuts_;    ///< that less what is taken of its moves
 };
 
 }  // namespace perifrac

@@ -35,16 +35,17 @@ void CondensedBody<D>::take_partial(std::span<const PartialCut> cuts) {
   for (const PartialCut& cut : cuts) taken.push_back(partial_cut(cut));
   partial_.take(std::move(taken), inverse_->block());
   const auto count = static_cast<Eigen::Index>(modes_.size());
-  areas_.resize(count);
-  for (Eigen::Index f = 0; f < count; ++f) areas_[f] = jumps_[f].area;
+  Eigen::VectorXd area(count);
+  for (Eigen::Index f = 0; f < count; ++f) area[f] = jumps_[f].area;
+  std::vector<Eigen::MatrixXd> rows(D, Eigen::MatrixXd::Zero(count, partial_.columns().cols()));
   for (int k = 0; k < D; ++k) {
-    by_partial_[k].setZero(count, partial_.columns().cols());
     for (Eigen::Index f = 0; f < count; ++f) {
       for (const auto& [place, c] : modes_[f][k]) {
-        by_partial_[k].row(f) += c * partial_.columns().row(place);
+        rows[k].row(f) += c * partial_.columns().row(place);
       }
     }
   }
+  partial_.tell(std::move(rows), std::move(area));
   Eigen::VectorXd moved(inverse_->block().rows());
   for (Eigen::Index k = 0; k < moved.size(); ++k) {
     moved[k] = intact_move_[inverse_->unknowns()[k]];
