@@ -199,7 +199,7 @@ void CrackGrowth<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("last_growth", last_growth_);
   if (nucleation_) visitor.visit("nucleus_readiness", nucleus_before_);
   tips_.visit_state(visitor);
-  if (moving_) moving_->visit_state(visitor);
+  if (moving_ && equilibrium_.is_wet()) moving_->visit_state(visitor);
 }
 
 template <int D>

@@ -56,12 +56,13 @@ bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips) {
   std::vector<Tip> found;
   for (const auto& [at, turned] : tips) {
     Tip& tip = found.emplace_back(Tip{.at = at});
-    tip.root_of_j[0] = ask_j(at, {1.0, 0.0}, nullptr);
+    ask_modes(at, tip.root_of_j[0], tip.sliding[0]);
     if (at.before != no_facet) tip.per_spacing = cracked.intensity_at_fixed_volume(at.before);
   }
   for (std::size_t k = 0; k < tips.size(); ++k) {
     if (!cut_for(tips[k].first, tips[k].second)) continue;
     moving_.back().root_of_j[0] = found[k].root_of_j[0];
+    moving_.back().sliding[0] = found[k].sliding[0];
     moving_.back().per_spacing = found[k].per_spacing;
   }
   ask_even_loads(first);
@@ -95,6 +96,18 @@ double MovingTips::ask_j(const CrackTip& at, const Vector<2>& traction, TipJump*
   return std::sqrt(std::max(0.0, load.energy_release));
 }
 
+/// Root of J by an even pressure, and how far the faces slide over how far they open by even loads
+/// of one intensity each; 0: not known.
+void MovingTips::ask_modes(const CrackTip& at, double& root, double& ratio) const {
+  TipJump pressed{}, sheared{};
+  root = ask_j(at, {1.0, 0.0}, &pressed);
+  const double mode_two = ask_j(at, {0.0, 1.0}, &sheared);
+  const double apart = pressed.opening + equilibrium_.body().pressed_by(at.facet);
+  const double slid = std::abs(sheared.sliding);
+  const bool is_known = std::min({apart, slid, mode_two, root}) > 0.0;
+  ratio = is_known ? slid / mode_two * root / apart : 0.0;
+}
+
 /// Of the tips from `first` on, all facets cut whole.
 void MovingTips::ask_even_loads(std::size_t first) {
   CrackedBody<2>& cracked = equilibrium_.body();
@@ -112,13 +125,8 @@ void MovingTips::ask_even_loads(std::size_t first) {
     const double ratio =
         known ? cracked.intensity_at_fixed_volume(tip.at.facet) / tip.per_spacing : 1.0;
     tip.per_spacing = (1.0 - std::min(1.0, ratio)) / 1.5;
-    TipJump pressed{}, sheared{};
-    tip.root_of_j[1] = ask_j(end_of(tip), {1.0, 0.0}, &pressed);
-    const double mode_two = ask_j(end_of(tip), {0.0, 1.0}, &sheared);
-    const double slid = std::abs(sheared.sliding);
-    const double apart = pressed.opening + cracked.pressed_by(tip.at.facet);
-    const bool has_modes = std::min({apart, slid, mode_two, tip.root_of_j[1]}) > 0.0;
-    tip.sliding = has_modes ? slid / mode_two * tip.root_of_j[1] / apart : 0.0;
+    ask_modes(end_of(tip), tip.root_of_j[1], tip.sliding[1]);
+    if (tip.sliding[1] == 0.0) tip.sliding[1] = tip.sliding[0];
     if (tip.root_of_j[1] == 0.0)
       tip.root_of_j[1] = tip.root_of_j[0] * (1.0 + 0.5 * tip.per_spacing);
     if (tip.root_of_j[0] == 0.0)
@@ -223,15 +231,16 @@ double MovingTips::excess(const Tip& tip, std::size_t k, const CutLoad& load,
   if (!has_viscosity) return std::log(std::max(dry, 1e-6));
   const double opening =
       (1.0 - tip.search.trial()) * by_law(tip, 1) + tip.search.trial() * by_law(tip, 0);
-  const double ratio = mode_ratio(tip, energy_release_.jump(tip.at, jumps));
+  const double ratio = mode_ratio(tip, 0, energy_release_.jump(tip.at, jumps));
   const double followed = opening > 0.0 ? kink_intensity({opening, opening * ratio}) : 0.0;
   return std::log(std::max({followed, dry, 1e-6}));
 }
 
-/// K_II / K_I.
-double MovingTips::mode_ratio(const Tip& tip, const TipJump& jump) const {
+/// K_II / K_I by the jumps behind the begin (0) or the end (1) of its facet.
+double MovingTips::mode_ratio(const Tip& tip, std::size_t place, const TipJump& jump) const {
   if (!(jump.opening > 0.0)) return 0.0;
-  const double sliding = tip.sliding > 0.0 ? jump.sliding / tip.sliding : modes_of(jump).sliding;
+  const double known = tip.sliding[place];
+  const double sliding = known > 0.0 ? jump.sliding / known : modes_of(jump).sliding;
   return sliding / jump.opening;
 }
 
@@ -317,7 +326,7 @@ void MovingTips::book() {
 
 double MovingTips::turn(const Tip& tip, std::span<const Vector<2>> jumps) const {
   const TipJump jump = energy_release_.jump(end_of(tip), jumps);
-  const double ratio = mode_ratio(tip, jump);
+  const double ratio = mode_ratio(tip, 1, jump);
   const double turn = kink_angle({1.0, ratio});
   return std::abs(turn) < straight ? 0.0 : turn;
 }
@@ -377,7 +386,8 @@ void MovingTips::visit_state(StateVisitor& visitor) {
              FieldOfEach("intensity_begin", [](Tip& tip) -> double& { return tip.root_of_j[0]; }),
              FieldOfEach("intensity_end", [](Tip& tip) -> double& { return tip.root_of_j[1]; }),
              FieldOfEach("release", [](Tip& tip) -> double& { return tip.release; }),
-             FieldOfEach("sliding", [](Tip& tip) -> double& { return tip.sliding; }),
+             FieldOfEach("sliding_begin", [](Tip& tip) -> double& { return tip.sliding[0]; }),
+             FieldOfEach("sliding_end", [](Tip& tip) -> double& { return tip.sliding[1]; }),
              FieldOfEach("held", [](Tip& tip) -> double& { return tip.held[0]; }),
              FieldOfEach("held_before", [](Tip& tip) -> double& { return tip.held[1]; }),
              FieldOfEach("cut", [](Tip& tip) -> double& { return tip.cut[0]; }),

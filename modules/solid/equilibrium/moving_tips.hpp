@@ -62,7 +62,8 @@ class MovingTips {
     double per_spacing = 0.0;  ///< spacing over half the crack's length
     // Of even loads of 1 Pa:
     std::array<double, 2> root_of_j{};  ///< as its facet begins and ends; 0: not known
-    double sliding = 0.0;  ///< over opening behind it, by even loads of one intensity each
+    /// Sliding over opening behind it, by loads of one intensity each, as its facet begins and ends.
+    std::array<double, 2> sliding{};
     double release = 0.0;  ///< of its facet, whole, times 2 [m^2/Pa]
     /// Opening of the last facet and the one before, with its own not cut and cut [m].
     std::array<double, 2> held{}, cut{};
@@ -88,7 +89,8 @@ class MovingTips {
   double foretold(const Tip& tip, double excess) const;
   void ask_even_loads(std::size_t first);
   double ask_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const;
-  double mode_ratio(const Tip& tip, const TipJump& jump) const;
+  void ask_modes(const CrackTip& at, double& root, double& ratio) const;
+  double mode_ratio(const Tip& tip, std::size_t place, const TipJump& jump) const;
   double turn(const Tip& tip, std::span<const Vector<2>> jumps) const;
   void book();
   void visit_loads(StateVisitor& visitor);
