@@ -87,6 +87,16 @@ class ShippedFracture(unittest.TestCase):
         self.assertLessEqual(run.figure("pressure"), 0.067)
         self.assertLessEqual(run.figure("opening"), 0.012)
 
+    def test_kgd_by_whole_facets(self):
+        """By multigrid facets are cut at once."""
+        at_once = {**SMALL_KGD, "solid.linear_solver.type": "multigrid"}
+        for name, energy, length, pressure, opening in (("kgd_toughness", 1.4e-3, 0.0076, 0.067, 0.0138),
+                                                        ("kgd_viscosity", 0.014, 0.0135, 0.065, 0.010)):
+            run = self.run_scene(name, at_once, energy)
+            self.assertLessEqual(run.figure("length"), length, name)
+            self.assertLessEqual(run.figure("pressure"), pressure, name)
+            self.assertLessEqual(run.figure("opening"), opening, name)
+
     def test_kgd_that_leaks_nearly_all(self):
         """Efficiency 0.08, K_m = 3.4, 14 facets, in the mean from 75 to 95 mm. By tests/references/kgd.py: time
         [s], length [m], opening at the inlet [m]."""

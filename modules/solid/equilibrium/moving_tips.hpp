@@ -62,7 +62,8 @@ class MovingTips {
     double per_spacing = 0.0;  ///< spacing over half the crack's length
     // Of even loads of 1 Pa:
     std::array<double, 2> root_of_j{};  ///< as its facet begins and ends; 0: not known
-    /// Sliding over opening behind it, by loads of one intensity each, as its facet begins and ends.
+    /// Sliding over opening behind it, by loads of one intensity each, as its facet begins and
+    /// ends.
     std::array<double, 2> sliding{};
     double release = 0.0;  ///< of its facet, whole, times 2 [m^2/Pa]
     /// Opening of the last facet and the one before, with its own not cut and cut [m].

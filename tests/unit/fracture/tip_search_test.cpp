@@ -27,7 +27,9 @@ TEST(TipSearch, FindsWhereNothingIsLeftOver) {
 TEST(TipSearch, StandsWhereItIsHeld) {
   TipSearch search;
   search.begin(0.3, 0.5);
-  EXPECT_LE(look(search, [](double s) { return -0.1 - s; }, 0.3), 4);
+  EXPECT_LE(look(
+                search, [](double s) { return -0.1 - s; }, 0.3),
+            4);
   EXPECT_EQ(search.trial(), 0.3);
 }
 
@@ -35,7 +37,8 @@ TEST(TipSearch, StandsWhereItIsHeld) {
 TEST(TipSearch, SaysHowFarBeyondItsFacetItWouldGo) {
   TipSearch search;
   search.begin(0.5, 1.0);
-  look(search, [](double s) { return 0.1 * (3.0 - s); }, 1.2);
+  look(
+      search, [](double s) { return 0.1 * (3.0 - s); }, 1.2);
   EXPECT_EQ(search.trial(), TipSearch::farthest);
   EXPECT_NEAR(search.reach(), 3.0, 1e-9);
 }
@@ -44,7 +47,9 @@ TEST(TipSearch, SaysHowFarBeyondItsFacetItWouldGo) {
 TEST(TipSearch, EndsAtAJump) {
   TipSearch search;
   search.begin(0.0, 0.5);
-  EXPECT_LE(look(search, [](double s) { return s < 0.613 ? 0.1 : -0.1; }, 0.9), 15);
+  EXPECT_LE(look(
+                search, [](double s) { return s < 0.613 ? 0.1 : -0.1; }, 0.9),
+            15);
   EXPECT_NEAR(search.trial(), 0.613, 1e-3);
 }
 
