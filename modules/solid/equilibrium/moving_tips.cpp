@@ -16,9 +16,9 @@ namespace {
 /// It has crossed its facet from here on.
 constexpr double crossed = 0.005;
 /// Beyond this a crack has turned so far that J, of even loads, says nothing of its tip [rad].
-constexpr double bent = 0.35;
+constexpr double bent_crack = 0.35;
 /// A turn below this is rounding [rad].
-constexpr double straight = 1e-6;
+constexpr double least_turn = 1e-6;
 
 }  // namespace
 
@@ -86,7 +86,7 @@ bool MovingTips::cut_for(const CrackTip& at, double turn) {
 /// Root of J by an even traction on the faces of the crack; 0: not known.
 double MovingTips::ask_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const {
   CrackedBody<2>& cracked = equilibrium_.body();
-  if (!energy_release_.is_straight(at, bent)) return 0.0;
+  if (!energy_release_.is_straight(at, bent_crack)) return 0.0;
   const std::vector<Index> named = energy_release_.looks_at(at);
   std::vector<double> unknowns(cracked.elastic().size(), 0.0);
   const std::vector<Index> faces = tips_.crack_of(at.facet);
@@ -328,7 +328,7 @@ double MovingTips::turn(const Tip& tip, std::span<const Vector<2>> jumps) const 
   const TipJump jump = energy_release_.jump(end_of(tip), jumps);
   const double ratio = mode_ratio(tip, 1, jump);
   const double turn = kink_angle({1.0, ratio});
-  return std::abs(turn) < straight ? 0.0 : turn;
+  return std::abs(turn) < least_turn ? 0.0 : turn;
 }
 
 bool MovingTips::conclude() {

@@ -7,10 +7,10 @@ namespace perifrac {
 namespace {
 
 /// What stiffens its own place by less than this part counts as nothing.
-constexpr double nothing = 1e-9;
+constexpr double least_stiffening = 1e-9;
 /// Cuts that are far from each other answer each other so often, to this of what they do.
 constexpr int most_trials = 30;
-constexpr double rounding = 1e-14;
+constexpr double cuts_agree = 1e-14;
 
 /// A symmetric stiffness L as V d V^T, without what is nothing, with V^T A V = 1.
 void decompose(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& moved_by,
@@ -20,7 +20,7 @@ void decompose(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& moved_by
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(root.transpose() * stiffness * root);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index n = 0; n < found.eigenvalues().size(); ++n) {
-    if (std::abs(found.eigenvalues()[n]) > nothing) kept.push_back(n);
+    if (std::abs(found.eigenvalues()[n]) > least_stiffening) kept.push_back(n);
   }
   vectors = factor.matrixU().solve(found.eigenvectors()(Eigen::all, kept));
   values = found.eigenvalues()(kept);
@@ -130,7 +130,7 @@ Eigen::MatrixXd PartialCuts::taken(const Eigen::MatrixXd& moved) const {
     const Eigen::MatrixXd next = alone.asDiagonal() * (moved - between_ * taken);
     const double change = (next - taken).cwiseAbs().maxCoeff();
     taken = next;
-    if (change <= rounding * taken.cwiseAbs().maxCoeff()) return taken;
+    if (change <= cuts_agree * taken.cwiseAbs().maxCoeff()) return taken;
   }
   Eigen::MatrixXd system = alone.asDiagonal() * between_;  // of cuts that touch each other
   system.diagonal().array() += 1.0;
