@@ -8,6 +8,7 @@
 #include "core/base/eigen_view.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/state/visit_each.hpp"
+#include "modules/solid/fracture/even_loads.hpp"
 
 namespace perifrac {
 
@@ -15,10 +16,6 @@ namespace {
 
 /// It has crossed its facet from here on.
 constexpr double crossed = 0.005;
-/// Beyond this a crack has turned so far that J, of even loads, says nothing of its tip [rad].
-constexpr double bent_crack = 0.35;
-/// A turn below this is rounding [rad].
-constexpr double least_turn = 1e-6;
 
 }  // namespace
 
@@ -51,21 +48,27 @@ CrackTip MovingTips::end_of(const Tip& tip) const {
 
 bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips) {
   const std::size_t first = moving_.size();
+  if (tips.empty()) return false;
   equilibrium_.set_partial({});
   CrackedBody<2>& cracked = equilibrium_.body();
   std::vector<Tip> found;
   for (const auto& [at, turned] : tips) {
     Tip& tip = found.emplace_back(Tip{.at = at});
-    ask_modes(at, tip.root_of_j[0], tip.sliding[0]);
+    ask_modes(tip, at, 0);
     if (at.before != no_facet) tip.per_spacing = cracked.intensity_at_fixed_volume(at.before);
   }
   for (std::size_t k = 0; k < tips.size(); ++k) {
-    if (!cut_for(tips[k].first, tips[k].second)) continue;
+    try {
+      if (!cut_for(tips[k].first, tips[k].second)) continue;
+    } catch (...) {  // a cut that parts the body: the others are what they were
+      hold();
+      throw;
+    }
     moving_.back().root_of_j[0] = found[k].root_of_j[0];
     moving_.back().sliding[0] = found[k].sliding[0];
     moving_.back().per_spacing = found[k].per_spacing;
   }
-  ask_even_loads(first);
+  ask_loads(first);
   hold();
   return moving_.size() > first;
 }
@@ -83,33 +86,17 @@ bool MovingTips::cut_for(const CrackTip& at, double turn) {
   return true;
 }
 
-/// Root of J by an even traction on the faces of the crack; 0: not known.
-double MovingTips::ask_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const {
-  CrackedBody<2>& cracked = equilibrium_.body();
-  if (!energy_release_.is_straight(at, bent_crack)) return 0.0;
-  const std::vector<Index> named = energy_release_.looks_at(at);
-  std::vector<double> unknowns(cracked.elastic().size(), 0.0);
-  const std::vector<Index> faces = tips_.crack_of(at.facet);
-  if (!cracked.find_answer(faces, traction, named, unknowns)) return 0.0;
-  const TipLoad load = energy_release_.under(at, unknowns, faces, traction);
-  if (jump != nullptr) *jump = load;
-  return std::sqrt(std::max(0.0, load.energy_release));
-}
-
-/// Root of J by an even pressure, and how far the faces slide over how far they open by even loads
-/// of one intensity each; 0: not known.
-void MovingTips::ask_modes(const CrackTip& at, double& root, double& ratio) const {
-  TipJump pressed{}, sheared{};
-  root = ask_j(at, {1.0, 0.0}, &pressed);
-  const double mode_two = ask_j(at, {0.0, 1.0}, &sheared);
-  const double apart = pressed.opening + equilibrium_.body().pressed_by(at.facet);
-  const double slid = std::abs(sheared.sliding);
-  const bool is_known = std::min({apart, slid, mode_two, root}) > 0.0;
-  ratio = is_known ? slid / mode_two * root / apart : 0.0;
+/// As its facet begins (0) or ends (1).
+void MovingTips::ask_modes(Tip& tip, const CrackTip& at, std::size_t place) {
+  const auto even =
+      ask_even_loads(equilibrium_.body(), energy_release_, at, tips_.crack_of(at.facet));
+  if (!even) return;
+  tip.root_of_j[place] = even->root_of_j;
+  tip.sliding[place] = even->sliding;
 }
 
 /// Of the tips from `first` on, all facets cut whole.
-void MovingTips::ask_even_loads(std::size_t first) {
+void MovingTips::ask_loads(std::size_t first) {
   CrackedBody<2>& cracked = equilibrium_.body();
   std::vector<PartialCut> cuts;
   for (const Tip& tip : moving_) cuts.push_back({tip.facet, 1.0});
@@ -125,7 +112,7 @@ void MovingTips::ask_even_loads(std::size_t first) {
     const double ratio =
         known ? cracked.intensity_at_fixed_volume(tip.at.facet) / tip.per_spacing : 1.0;
     tip.per_spacing = (1.0 - std::min(1.0, ratio)) / 1.5;
-    ask_modes(end_of(tip), tip.root_of_j[1], tip.sliding[1]);
+    ask_modes(tip, end_of(tip), 1);
     if (tip.sliding[1] == 0.0) tip.sliding[1] = tip.sliding[0];
     if (tip.root_of_j[1] == 0.0)
       tip.root_of_j[1] = tip.root_of_j[0] * (1.0 + 0.5 * tip.per_spacing);
@@ -179,7 +166,7 @@ double MovingTips::speed(const Tip& tip, double part) const {
 }
 
 double MovingTips::within_crack(const Tip& tip, double s) const {
-  return s * (1.0 - 0.5 * s * tip.per_spacing / body_.spacing());
+  return perifrac::within_crack(s, tip.per_spacing / body_.spacing());
 }
 
 /// By an even load, the tip being where it is tried; 0: not known.
@@ -325,10 +312,7 @@ void MovingTips::book() {
 }
 
 double MovingTips::turn(const Tip& tip, std::span<const Vector<2>> jumps) const {
-  const TipJump jump = energy_release_.jump(end_of(tip), jumps);
-  const double ratio = mode_ratio(tip, 1, jump);
-  const double turn = kink_angle({1.0, ratio});
-  return std::abs(turn) < least_turn ? 0.0 : turn;
+  return kink_angle({1.0, mode_ratio(tip, 1, energy_release_.jump(end_of(tip), jumps))});
 }
 
 bool MovingTips::conclude() {

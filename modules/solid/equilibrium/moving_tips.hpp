@@ -34,7 +34,8 @@ class MovingTips {
   /// These tips go on, turned by these angles; false where nothing lies ahead of any.
   bool add(std::span<const std::pair<CrackTip, double>> tips);
 
-  /// A window is about to be tried: tips stand where they are.
+  /// A window is about to be tried: tips are first looked for where they would go at the rate of
+  /// before.
   void begin(const TimeWindow& window);
   /// Once the equilibrium was solved: looks for where the tips are at the window's end; false where
   /// the window has to be passed through once more.
@@ -57,7 +58,7 @@ class MovingTips {
     Index facet = -1;   ///< that it is within
     bool ends = false;  ///< with this facet
     Index nearest = -1;
-    double part = 0.0;         ///< of the facet behind it, when the window began
+    double part = 0.0;         ///< of its facet that lay behind it as the window began
     double rate = 0.0;         ///< at which that grew last [1/s]
     double per_spacing = 0.0;  ///< spacing over half the crack's length
     // Of even loads of 1 Pa:
@@ -88,9 +89,8 @@ class MovingTips {
   double speed(const Tip& tip, double part) const;
   double within_crack(const Tip& tip, double s) const;
   double foretold(const Tip& tip, double excess) const;
-  void ask_even_loads(std::size_t first);
-  double ask_j(const CrackTip& at, const Vector<2>& traction, TipJump* jump) const;
-  void ask_modes(const CrackTip& at, double& root, double& ratio) const;
+  void ask_loads(std::size_t first);
+  void ask_modes(Tip& tip, const CrackTip& at, std::size_t place);
   double mode_ratio(const Tip& tip, std::size_t place, const TipJump& jump) const;
   double turn(const Tip& tip, std::span<const Vector<2>> jumps) const;
   void book();

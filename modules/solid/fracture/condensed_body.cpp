@@ -265,12 +265,17 @@ Eigen::VectorXd CondensedBody<D>::moved_by(const Eigen::VectorXd& force) const {
 
 template <int D>
 void CondensedBody<D>::find_opening() {
+  find_cut_loaded();
+  find_free_opening();
+}
+
+template <int D>
+void CondensedBody<D>::find_cut_loaded() {
   Eigen::VectorXd moved(inverse_->block().rows());
   for (Eigen::Index k = 0; k < moved.size(); ++k) {
     moved[k] = intact_move_[inverse_->unknowns()[k]];
   }
   cut_loaded_ = inverse_->correct_block(moved);
-  find_free_opening();
 }
 
 template <int D>

@@ -96,6 +96,7 @@ class CondensedBody final : public CrackedBody<D> {
   void add_mode(const FaceJump<D>& jump);
   Mode mode_of(const FaceJump<D>& jump) const;
   void find_opening();
+  void find_cut_loaded();
   void find_free_opening();
   void find_compliance();
   Eigen::MatrixXd whole_compliance(int jump, int traction) const;

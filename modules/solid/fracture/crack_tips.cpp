@@ -6,6 +6,7 @@
 
 #include "core/base/small_vector.hpp"
 #include "core/state/visit_each.hpp"
+#include "modules/solid/fracture/even_loads.hpp"
 
 namespace perifrac {
 
@@ -23,12 +24,6 @@ constexpr double worth_asking = 0.9;
 /// (1.3 was met), up to this change. What a guess leaves open decides nothing: windows end, and
 /// tips go on, within `near` of the criterion.
 constexpr double guess_error = 1.5, telling_change = 0.15, near = 0.005;
-
-/// Beyond this a crack has turned so far that even loads say nothing of its tip [rad].
-constexpr double bent = 0.35;
-
-/// A turn below this is rounding [rad].
-constexpr double straight = 1e-6;
 
 }  // namespace
 
@@ -183,43 +178,21 @@ double CrackTips::beyond_mean(const Tip& tip, const CrackState<2>& state) const 
   return volume > 0.0 ? 1.0 + lost / volume : 1.0;
 }
 
-/// What faces do under an even pressure and an even shear, beside what K_I and K_II of that J do by
-/// the law: how the crack runs across the lattice, which bonds its last facets cut and where its
-/// other end is says itself there.
+/// What faces do under even loads, beside what K_I and K_II of that J do by the law.
 void CrackTips::ask_even_loads(Tip& tip) const {
   tip.even = {.opening = 1.0};
-  if (!energy_release_.is_straight(tip.at, bent)) return;
-  const std::vector<Index> named = energy_release_.looks_at(tip.at);
-  std::vector<double> unknowns(cracked_.elastic().size(), 0.0);
-  const std::vector<Index> faces = crack_of(tip.at.facet);
-  std::optional<double> volume;
-  const auto under = [&](const Vector<2>& traction) -> std::optional<TipLoad> {
-    volume = cracked_.find_answer(faces, traction, named, unknowns);
-    if (!volume) return {};
-    return energy_release_.under(tip.at, unknowns, faces, traction);
-  };
-  // Of any toughness: what is asked are ratios.
-  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(), 1.0};
-  const auto intensity = [&](const TipLoad& load) {
-    return std::sqrt(std::max(0.0, load.energy_release));
-  };
-  const auto pressed = under({1.0, 0.0});
-  if (!pressed) return;
-  const double opened =
-      cracked_.jump(tip.at.before, unknowns)[0] + cracked_.pressed_by(tip.at.before);
-  const double volume_opened = *volume;
-  const auto sheared = under({0.0, 1.0});
-  const double mode_one = intensity(*pressed), mode_two = intensity(*sheared);
-  const double apart = pressed->opening + cracked_.pressed_by(tip.at.before);
-  const double slid = std::abs(sheared->sliding);
-  if (!(std::min({mode_one, mode_two, opened, apart, slid, volume_opened}) > 0.0)) return;
-  tip.even.intensity = mode_one / volume_opened;
+  const auto even =
+      perifrac::ask_even_loads(cracked_, energy_release_, tip.at, crack_of(tip.at.facet));
+  if (!even || !(std::min({even->sliding, even->opening, even->volume}) > 0.0)) return;
+  tip.even.intensity = even->root_of_j / even->volume;
   if (tip.intensity_before > 0.0) {
     tip.intensity_ratio = std::min(1.0, tip.even.intensity / tip.intensity_before);
   }
+  // Of any toughness: what is asked are ratios.
+  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(), 1.0};
   const double dry = tip_law.opening(within_crack(tip, behind(tip.at)), 0.0, {}, 1.0);
-  tip.even.opening = opened / (dry * mode_one);
-  tip.even.sliding = slid / mode_two * mode_one / apart;
+  tip.even.opening = even->opening / (dry * even->root_of_j);
+  tip.even.sliding = even->sliding;
 }
 
 std::vector<Index> CrackTips::crack_of(Index facet) const {
@@ -292,12 +265,8 @@ double CrackTips::behind(const CrackTip& at) const {
   return std::hypot(back[0], back[1]);
 }
 
-/// Openings end to go as sqrt(s) where the crack's other end makes itself felt: as that of a crack
-/// of half length l under uniform pressure, sqrt(s (1 - s / 2l)), whose K_I at fixed volume goes as
-/// l^-1.5. The s of an endless crack that is as open [m].
 double CrackTips::within_crack(const Tip& tip, double s) const {
-  const double by_length = (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing();  // 1 / l
-  return s * (1.0 - 0.5 * s * by_length);
+  return perifrac::within_crack(s, (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing());
 }
 
 double CrackTips::find_readiness(const CrackState<2>& state) {
@@ -318,9 +287,7 @@ double CrackTips::find_readiness(const CrackState<2>& state) {
 }
 
 double CrackTips::turn_of(const Tip& tip, std::span<const Vector<2>> jumps) const {
-  const double turn =
-      kink_angle(tip.modes ? *tip.modes : modes_of(energy_release_.jump(tip.at, jumps)));
-  return std::abs(turn) < straight ? 0.0 : turn;
+  return kink_angle(tip.modes ? *tip.modes : modes_of(energy_release_.jump(tip.at, jumps)));
 }
 
 std::vector<std::pair<CrackTip, double>> CrackTips::take_ready(const CrackState<2>& state) {

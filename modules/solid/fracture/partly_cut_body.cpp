@@ -46,11 +46,7 @@ void CondensedBody<D>::take_partial(std::span<const PartialCut> cuts) {
     }
   }
   partial_.tell(std::move(rows), std::move(area));
-  Eigen::VectorXd moved(inverse_->block().rows());
-  for (Eigen::Index k = 0; k < moved.size(); ++k) {
-    moved[k] = intact_move_[inverse_->unknowns()[k]];
-  }
-  cut_loaded_ = inverse_->correct_block(moved);
+  find_cut_loaded();
   hold_partial();
 }
 
