@@ -125,7 +125,13 @@ double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterati
     }
     if (passes == 1 && is_enough_at_once(iterations.at_once)) return reached;
     if (passes == 1) weigh_links();
-    if (watch.is_diverging(weighted_mismatch())) fail(window.end, passes, "diverges");
+    if (!is_settled()) {
+      // Modules change what they answer: what was learned of it is of no use.
+      acceleration_->reset();
+      watch = {};
+    } else if (watch.is_diverging(weighted_mismatch())) {
+      fail(window.end, passes, "diverges");
+    }
     if (passes == iterations.max) fail(window.end, passes, "does not converge");
     accelerate(window.length());
     go_back(window.begin);
@@ -184,7 +190,13 @@ void WindowSolver::go_back(double t) {
   for (ModuleSlot& slot : modules_) slot.module->on_restored(t);
 }
 
+bool WindowSolver::is_settled() const {
+  return std::ranges::none_of(
+      modules_, [](const ModuleSlot& slot) { return slot.module->wants_another_pass(); });
+}
+
 bool WindowSolver::has_converged(double tolerance) const {
+  if (!is_settled()) return false;
   for (const Link& link : links_) {
     if (link.predicts() && !(link.mismatch().relative() <= tolerance)) return false;
   }
@@ -192,7 +204,8 @@ bool WindowSolver::has_converged(double tolerance) const {
 }
 
 bool WindowSolver::is_enough_at_once(double tolerance) const {
-  return tolerance > 0.0 && std::ranges::all_of(links_, [tolerance](const Link& link) {
+  return tolerance > 0.0 && is_settled() &&
+         std::ranges::all_of(links_, [tolerance](const Link& link) {
            return !link.predicts() || !link.uses_slope() || link.mismatch().relative() <= tolerance;
          });
 }

@@ -90,6 +90,7 @@ class WindowSolver {
   void collect_from(const ModuleSlot& slot, double length);
   void go_back(double t);
 
+  bool is_settled() const;
   bool has_converged(double tolerance) const;
   /// What was predicted was so near that the first pass will do.
   bool is_enough_at_once(double tolerance) const;

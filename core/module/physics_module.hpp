@@ -47,6 +47,10 @@ class PhysicsModule {
   /// Throws NumericalError.
   virtual double advance(const TimeWindow& window) = 0;
 
+  /// After advance: what it does with its inputs is not settled yet, and the window should be
+  /// passed through once more, where the scene allows more than one pass.
+  virtual bool wants_another_pass() const { return false; }
+
   /// All modules agree at the window's end. Where something happened within it that changes what
   /// follows, and the module wants the window to end there: returns that time [s], and the manager
   /// takes every module back and redoes the window up to it. Otherwise the window stands: does what

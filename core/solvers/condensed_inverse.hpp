@@ -28,6 +28,13 @@ class CondensedInverse {
   /// NotPositiveDefinite, with one of the unknowns, where that makes A singular.
   void change(std::span<const int> places, const Eigen::MatrixXd& delta);
 
+  /// One of the changes, in their order: the places and what was added there.
+  struct Change {
+    std::vector<int> places;
+    Eigen::MatrixXd delta;
+  };
+  std::span<const Change> changes() const { return changes_; }
+
   /// S, one row and column an unknown named, in the order of their places.
   const Eigen::MatrixXd& block() const { return block_; }
   std::span<const int> unknowns() const { return unknowns_; }
@@ -39,11 +46,6 @@ class CondensedInverse {
   Eigen::MatrixXd force_of_changes(const Eigen::MatrixXd& block) const;
 
  private:
-  struct Change {
-    std::vector<int> places;
-    Eigen::MatrixXd delta;
-  };
-
   const SparseCholesky& factor_;
   std::vector<int> place_;
   std::vector<int> unknowns_;

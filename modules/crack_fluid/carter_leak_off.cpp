@@ -28,18 +28,24 @@ void CarterLeakOff<D>::match(const PointSet& facets, const CrackGraph& graph) {
 template <int D>
 void CarterLeakOff<D>::note_arrivals(std::span<const double> fill, double from, double to) {
   for (std::size_t f = 0; f < fill.size(); ++f) {
-    if (fill[f] <= wet_share_[f] + smallest_arrival) continue;
+    const double wet = part(static_cast<Index>(f)) * fill[f];
+    if (wet <= wet_share_[f] + smallest_arrival) continue;
     if (wet_share_[f] == 0.0) wet_since_[f] = from;
     wet_until_[f] = to;
-    wet_share_[f] = fill[f];
+    wet_share_[f] = wet;
   }
 }
 
-/// What is there and has not come in a step was there at once.
+/// What is there and has not come in a step was there at once; where a tip goes on, `part` is of
+/// the step's end.
 template <int D>
 void CarterLeakOff<D>::begin(const TimeWindow& step, std::span<const double> fill) {
   step_ = step;
-  note_arrivals(fill, step.begin, step.begin);
+  std::vector<double> unknown(fill.begin(), fill.end());
+  for (std::size_t f = 0; f < unknown.size(); ++f) {
+    if (wet_share_[f] > 0.0) unknown[f] = 0.0;
+  }
+  note_arrivals(unknown, step.begin, step.begin);
 }
 
 template <int D>
@@ -52,9 +58,9 @@ void CarterLeakOff<D>::evaluate(const Eigen::VectorXd&, const Eigen::VectorXd& f
                               ? 0.0
                               : mean_root(step_.end, wet_since_[f], wet_until_[f]) -
                                     mean_root(step_.begin, wet_since_[f], wet_until_[f]);
-    const double more = std::max(fill[f] - wet_share_[f], 0.0);
-    leaked.mass[f] = unit * ((fill[f] - more) * of_old + more * of_new);
-    leaked.by_fill[f] = unit * (more > 0.0 ? of_new : of_old);
+    const double wet = part(f) * fill[f], more = std::max(wet - wet_share_[f], 0.0);
+    leaked.mass[f] = unit * ((wet - more) * of_old + more * of_new);
+    leaked.by_fill[f] = unit * part(f) * (more > 0.0 ? of_new : of_old);
   }
 }
 

@@ -15,8 +15,9 @@ struct CrackExtent {
   double mean_pressure = 0.0;  ///< over the wetted area; 0 where there is none [Pa]
 };
 
-/// `unknown` is v of crack_liquid.hpp [Pa], `aperture` in [m].
+/// `unknown` is v of crack_liquid.hpp [Pa], `aperture` in [m], `part` how much of a facet is crack.
 CrackExtent crack_extent(const CrackGraph& graph, const CrackLiquid& liquid,
-                         std::span<const double> unknown, std::span<const double> aperture);
+                         std::span<const double> unknown, std::span<const double> aperture,
+                         std::span<const double> part);
 
 }  // namespace perifrac

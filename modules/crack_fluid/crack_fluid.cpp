@@ -36,6 +36,7 @@ void CrackFluid<D>::match_facets() {
   const std::size_t count = bonds.facets().size();
   facets_.match(count, liquid_);
   opening_.match(count);
+  part_.resize(count, 1.0);
   if (leak_off_) leak_off_->match(bonds.facet_points(), flow_->graph());
 }
 
@@ -133,6 +134,7 @@ bool CrackFluid<D>::step(const TimeWindow& time, const TimeWindow& window) {
                        .mass = facets_.mass,
                        .inflows = inflows,
                        .leak_off = leak_off_.get()};
+  if (leak_off_) leak_off_->take_part(part_);
   if (leak_off_) leak_off_->begin(time, facets_.fill(liquid_));
   Eigen::VectorXd v = vector_of(time.length() > 0.0 ? facets_.unknown : facets_.settled);
   FlowReport report;

@@ -33,7 +33,8 @@ struct CrackFilling {
 /// dry.
 ///
 /// Ports, on the facets ("crack"): in `free_crack_opening` [m], takes rate and a slope of count *
-/// count values against `crack_pressure`; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
+/// count values against `crack_pressure`, and the property `crack_part`, how much of a facet is
+/// crack, 1 unless somebody says; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
 /// `crack_wetted_fraction`, where rates are known `crack_flow_rate` [m^2/s] from a facet's first
 /// end to its second, the properties `crack_viscosity` [Pa s] and, by Carter's law,
 /// `crack_leak_off` [m/s^0.5], 0 where less than half a facet is wet. On its own: `wetted_length`
@@ -82,7 +83,7 @@ class CrackFluid final : public PhysicsModule {
   void rest(const TimeWindow& window);
   std::vector<double> flow_rate();
   CrackExtent extent() const {
-    return crack_extent(flow_->graph(), liquid_, facets_.unknown, facets_.aperture);
+    return crack_extent(flow_->graph(), liquid_, facets_.unknown, facets_.aperture, part_);
   }
   double stored_mass() const;
   double leak_off_volume() const { return -books_.leaked.value() / liquid_.density; }  ///< [m^2]
@@ -107,6 +108,7 @@ class CrackFluid final : public PhysicsModule {
   CrackBooks books_;
   double leak_off_rate_ = 0.0;  ///< mean of the last window of some length [m^2/s]
   OpeningInput opening_;
+  std::vector<double> part_;  ///< of every facet that is crack; a tip is within the others
 };
 
 }  // namespace perifrac

@@ -72,6 +72,11 @@ void CrackFluid<D>::make_facet_ports() {
       [this, &facets] {
         return PortView{&facets, opening_.value, opening_.rate, opening_.slope};
       });
+  ports_.in(
+      property("crack_part", "1"), [] {},
+      [this, &facets] {
+        return PortView{&facets, part_};
+      });
   each({.name = "crack_pressure", .unit = "Pa", .negligible = negligible_pressure},
        [this](std::size_t f) { return liquid_.pressure(facets_.unknown[f]); });
   ports_.out({.name = "crack_fluid_mass", .unit = unit_of_total("kg", D), .kind = extensive},

@@ -31,6 +31,8 @@ class LeakOff {
   virtual double coefficient(Index /*facet*/) const { return 0.0; }
   /// Follows the facets; `graph` must last.
   virtual void match(const PointSet& facets, const CrackGraph& graph) = 0;
+  /// How much of every facet is crack at the end of the window; lasts as long as that.
+  void take_part(std::span<const double> part) { part_ = part; }
   virtual void begin_window(const TimeWindow&) {}
   /// `fill`: of the facets at the step's begin.
   virtual void begin(const TimeWindow& step, std::span<const double> fill) = 0;
@@ -41,6 +43,14 @@ class LeakOff {
   /// Returns the energy that the leaked fluid still has [J].
   virtual double accept(std::span<const double> fill) = 0;
   virtual void visit_state(StateVisitor& visitor) = 0;
+
+ protected:
+  double part(Index facet) const {
+    return part_.empty() ? 1.0 : part_[static_cast<std::size_t>(facet)];
+  }
+
+ private:
+  std::span<const double> part_;
 };
 
 }  // namespace perifrac

@@ -112,7 +112,7 @@ void PoreLeakOff<D>::evaluate(const Eigen::VectorXd& pressure, const Eigen::Vect
   std::ranges::fill(mean_, 0.0);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const auto& [f, n, factor] = contacts_[k];
-    conductance_[k] = length * density_ * mobility_[touched_[n]] * factor;
+    conductance_[k] = length * density_ * mobility_[touched_[n]] * factor * part(f);
     // Pores under less than any facet take from a facet what there is.
     if (base_[n] < vapour_pressure_) conductance_[k] *= fill[f];
     sum_[n] += conductance_[k];

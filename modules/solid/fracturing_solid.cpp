@@ -87,6 +87,11 @@ void FracturingSolid<D>::make_crack_ports() {
   ports_.out({"crack_opening", "m"}, [this, facets] {
     return PortView{facets, view(equilibrium_.faces().opening)};
   });
+  if (growth_.has_moving_tips()) {
+    ports_.out({.name = "crack_part", .unit = "1", .role = PortRole::property}, [this, facets] {
+      return PortView{facets, growth_.parts()};
+    });
+  }
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   ports_.out({.name = "free_crack_opening", .unit = "m", .role = PortRole::property},
              [this, facets, opening = Eigen::VectorXd(), slope = Matrix()]() mutable {
@@ -97,13 +102,15 @@ void FracturingSolid<D>::make_crack_ports() {
              });
   ports_.total({std::string("crack_") + measure, unit}, whole_solid, [this] {
     double area = 0.0;
-    for (const FaceJump<D>& jump : cracked_->jumps()) area += jump.area;
+    const std::vector<double>& part = growth_.parts();
+    for (std::size_t f = 0; f < part.size(); ++f) area += part[f] * cracked_->jumps()[f].area;
     return area;
   });
   ports_.total({std::string("open_crack_") + measure, unit}, whole_solid, [this] {
     double area = 0.0;
-    for (std::size_t f = 0; f < cracked_->jumps().size(); ++f) {
-      if (equilibrium_.faces().opening[f] > 0.0) area += cracked_->jumps()[f].area;
+    const std::vector<double>& part = growth_.parts();
+    for (std::size_t f = 0; f < part.size(); ++f) {
+      if (equilibrium_.faces().opening[f] > 0.0) area += part[f] * cracked_->jumps()[f].area;
     }
     return area;
   });
@@ -179,6 +186,7 @@ template <int D>
 double FracturingSolid<D>::advance(const TimeWindow& window) {
   load_.begin(window);
   equilibrium_.solve(window.end);
+  tips_are_found_ = growth_.find_tips();
   return window.end;
 }
 
@@ -214,6 +222,7 @@ void FracturingSolid<D>::visit_state(StateVisitor& visitor) {
 template <int D>
 void FracturingSolid<D>::on_restored(double t) {
   equilibrium_.on_restored(t, work_.displacement());
+  growth_.on_restored();
 }
 
 template class FracturingSolid<2>;

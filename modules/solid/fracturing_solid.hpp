@@ -30,8 +30,10 @@ namespace perifrac {
 /// another), with its slope against crack_pressure, a matrix. `damage` of the points (paper Eq 16),
 /// `crack_length` [m], of it `open_crack_length` where faces are apart, in 3D `crack_area` and
 /// `open_crack_area` [m^2], and `fracture_energy` [J], what new faces took, in 2D per metre.
-/// `radiated_energy` [J/m] is what unstable growth sets free beyond that, by J: a body with inertia
-/// would move by it. In 2D, where no fluid is in the cracks.
+/// `radiated_energy` [J/m] is what growth in 2D sets free beyond that: where no fluid is in the
+/// cracks, unstable growth, by J; a body with inertia would move by it. Beside fluid what viscosity
+/// takes ahead of the last whole facet, where tips move within them: then the property `crack_part`
+/// is how much of a facet is crack.
 /// Where a crack begins by itself or ends, at a face or another crack, that is what the balance of
 /// energy says. With friction between
 /// faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip of all facets, counted
@@ -62,7 +64,9 @@ class FracturingSolid final : public PhysicsModule {
   void initialize(double t) override;
   void connect(PortId in) override { ports_.connect(in); }
   double stable_time_step() const override;
+  void prepare(const TimeWindow& window) override { growth_.begin(window); }
   double advance(const TimeWindow& window) override;
+  bool wants_another_pass() const override { return !tips_are_found_; }
   double conclude(const TimeWindow& window) override;
   void visit_state(StateVisitor& visitor) override;
   std::string path() const override { return cracked_->path(); }
@@ -89,6 +93,7 @@ class FracturingSolid final : public PhysicsModule {
   CrackedEquilibrium<D> equilibrium_;
   CrackedWork<D> work_;
   CrackGrowth<D> growth_;
+  bool tips_are_found_ = true;
   PortTable ports_;
 };
 

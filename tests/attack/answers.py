@@ -68,7 +68,15 @@ def sizes_of(one, other, scene):
     # What moves is pressed upon by its own weight in motion; less is the noise of sound.
     moving = scene.get("fluid", {}).get("density", 1000.0) * sizes.get("fluid_velocity", 0.0)**2
     sizes["fluid_pressure"] = max(sizes["fluid_pressure"], moving)
+    # At rest it is the other way round: what is slower than sound of the pressure there is, is sound.
+    sizes["fluid_velocity"] = max(sizes.get("fluid_velocity", 0.0), speed_of_sound_of(scene, sizes["fluid_pressure"]))
     return sizes
+
+
+def speed_of_sound_of(scene, pressure):
+    """How fast a wave of that pressure moves the fluid: p / sqrt(K rho)."""
+    fluid = scene.get("fluid", {})
+    return pressure / (fluid["bulk_modulus"] * fluid.get("density", 1000.0))**0.5 if "bulk_modulus" in fluid else 0.0
 
 
 def farthest(one, other, scene):

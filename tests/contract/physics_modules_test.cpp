@@ -423,7 +423,8 @@ TEST_P(CrackFluids, RunInEverySolid) {
         overrides.push_back("crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)");
       }
       const Section scene = read_scene_text(box_2d + solid + GetParam() + flow, overrides);
-      expect_to_run(scene, flow.empty() ? 2 : 3, links);
+      // In equilibrium tips are within facets: so much of them is crack.
+      expect_to_run(scene, flow.empty() ? 2 : 3, links + (solid != dynamic_2d));
     }
   }
 }
@@ -460,7 +461,7 @@ TEST(SwapMatrix, StabilisedPoreFlowRunsInEveryFlow) {
                                        "damage={type: energy_release, fracture_energy: 1 kJ/m^2}",
                                        "crack_fluid.leak_off=pores"});
     expect_to_run(read_scene_text(box_2d + quasi_static_2d + crack_network + darcy, overrides), 3,
-                  8);
+                  9);
   }
 }
 
@@ -521,7 +522,7 @@ TEST(SwapMatrix, EveryFluidRunsBesideEverything) {
     expect_to_run(read_scene_text(box_2d + quasi_static_2d + crack_network + water_over_box_2d,
                                   {word, mouth, cracked_at_top,
                                    "damage={type: energy_release, fracture_energy: 1 kJ/m^2}"}),
-                  3, 11);
+                  3, 12);
   }
 }
 

@@ -81,7 +81,8 @@ EXPECTED = {
     "dynamic, bonds that break by stretch": [(MOTION, {}), ({"solid/fracture_energy": 1}, {}), (PORES_LAST, {})],
     "quasi_static": [
         (EQUILIBRIUM, {}), (CRACKS_AT_REST, {}), (PORES_FIRST, {}), ({}, {}),
-        ({**NETWORK, "solid/crack_pressure": FACETS}, {}),
+        ({**NETWORK, "solid/crack_pressure": FACETS,
+          **link("solid.crack_part.crack_fluid", FACETS, lagged=True)}, {}),
         ({**LEAK_OFF, "pore_flow/pore_pressure_slope": POINTS}, {})],
 }
 MODULE_OF = {"+ pore flow": "pore_flow", "+ fluid": "fluid", "+ crack network": "crack_fluid"}

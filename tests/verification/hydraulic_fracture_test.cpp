@@ -205,52 +205,32 @@ TEST(Inlets, KeepToTheirSchedulesSideBySide) {
 }
 
 /// What a crack of half length a in a layer of half its thickness h asks for over the layer's
-/// stress, where the rest is under `more` (Simonson, Abou-Sayed & Clifton 1978), if it takes
-/// `times` Gc [Pa].
-double pressure_between_barriers(double a, double times = 1.0) {
+/// stress, where the rest is under `more` (Simonson, Abou-Sayed & Clifton 1978) [Pa].
+double pressure_between_barriers(double a) {
   constexpr double layer = 0.05, more = 0.15e6;
-  const double toughness = std::sqrt(700e6 / (1.0 - 0.25 * 0.25) * 5.0 * times);
+  const double toughness = std::sqrt(700e6 / (1.0 - 0.25 * 0.25) * 5.0);
   const double alone = toughness / std::sqrt(M_PI * a);
   return a <= layer ? alone : alone + more * (1.0 - 2.0 / M_PI * std::asin(layer / a));
 }
 
-/// Steps in the layer in the mean; in the barrier, where a step takes more pressure than the one
-/// before, also when it ends. Rows in which the crack grows show the pressure of before.
+/// At every moment, within facets and where the tip comes from the layer into the barrier.
 TEST(Barriers, AskForMorePressureAsTheCrackGoesOn) {
   const SceneRun run = run_config("hf_barriers");
   ASSERT_EQ(run.exit_code, 0);
   const std::vector<double> pressure = run.column("inlet_well_pressure [Pa]");
   const std::vector<double> length = run.column("crack_length [m]");
   int in_layer = 0, in_barrier = 0;
-  double sum = 0.0;
-  int rows = 0;
-  for (std::size_t k = 1; k < length.size(); ++k) {
-    const double a = length[k - 1];
-    if (length[k] < a + 1e-6) {
-      sum += pressure[k] - 3e6;
-      ++rows;
-      continue;
-    }
-    const double exact = pressure_between_barriers(a), last = pressure[k] - 3e6;
-    // A step begins where the mean of J over it reaches Gc, which falls as K_I^2 at fixed volume.
-    const double fall = std::pow(a / (a + 2.5e-3), 3.0);
-    const double at_begin = pressure_between_barriers(a, 2.0 / (1.0 + fall));
-    if (a > 0.029 && a < 0.051) {
-      EXPECT_NEAR(sum / rows, exact, 0.03 * exact) << a;
-      ++in_layer;
-    } else if (a > 0.054) {
-      EXPECT_NEAR(sum / rows, exact, 0.06 * exact) << a;
-      EXPECT_NEAR(last, at_begin, 0.02 * at_begin) << a;
-      ++in_barrier;
-    }
-    sum = rows = 0;
+  for (std::size_t k = 0; k < length.size(); ++k) {
+    if (length[k] < 0.029) continue;
+    const double exact = pressure_between_barriers(length[k]);
+    EXPECT_NEAR(pressure[k] - 3e6, exact, 0.025 * exact) << length[k];
+    ++(length[k] < 0.05 ? in_layer : in_barrier);
   }
-  EXPECT_GE(in_layer, 8);
-  EXPECT_GE(in_barrier, 10);
+  EXPECT_GE(in_layer, 20);
+  EXPECT_GE(in_barrier, 60);
+  EXPECT_GE(length.back(), 0.08);
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
-  // J knows nothing of what openings put back, p^2 dx / (4 (lambda + mu)) a length: half a per cent
-  // of Gc.
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 6.6e-3);
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 1e-5);
 }
 
 /// K_IC^2 (1 - nu^2) / E of the rock at each place, whichever section names its region.
@@ -352,11 +332,10 @@ TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
   EXPECT_GT(highest, 1.0e6) << "the crack never opened";
   EXPECT_GT(*std::ranges::max_element(open), 0.0);
   EXPECT_EQ(open.back(), 0.0);
-  // Contact is found with the fluid: a pass does, and one more where the crack has grown.
-  EXPECT_LE(run.summary["counts"]["most_passes"], 3);
+  // Contact is found with the fluid, in a pass: few windows have a tip to find.
+  EXPECT_LE(run.summary["counts"]["passes"], 3.0 * run.summary["counts"]["windows"].get<double>());
   EXPECT_LE(run.summary["ledger"]["mass_error"], 1e-12);
-  EXPECT_LE(run.summary["ledger"]["energy_error"], 0.045)
-      << "by each of four steps 0.8 %, until a facet has filled";
+  EXPECT_LE(run.summary["ledger"]["energy_error"], 1e-4);
 }
 
 /// A wing that grows to the right face of a narrow body, whose halves are held by rollers.

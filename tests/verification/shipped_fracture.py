@@ -70,22 +70,32 @@ class ShippedFracture(unittest.TestCase):
         return run
 
     def test_kgd_against_viscosity(self):
-        run = self.run_scene("kgd_viscosity", SMALL_KGD, 0.014)
-        self.assertLessEqual(run.figure("length"), 0.0135)
+        run = self.run_scene("kgd_viscosity", SMALL_KGD, 1e-5)
+        self.assertLessEqual(run.figure("length"), 0.0245)
         self.assertLessEqual(run.figure("pressure"), 0.065)
         self.assertLessEqual(run.figure("opening"), 0.010)
 
     def test_kgd_between(self):
-        run = self.run_scene("kgd_mixed", SMALL_KGD, 0.016)
-        self.assertLessEqual(run.figure("length"), 0.0245)
+        run = self.run_scene("kgd_mixed", SMALL_KGD, 1e-5)
+        self.assertLessEqual(run.figure("length"), 0.022)
         self.assertLessEqual(run.figure("pressure"), 0.058)
-        self.assertLessEqual(run.figure("opening"), 0.019)
+        self.assertLessEqual(run.figure("opening"), 0.0105)
 
     def test_kgd_against_toughness(self):
-        run = self.run_scene("kgd_toughness", SMALL_KGD, 1.4e-3)
-        self.assertLessEqual(run.figure("length"), 0.0076)
+        run = self.run_scene("kgd_toughness", SMALL_KGD, 1e-5)
+        self.assertLessEqual(run.figure("length"), 0.0173)
         self.assertLessEqual(run.figure("pressure"), 0.067)
-        self.assertLessEqual(run.figure("opening"), 0.0138)
+        self.assertLessEqual(run.figure("opening"), 0.012)
+
+    def test_kgd_by_whole_facets(self):
+        """By multigrid facets are cut at once."""
+        at_once = {**SMALL_KGD, "solid.linear_solver.type": "multigrid"}
+        for name, energy, length, pressure, opening in (("kgd_toughness", 1.4e-3, 0.0076, 0.067, 0.0138),
+                                                        ("kgd_viscosity", 0.014, 0.0135, 0.065, 0.010)):
+            run = self.run_scene(name, at_once, energy)
+            self.assertLessEqual(run.figure("length"), length, name)
+            self.assertLessEqual(run.figure("pressure"), pressure, name)
+            self.assertLessEqual(run.figure("opening"), opening, name)
 
     def test_kgd_that_leaks_nearly_all(self):
         """Efficiency 0.08, K_m = 3.4, 14 facets, in the mean from 75 to 95 mm. By tests/references/kgd.py: time
@@ -115,36 +125,38 @@ class ShippedFracture(unittest.TestCase):
                 time += end - begin
             return total / time
 
-        self.assertAlmostEqual(mean("crack_length", 0), 1.0, delta=0.0076)
+        self.assertAlmostEqual(mean("crack_length", 0), 1.0, delta=0.016)
         self.assertAlmostEqual(mean("inlet_well_opening", 1), 1.0, delta=0.0218)
 
     def test_long_windows_are_cut_where_a_tip_goes_on(self):
-        """A step of growth comes every two windows."""
-        run = self.run_scene("kgd_toughness", {**SMALL_KGD, "coupling.window.largest": "4 ms"}, 1e-3)
-        self.assertLessEqual(run.figure("length"), 0.019)
-        self.assertLessEqual(run.figure("pressure"), 0.128)
+        """A facet is crossed every two windows."""
+        run = self.run_scene("kgd_toughness", {**SMALL_KGD, "coupling.window.largest": "4 ms"}, 1e-5)
+        self.assertLessEqual(run.figure("length"), 0.045)
+        self.assertLessEqual(run.figure("pressure"), 0.087)
 
     def test_hf_storage(self):
         """The fluid lags the tip."""
-        run = self.run_scene("hf_storage", {"body.spacing": "2.5 mm"}, 0.021)
-        self.assertLessEqual(run.worst("crack_length", 0.02), 0.046)
+        run = self.run_scene("hf_storage", {"body.spacing": "2.5 mm"}, 2e-4)
+        self.assertLessEqual(run.worst("crack_length", 0.02), 0.0233)
         self.assertLessEqual(run.worst("inlet_notch_pressure", 0.02), 0.027)
 
     def test_hf_natural_fracture(self):
         """Goes down, follows the natural fracture and goes on from its lower end."""
-        run = self.run_scene("hf_natural_fracture", {"body.spacing": "2.5 mm"}, 0.012)
+        run = self.run_scene("hf_natural_fracture", {"body.spacing": "2.5 mm"}, 2.4e-4)
         self.assertAlmostEqual(run.last("crack_length"), 0.1226, delta=0.0052)  # two steps
         self.assertAlmostEqual(run.last("wetted_length"), run.last("crack_length"), delta=0.0026)
         self.assertAlmostEqual(run.last("inlet_notch_pressure"), 1.538e6, delta=0.04e6)
         self.assertGreater(run.last("inlet_notch_pressure"), 1.5e6)  # the stress that closes both
 
     def test_two_fractures(self):
-        """The natural fracture stops the upper one, stays closed and dry, and as long as it was."""
-        run = self.run_scene("two_fractures", {}, 1.6e-3)
+        """The natural fracture stops the upper one, stays closed, and as long as it was."""
+        run = self.run_scene("two_fractures", {}, 2.7e-3)
         self.assertAlmostEqual(run.last("crack_length"), 202.2, delta=8.1)  # two steps
-        natural = run.last("crack_length") - run.last("wetted_length")
-        self.assertAlmostEqual(natural, (20**2 + 36**2) ** 0.5, delta=0.05)
-        for inlet, net in (("lower", 0.316e6), ("upper", 0.352e6)):
+        natural, facet = (20**2 + 36**2) ** 0.5, (20**2 + 36**2) ** 0.5 / 10
+        self.assertAlmostEqual(run.last("crack_length") - run.last("open_crack_length"), natural, delta=0.05)
+        dry = run.last("crack_length") - run.last("wetted_length")
+        self.assertGreater(dry, natural - 2 * facet - 0.05, "wet no further than beside the joint")
+        for inlet, net in (("lower", 0.316e6), ("upper", 0.325e6)):
             pressure = [row[f"inlet_{inlet}_pressure"] - 40e6 for row in run.rows]
             self.assertAlmostEqual(pressure[-1], net, delta=0.04e6)
             self.assertGreater(max(pressure[-100:]), pressure[-1])  # it falls while fluid leaks off
@@ -178,7 +190,7 @@ class ShippedFracture(unittest.TestCase):
     def test_kgd_oblique(self):
         """Both wings grow alike, straight on, as long as one at rest on the lattice's rows would be."""
         path = {"cracks[0].path": "[464.223 mm, 482.1115 mm, 535.777 mm, 517.8885 mm]"}
-        run = self.run_scene("kgd_oblique", {"body.spacing": "10 mm", **path}, 0.036)
+        run = self.run_scene("kgd_oblique", {"body.spacing": "10 mm", **path}, 1e-4)
         self.assertAlmostEqual(run.last("crack_length"), 0.140, delta=0.0202)  # a step at either end
         self.assertAlmostEqual(run.last("inlet_well_pressure") - 3e6, 0.306e6, delta=0.03e6)
 

@@ -10,7 +10,7 @@ namespace {
 /// What neighbours add up to, in this order: divergence, squares of bonds, bonds; and fluid alone:
 /// shape tensor, density differences times bonds.
 template <int D>
-struct Sums {
+struct DensitySums {
   static constexpr int divergence = 0;
   static constexpr int square = 1;
   static constexpr int bonds = 2;
@@ -22,16 +22,16 @@ struct Sums {
 
 /// What a bond y of this weight adds to the sums over fluid and walls alike.
 template <int D>
-void add_moments(const PacketVector<D>& y, const PacketVector<D>& relative, const Packet& weight,
-                 auto& sum) {
+void add_density_moments(const PacketVector<D>& y, const PacketVector<D>& relative,
+                         const Packet& weight, auto& sum) {
   Packet along{}, square{};
   for (int a = 0; a < D; ++a) {
     along += y[a] * relative[a];
     square += y[a] * y[a];
-    sum[Sums<D>::bonds + a] = weight * y[a];
+    sum[DensitySums<D>::bonds + a] = weight * y[a];
   }
-  sum[Sums<D>::divergence] = weight * along;
-  sum[Sums<D>::square] = weight * square;
+  sum[DensitySums<D>::divergence] = weight * along;
+  sum[DensitySums<D>::square] = weight * square;
 }
 
 template <int D>
@@ -44,15 +44,15 @@ PacketVector<D> relative_to(const Vector<D>& v, const std::array<std::vector<dou
 
 /// The gradient of the density among fluid points.
 template <int D>
-Vector<D> slope_of(const std::array<double, Sums<D>::size>& sum, double bulk) {
+Vector<D> slope_of(const std::array<double, DensitySums<D>::size>& sum, double bulk) {
   SymmetricTensor<D> shape;
-  std::copy_n(sum.begin() + Sums<D>::shape, symmetric_size<D>, shape.begin());
+  std::copy_n(sum.begin() + DensitySums<D>::shape, symmetric_size<D>, shape.begin());
   const auto inverted = inverse<D>(regularised<D>(shape, bulk));
   Vector<D> slope{};
   for (int a = 0; a < D; ++a) {
     for (int b = 0; b < D; ++b) {
-      slope[a] +=
-          inverted[symmetric_index<D>(std::min(a, b), std::max(a, b))] * sum[Sums<D>::slope + b];
+      slope[a] += inverted[symmetric_index<D>(std::min(a, b), std::max(a, b))] *
+                  sum[DensitySums<D>::slope + b];
     }
   }
   return slope;
@@ -69,40 +69,40 @@ void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& 
   for_each_point(points.count, [&](Index i) {
     const Vector<D> x = points.at(i), v = vector_at(points.velocity, i);
     const double density = points.density[i];
-    auto sum = sum_over_neighbours<Sums<D>::size, D>(
+    auto sum = sum_over_neighbours<DensitySums<D>::size, D>(
         neighbours.fluid_of_fluid(), i, x, points.position, influence,
         [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
           const Packet weight = omega * gather(points.volume, j);
-          std::array<Packet, Sums<D>::size> term;
-          add_moments<D>(y, relative_to<D>(v, points.velocity, j), weight, term);
+          std::array<Packet, DensitySums<D>::size> term;
+          add_density_moments<D>(y, relative_to<D>(v, points.velocity, j), weight, term);
           const Packet difference = weight * (gather(points.density, j) - density);
           for (int a = 0; a < D; ++a) {
             for (int b = a; b < D; ++b) {
-              term[Sums<D>::shape + symmetric_index<D>(a, b)] = weight * y[a] * y[b];
+              term[DensitySums<D>::shape + symmetric_index<D>(a, b)] = weight * y[a] * y[b];
             }
-            term[Sums<D>::slope + a] = difference * y[a];
+            term[DensitySums<D>::slope + a] = difference * y[a];
           }
           return term;
         });
     set_at(slope_, i, slope_of<D>(sum, bulk));
     if (neighbours.walls_of_fluid().count(i) > 0) {
-      const auto wall = sum_over_neighbours<Sums<D>::of_walls, D>(
+      const auto wall = sum_over_neighbours<DensitySums<D>::of_walls, D>(
           neighbours.walls_of_fluid(), i, x, walls.position, influence,
           [&](const Index* w, const PacketVector<D>& y, const Packet& omega) {
-            std::array<Packet, Sums<D>::of_walls> term;
-            add_moments<D>(y, relative_to<D>(v, walls.velocity, w), omega * gather(walls.volume, w),
-                           term);
+            std::array<Packet, DensitySums<D>::of_walls> term;
+            add_density_moments<D>(y, relative_to<D>(v, walls.velocity, w),
+                                   omega * gather(walls.volume, w), term);
             return term;
           });
-      for (int k = 0; k < Sums<D>::of_walls; ++k) sum[k] += wall[k];
+      for (int k = 0; k < DensitySums<D>::of_walls; ++k) sum[k] += wall[k];
     }
-    moments.trace[i] = std::max(sum[Sums<D>::square], least_shape * moments.bulk_trace);
-    moments.divergence[i] = sum[Sums<D>::divergence] / bulk;
+    moments.trace[i] = std::max(sum[DensitySums<D>::square], least_shape * moments.bulk_trace);
+    moments.divergence[i] = sum[DensitySums<D>::divergence] / bulk;
     for (int a = 0; a < D; ++a) {
       for (int b = a; b < D; ++b) {
         moments.inverse_shape[symmetric_index<D>(a, b)][i] = a == b ? 1.0 / bulk : 0.0;
       }
-      moments.crowding[a][i] = sum[Sums<D>::bonds + a] / bulk;
+      moments.crowding[a][i] = sum[DensitySums<D>::bonds + a] / bulk;
     }
   });
 }

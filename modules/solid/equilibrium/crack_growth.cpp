@@ -34,6 +34,9 @@ CrackGrowth<D>::CrackGrowth(const Body<D>& body, CrackedEquilibrium<D>& equilibr
                             const std::optional<TensileStrength<D>>& tensile_strength)
     : equilibrium_(equilibrium), work_(work), tips_(body, equilibrium.body(), fracture_energy) {
   if constexpr (D == 2) {
+    if (equilibrium.body().may_be_partly_cut()) {
+      moving_ = std::make_unique<MovingTips>(body, equilibrium_, work_, tips_);
+    }
     if (tensile_strength) {
       nucleation_ = std::make_unique<CrackNucleation>(
           body, equilibrium.body(), std::move(fracture_energy), *tensile_strength);
@@ -44,8 +47,26 @@ CrackGrowth<D>::CrackGrowth(const Body<D>& body, CrackedEquilibrium<D>& equilibr
 template <int D>
 void CrackGrowth<D>::start(const std::vector<CrackFacet<D>>& seeds, double t) {
   tips_.start(seeds, t);
+  if (moving_) moving_->start();
   last_growth_ = t;
   readiness_before_ = nucleus_before_ = 0.0;
+}
+
+template <int D>
+void CrackGrowth<D>::begin(const TimeWindow& window) {
+  if (moving_) moving_->begin(window);
+}
+
+template <int D>
+bool CrackGrowth<D>::find_tips() {
+  return !moving_ || moving_->find();
+}
+
+template <int D>
+std::vector<double>& CrackGrowth<D>::parts() {
+  if (moving_) return moving_->parts();
+  whole_.assign(equilibrium_.body().facets().size(), 1.0);
+  return whole_;
 }
 
 template <int D>
@@ -57,7 +78,12 @@ double CrackGrowth<D>::first_event(const TimeWindow& window) {
   // A load that jumps is met by no window, however short.
   const bool begins_late = nucleus > 1.0 + late_nucleus && nucleus_before_ < 1.0 - late_nucleus &&
                            window.length() > shortest * window.end;
-  if (!(is_late || begins_late) || cuts_ == most_cuts) return window.end;
+  const double end = moving_ && can_cut ? moving_->first_crossed() : window.end;
+  if (!(is_late || begins_late || end < window.end) || cuts_ == most_cuts) return window.end;
+  if (!(is_late || begins_late)) {
+    ++cuts_;
+    return end;
+  }
   // A tip that is late in however short a window is not met by the secant.
   const double longest = ++cuts_ > 5 ? 0.5 : 0.95;
   double share = longest;
@@ -69,7 +95,7 @@ double CrackGrowth<D>::first_event(const TimeWindow& window) {
         std::clamp((1.0 - nucleus_before_) / (nucleus - nucleus_before_), 0.05, longest);
     share = is_late ? std::min(share, secant) : secant;
   }
-  return window.begin + share * window.length();
+  return std::min(end, window.begin + share * window.length());
 }
 
 template <int D>
@@ -80,11 +106,29 @@ void CrackGrowth<D>::grow() {
   readiness_before_ = readiness_;
   const bool is_wet = equilibrium_.is_wet();
   const std::size_t facets = equilibrium_.body().facets().size();
+  if (moving_ && moving_->conclude()) {
+    last_growth_ = equilibrium_.time();
+    work_.book();
+  }
   const bool has_grown = grow_tips(readiness_, due);
   if (nucleation_ && !(has_grown && is_wet)) begin_cracks(has_grown);
   // Beside fluid, readiness after an event is known only at the next window's end.
   const bool is_known = !is_wet || equilibrium_.body().facets().size() == facets;
   nucleus_before_ = is_known ? nucleus_readiness_ : 0.0;
+  if (moving_) moving_->note_loads();
+}
+
+/// What a cut changes of how pores press on the rock is known whole or not at all.
+template <int D>
+bool CrackGrowth<D>::tips_move() const {
+  return moving_ && equilibrium_.is_wet() && equilibrium_.load().pore_stress().empty();
+}
+
+/// True where some tip has come to a facet.
+template <int D>
+bool CrackGrowth<D>::start_moving() {
+  if constexpr (D == 2) return moving_->add(tips_.take_ready(equilibrium_.state()));
+  return false;
 }
 
 /// Cuts what is ready once the readiest is due, all of it where no fluid answers.
@@ -95,8 +139,9 @@ bool CrackGrowth<D>::grow_tips(double most, double due) {
   while (most >= due) {
     due = ready;
     const double before = is_wet ? 0.0 : work_.released_energy();
-    const double spent = tips_.grow(equilibrium_.state());
-    has_grown = has_grown || spent > 0.0;
+    const bool moves = tips_move();
+    const double spent = moves ? 0.0 : tips_.grow(equilibrium_.state());
+    has_grown = has_grown || spent > 0.0 || (moves && start_moving());
     work_.spend(spent);
     last_growth_ = equilibrium_.time();
     readiness_before_ = 0.0;
@@ -154,6 +199,12 @@ void CrackGrowth<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("last_growth", last_growth_);
   if (nucleation_) visitor.visit("nucleus_readiness", nucleus_before_);
   tips_.visit_state(visitor);
+  if (moving_ && equilibrium_.is_wet()) moving_->visit_state(visitor);
+}
+
+template <int D>
+void CrackGrowth<D>::on_restored() {
+  if (moving_) moving_->on_restored();
 }
 
 template class CrackGrowth<2>;

@@ -8,6 +8,7 @@
 #include "core/module/time_window.hpp"
 #include "core/state/state_visitor.hpp"
 #include "modules/solid/equilibrium/cracked_work.hpp"
+#include "modules/solid/equilibrium/moving_tips.hpp"
 #include "modules/solid/fracture/crack_front.hpp"
 #include "modules/solid/fracture/crack_nucleation.hpp"
 #include "modules/solid/fracture/crack_tips.hpp"
@@ -26,14 +27,25 @@ class CrackGrowth {
               const std::optional<TensileStrength<D>>& tensile_strength);
 
   void start(const std::vector<CrackFacet<D>>& seeds, double t);
+  /// A window is about to be tried.
+  void begin(const TimeWindow& window);
+  /// Once its equilibrium was solved; false where it has to be passed through once more.
+  bool find_tips();
+  /// Beside fluid its tips may be within facets.
+  bool has_moving_tips() const { return moving_ != nullptr; }
+  /// By facet, the part of it that is crack: less than 1 where a tip is within it.
+  std::vector<double>& parts();
   /// Where the window is to end [s]: at its end, or at the first event where that is far before.
   double first_event(const TimeWindow& window);
   /// Of a window that stands: cuts what is ready. Throws PieceCutFree, NotPositiveDefinite.
   void grow();
 
   void visit_state(StateVisitor& visitor);
+  void on_restored();
 
  private:
+  bool tips_move() const;
+  bool start_moving();
   bool grow_tips(double most, double due);
   double find_nucleus_readiness();
   void begin_cracks(bool has_grown);
@@ -42,6 +54,8 @@ class CrackGrowth {
   CrackedEquilibrium<D>& equilibrium_;
   CrackedWork<D>& work_;
   std::conditional_t<D == 2, CrackTips, CrackFront> tips_;
+  std::unique_ptr<MovingTips> moving_;           ///< in 2D
+  std::vector<double> whole_;                    ///< ones, by facet
   std::unique_ptr<CrackNucleation> nucleation_;  ///< null where no crack begins by itself
 
   double readiness_ = 0.0;          ///< the largest of the tips, at the end of the window

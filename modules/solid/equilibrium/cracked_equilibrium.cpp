@@ -120,7 +120,8 @@ template <int D>
 double CrackedEquilibrium<D>::elastic_energy() {
   derive();
   const double sheared = friction_ != nullptr ? friction_->elastic_energy() : 0.0;
-  return strain_energy_ + sheared + cracked_.pressed_energies(faces_.pressure).elastic;
+  return strain_energy_ + sheared + cracked_.pressed_energies(faces_.pressure).elastic +
+         cracked_.held(unknowns_, faces_.pressure, faces_.shear).elastic;
 }
 
 template <int D>

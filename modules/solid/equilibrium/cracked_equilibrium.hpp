@@ -52,6 +52,12 @@ class CrackedEquilibrium {
   /// Of the points, D * D blocks, the initial stress included [Pa].
   std::span<double> effective_stress();
 
+  /// Of facets that tips are within: how far they are open.
+  void set_partial(std::span<const PartialCut> cuts) {
+    cracked_.set_partial(cuts);
+    unknowns_are_current_ = false;
+  }
+
   /// What the tips need to know of it.
   CrackState<D> state();
 

@@ -46,6 +46,8 @@ void CrackedWork<D>::book_changing() {
   std::vector<double> force(unknowns.size()), dilatation(body_.load().points().size());
   cracked.elastic().apply(unknowns, {body_.load().added_pore_stress()}, force, dilatation);
   view(force) -= cracked.face_force(faces.pressure, true, faces.shear);
+  const auto held = cracked.held(unknowns, faces.pressure, faces.shear);
+  if (held.force.size() > 0) view(force) += held.force;
   const double relieved = relief(unknowns, dilatation);
   external_ += 0.5 * (view(force_) + view(force)).dot(view(unknowns) - view(displacement_)) +
                share() * (relieved - relief_);
@@ -64,7 +66,9 @@ double CrackedWork<D>::relief(std::span<const double> unknowns,
     const Vector<D> stress = cracked.relief(f), jump = cracked.jump(f, unknowns);
     relief += cracked.jumps()[f].area * dot(stress, jump);
   }
-  relief += cracked.pressed_energies(body_.faces().pressure).relief;
+  const auto& faces = body_.faces();
+  relief += cracked.pressed_energies(faces.pressure).relief +
+            cracked.held(unknowns, faces.pressure, faces.shear).relief;
   const std::span<const double> at_rest = body_.load().pore_stress_at_rest();
   for (std::size_t i = 0; i < at_rest.size(); ++i) {
     relief -= at_rest[i] * dilatation[i] * body_.load().points().volume[i];

@@ -48,7 +48,7 @@ IteratedBody<D>::IteratedBody(const Body<D>& body, const SolidBoundary<D>& bound
 
 template <int D>
 std::string IteratedBody<D>::path() const {
-  return "multigrid" + why_ + ", " + elastic_->path();
+  return "multigrid" + why_ + ", " + elastic_->path() + "; cracks go on by whole facets";
 }
 
 template <int D>

@@ -57,11 +57,13 @@ void CondensedBody<D>::start() {
   jumps_.clear();
   modes_.clear();
   pressed_.clear();
+  change_of_.clear();
+  partial_ = {};
   for (const CrackFacet<D>& seed : seeds_)
     add_mode(face_jump<D>(seed, intact_, spacing_, longest_));
   intact_move_.resize(0);
   set_load(load_);
-  compliance_ = compliance(0, 0);
+  find_compliance();
 }
 
 template <int D>
@@ -74,20 +76,22 @@ bool CondensedBody<D>::cut(const CrackFacet<D>& facet) {
   Parts parts;
   for (const Index i : points) parts.less.push_back(on_free(elastic_->point_stiffness(i)));
   this->break_bonds(bonds);
+  std::vector<PartialCut> partial;
+  for (std::size_t k = 0; k < partial_.count(); ++k) partial.push_back(partial_.at(k));
   try {
     for (const Index i : points) parts.more.push_back(on_free(elastic_->point_stiffness(i)));
     this->check_pieces(bonds);
     change_stiffness(parts);
   } catch (...) {
     this->heal_bonds(bonds);
-    find_opening();  // of a block that may have grown
+    take_partial(partial);  // of a block that may have grown
     throw;
   }
   bonds_.add_facet(facet, bonds);
   followed_ = bonds_.version();
+  change_of_.push_back(static_cast<int>(inverse_->changes().size()) - 1);
   add_mode(jump);
-  compliance_ = compliance(0, 0);
-  find_opening();
+  take_partial(partial);
   return true;
 }
 
@@ -154,6 +158,12 @@ void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
     }
   }
   inverse_->add(unknowns);
+  this->add_jump(jump);
+  modes_.push_back(mode_of(jump));
+}
+
+template <int D>
+typename CondensedBody<D>::Mode CondensedBody<D>::mode_of(const FaceJump<D>& jump) const {
   Mode mode;
   for (const auto& [point, coefficient] : jump.terms) {
     for (int a = 0; a < D; ++a) {
@@ -165,12 +175,29 @@ void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
       }
     }
   }
-  this->add_jump(jump);
-  modes_.push_back(std::move(mode));
+  return mode;
 }
 
 template <int D>
 Eigen::MatrixXd CondensedBody<D>::compliance(int jump, int traction) {
+  const bool of_openings = jump == 0 && traction == 0;
+  Eigen::MatrixXd compliance = of_openings ? whole_compliance_ : whole_compliance(jump, traction);
+  if (!partial_.empty()) partial_.hold(compliance, jump, traction);
+  if (of_openings) {
+    for (std::size_t f = 0; f < modes_.size(); ++f) compliance(f, f) += pressed_[f];
+  }
+  return compliance;
+}
+
+template <int D>
+void CondensedBody<D>::find_compliance() {
+  whole_compliance_ = whole_compliance(0, 0);
+  compliance_ = compliance(0, 0);
+}
+
+/// What openings put back apart.
+template <int D>
+Eigen::MatrixXd CondensedBody<D>::whole_compliance(int jump, int traction) const {
   const Eigen::Index count = static_cast<Eigen::Index>(modes_.size());
   Eigen::MatrixXd response(inverse_->block().rows(), count);
   for (Eigen::Index g = 0; g < count; ++g) {
@@ -186,7 +213,6 @@ Eigen::MatrixXd CondensedBody<D>::compliance(int jump, int traction) {
       for (const auto& [place, c] : modes_[f][jump]) sum += c * response(place, g);
       compliance(f, g) = sum;
     }
-    if (jump == 0 && traction == 0) compliance(f, f) += pressed_[f];
   }
   return compliance;
 }
@@ -201,35 +227,65 @@ void CondensedBody<D>::set_load(const Eigen::VectorXd& load) {
   find_opening();
 }
 
-/// What the faces do on the condensed unknowns.
 template <int D>
-Eigen::VectorXd CondensedBody<D>::block_force(const Eigen::VectorXd& pressure,
-                                              std::span<const double> shear) const {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
+std::vector<Vector<D>> CondensedBody<D>::face_loads(const Eigen::VectorXd& pressure,
+                                                    std::span<const double> shear) const {
   require(pressure.size() == std::ssize(modes_) && (shear.empty() || shear.size() == modes_.size()),
           "pressure and shear of other facets than the body has");
+  std::vector<Vector<D>> loads;
   for (std::size_t f = 0; f < modes_.size(); ++f) {
-    const Vector<D> load = this->face_load(f, pressure[f], shear);
+    loads.push_back(this->face_load(f, pressure[f], shear));
+  }
+  return loads;
+}
+
+/// What loads of the faces do on the condensed unknowns.
+template <int D>
+Eigen::VectorXd CondensedBody<D>::force_of(std::span<const Vector<D>> loads) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
+  for (std::size_t f = 0; f < modes_.size(); ++f) {
     for (int k = 0; k < D; ++k) {
-      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * load[k] * c;
+      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * loads[f][k] * c;
     }
   }
   return force;
 }
 
 template <int D>
+Eigen::VectorXd CondensedBody<D>::block_force(const Eigen::VectorXd& pressure,
+                                              std::span<const double> shear) const {
+  return force_of(face_loads(pressure, shear));
+}
+
+template <int D>
+Eigen::VectorXd CondensedBody<D>::moved_by(const Eigen::VectorXd& force) const {
+  const Eigen::VectorXd moved = inverse_->block() * force;
+  return partial_.empty() ? moved : partial_.held(moved);
+}
+
+template <int D>
 void CondensedBody<D>::find_opening() {
+  find_cut_loaded();
+  find_free_opening();
+}
+
+template <int D>
+void CondensedBody<D>::find_cut_loaded() {
   Eigen::VectorXd moved(inverse_->block().rows());
   for (Eigen::Index k = 0; k < moved.size(); ++k) {
     moved[k] = intact_move_[inverse_->unknowns()[k]];
   }
-  loaded_ = inverse_->correct_block(moved);
+  cut_loaded_ = inverse_->correct_block(moved);
+}
+
+template <int D>
+void CondensedBody<D>::find_free_opening() {
+  loaded_ = partial_.empty() ? cut_loaded_ : partial_.held(cut_loaded_);
   const auto count = static_cast<Eigen::Index>(modes_.size());
-  const Eigen::VectorXd x = loaded_ + inverse_->block() * block_force(Eigen::VectorXd::Zero(count));
+  const auto loads = face_loads(Eigen::VectorXd::Zero(count), {});
+  const auto jumps = jumps_at(loaded_ + moved_by(force_of(loads)), loads);
   opening_.resize(count);
-  for (Eigen::Index f = 0; f < count; ++f) {
-    opening_[f] = along(modes_[f][0], x) + pressed_[f] * this->relief(static_cast<Index>(f))[0];
-  }
+  for (Eigen::Index f = 0; f < count; ++f) opening_[f] = jumps[f][0];
 }
 
 template <int D>
@@ -262,23 +318,19 @@ std::optional<double> CondensedBody<D>::find_answer(std::span<const Index> faces
                                                     const Vector<D>& traction,
                                                     std::span<const Index> named,
                                                     std::span<double> all) {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(inverse_->block().rows());
-  for (const Index f : faces) {
-    for (int k = 0; k < D; ++k) {
-      for (const auto& [place, c] : modes_[f][k]) force[place] += jumps_[f].area * traction[k] * c;
-    }
-  }
-  const Eigen::VectorXd block = inverse_->block() * force;
+  std::vector<Vector<D>> loads(modes_.size(), Vector<D>{});
+  for (const Index f : faces) loads[f] = traction;
+  const Eigen::VectorXd force = force_of(loads);
+  const Eigen::VectorXd block = moved_by(force);
   const Eigen::VectorXd moved = solve_named(force, block, named);
   Eigen::Index next = 0;
   for (const Index unknown : named) {
     const auto [free, by] = free_of_[unknown];
     all[unknown] = free < 0 ? 0.0 : by * moved[next++];
   }
+  const auto jumps = jumps_at(block, loads);
   double volume = 0.0;
-  for (const Index f : faces) {
-    volume += jumps_[f].area * (along(modes_[f][0], block) + pressed_[f] * traction[0]);
-  }
+  for (const Index f : faces) volume += jumps_[f].area * jumps[f][0];
   return volume;
 }
 
@@ -300,7 +352,9 @@ Eigen::VectorXd CondensedBody<D>::solve_named(const Eigen::VectorXd& force,
 template <int D>
 Eigen::VectorXd CondensedBody<D>::block_force_on_first_body(const Eigen::VectorXd& force,
                                                             const Eigen::VectorXd& block) const {
-  return force - inverse_->force_of_changes(block);
+  const Eigen::VectorXd own = force - inverse_->force_of_changes(block);
+  if (partial_.empty()) return own;
+  return own - partial_.force(block);
 }
 
 template <int D>
@@ -316,7 +370,7 @@ template <int D>
 Eigen::VectorXd CondensedBody<D>::unknowns(const Eigen::VectorXd& pressure,
                                            std::span<const double> shear) {
   const Eigen::VectorXd force = block_force(pressure, shear);
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  const Eigen::VectorXd block = loaded_ + moved_by(force);
   const Eigen::VectorXd all = force_on_first_body(force, block);
   Eigen::VectorXd moved(all.size());
   factor_.solve(all, moved);
@@ -327,7 +381,7 @@ template <int D>
 void CondensedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<const Index> named,
                                      std::span<double> all, std::span<const double> shear) {
   const Eigen::VectorXd force = block_force(pressure, shear);
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  const Eigen::VectorXd block = loaded_ + moved_by(force);
   const Eigen::VectorXd moved = solve_named(force, block, named);
   Eigen::Index next = 0;
   for (const Index unknown : named) {
@@ -339,12 +393,23 @@ void CondensedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<
 template <int D>
 std::vector<Vector<D>> CondensedBody<D>::jumps_under(const Eigen::VectorXd& pressure,
                                                      std::span<const double> shear) {
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * block_force(pressure, shear);
+  const auto loads = face_loads(pressure, shear);
+  return jumps_at(loaded_ + moved_by(force_of(loads)), loads);
+}
+
+template <int D>
+std::vector<Vector<D>> CondensedBody<D>::jumps_at(const Eigen::VectorXd& block,
+                                                  std::span<const Vector<D>> loads) const {
   std::vector<Vector<D>> jumps;
   for (std::size_t f = 0; f < modes_.size(); ++f) {
     Vector<D>& jump = jumps.emplace_back();
     for (int k = 0; k < D; ++k) jump[k] = along(modes_[f][k], block);
-    jump[0] += pressed_[f] * this->face_load(f, pressure[f], {})[0];
+    jump[0] += pressed_[f] * loads[f][0];
+  }
+  for (std::size_t k = 0; k < partial_.count(); ++k) {
+    const Index f = partial_.at(k).facet;
+    const Eigen::VectorXd own = own_jump(k, loads[f]);
+    for (int a = 0; a < D; ++a) jumps[f][a] += own[a];
   }
   return jumps;
 }
@@ -353,7 +418,7 @@ template <int D>
 typename CrackedBody<D>::Energies CondensedBody<D>::energies(const Eigen::VectorXd& pressure,
                                                              std::span<const double> shear) {
   const Eigen::VectorXd force = block_force(pressure, shear);
-  const Eigen::VectorXd block = loaded_ + inverse_->block() * force;
+  const Eigen::VectorXd block = loaded_ + moved_by(force);
   Energies energies{};
   // The factor's inverse is symmetric, so that load times displacement needs no displacement.
   energies.load = intact_move_.dot(load_ + force_on_first_body(force, block));
@@ -363,6 +428,15 @@ typename CrackedBody<D>::Energies CondensedBody<D>::energies(const Eigen::Vector
     double sum = 0.0;
     for (int k = 0; k < D; ++k) sum += load[k] * along(modes_[f][k], block);
     energies.relief += jumps_[f].area * sum;
+  }
+  for (std::size_t k = 0; k < partial_.count(); ++k) {
+    const Index f = partial_.at(k).facet;
+    const Vector<D> load = this->face_load(f, pressure[f], shear), relief = this->relief(f);
+    const Eigen::VectorXd own = jumps_[f].area * own_jump(k, load);
+    for (int a = 0; a < D; ++a) {
+      energies.elastic += 0.5 * load[a] * own[a];
+      energies.relief += relief[a] * own[a];
+    }
   }
   const Energies pressed = this->pressed_energies(pressure);
   energies.elastic += pressed.elastic;

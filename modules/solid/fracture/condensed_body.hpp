@@ -31,6 +31,16 @@ class CondensedBody final : public CrackedBody<D> {
   bool cut(const CrackFacet<D>& facet) override;
   void set_load(const Eigen::VectorXd& load) override;
 
+  bool may_be_partly_cut() const override { return true; }
+  void set_partial(std::span<const PartialCut> cuts) override;
+  const PartialCuts& partial() const override { return partial_; }
+  std::vector<CutLoad> cut_loads(const Eigen::VectorXd& pressure,
+                                 std::span<const double> shear) override;
+  using Held = typename CrackedBody<D>::Held;
+  Held held(std::span<const double> unknowns, const Eigen::VectorXd& pressure,
+            std::span<const double> shear) override;
+  std::vector<Vector<D>> jumps_by(std::span<const Index> faces, const Vector<D>& traction) override;
+
   using Faces = typename CrackedBody<D>::Faces;
   using Energies = typename CrackedBody<D>::Energies;
   Faces faces(const Eigen::VectorXd& pressure) override;
@@ -71,6 +81,7 @@ class CondensedBody final : public CrackedBody<D> {
   using CutBody<D>::jumps_;
   using CrackedBody<D>::free_unknowns_;
   using CrackedBody<D>::pressed_;
+  using CrackedBody<D>::partial_version_;
 
   /// A facet's jump along its normal and tangents, of the condensed unknowns.
   using Mode = std::array<std::vector<std::pair<int, double>>, D>;
@@ -83,7 +94,22 @@ class CondensedBody final : public CrackedBody<D> {
   };
   void change_stiffness(const Parts& parts);
   void add_mode(const FaceJump<D>& jump);
+  Mode mode_of(const FaceJump<D>& jump) const;
   void find_opening();
+  void find_cut_loaded();
+  void find_free_opening();
+  void find_compliance();
+  Eigen::MatrixXd whole_compliance(int jump, int traction) const;
+  void take_partial(std::span<const PartialCut> cuts);
+  void hold_partial();
+  PartialCuts::Cut partial_cut(const PartialCut& cut) const;
+  Eigen::VectorXd moved_by(const Eigen::VectorXd& force) const;
+  std::vector<Vector<D>> face_loads(const Eigen::VectorXd& pressure,
+                                    std::span<const double> shear) const;
+  std::vector<Vector<D>> jumps_at(const Eigen::VectorXd& block,
+                                  std::span<const Vector<D>> loads) const;
+  Eigen::VectorXd own_jump(std::size_t k, const Vector<D>& load) const;
+  Eigen::VectorXd force_of(std::span<const Vector<D>> loads) const;
   Eigen::VectorXd block_force(const Eigen::VectorXd& pressure,
                               std::span<const double> shear = {}) const;
   Eigen::VectorXd solve_named(const Eigen::VectorXd& force, const Eigen::VectorXd& block,
@@ -100,11 +126,16 @@ class CondensedBody final : public CrackedBody<D> {
   SparseCholesky factor_;
   std::unique_ptr<CondensedInverse> inverse_;
   std::vector<Mode> modes_;
+  std::vector<int> change_of_;  ///< by facet after the first cracks': place in inverse_->changes()
   Eigen::MatrixXd compliance_;
+
+  PartialCuts partial_;
+  Eigen::MatrixXd whole_compliance_;  ///< of openings, were partial cuts whole
 
   Eigen::VectorXd load_;         ///< of those solved for
   Eigen::VectorXd intact_move_;  ///< what it does to the body with its first cracks
-  Eigen::VectorXd loaded_;       ///< what it does now, on the condensed unknowns
+  Eigen::VectorXd cut_loaded_;   ///< what it does to the cut body, on the condensed unknowns
+  Eigen::VectorXd loaded_;       ///< what it does now, likewise
   Eigen::VectorXd opening_;      ///< by load and relief, without pressure
 };
 

@@ -24,8 +24,9 @@ void CrackFriction::start(const CrackedBody<2>& body) {
 
 /// Facets that came change how all answer.
 void CrackFriction::follow(CrackedBody<2>& body) {
-  if (version_ == body.version()) return;
-  version_ = body.version();
+  const std::pair version{body.version(), body.partial_version()};
+  if (version_ == version) return;
+  version_ = version;
   const auto count = static_cast<Eigen::Index>(body.jumps().size());
   layer_.clear();
   for (const FaceJump<2>& jump : body.jumps()) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -56,7 +57,8 @@ class CrackFriction {
 
   Eigen::MatrixXd compliance_;  ///< openings, then slips, by pressures, then shears [m/Pa]
   std::vector<double> layer_;   ///< by facet: jump by shear of the rock that it is over [m/Pa]
-  std::optional<std::uint64_t> version_;  ///< of the body that it is of
+  /// Of the body that it is of, and of its partial cuts.
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> version_;
 };
 
 }  // namespace perifrac

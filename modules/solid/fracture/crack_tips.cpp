@@ -6,6 +6,7 @@
 
 #include "core/base/small_vector.hpp"
 #include "core/state/visit_each.hpp"
+#include "modules/solid/fracture/even_loads.hpp"
 
 namespace perifrac {
 
@@ -23,12 +24,6 @@ constexpr double worth_asking = 0.9;
 /// (1.3 was met), up to this change. What a guess leaves open decides nothing: windows end, and
 /// tips go on, within `near` of the criterion.
 constexpr double guess_error = 1.5, telling_change = 0.15, near = 0.005;
-
-/// Beyond this a crack has turned so far that even loads say nothing of its tip [rad].
-constexpr double bent = 0.35;
-
-/// A turn below this is rounding [rad].
-constexpr double straight = 1e-6;
 
 }  // namespace
 
@@ -75,7 +70,6 @@ CrackFacet<2> CrackTips::next_facet(const CrackTip& tip, double turn) const {
   return {tip.place, tip.place + body_.spacing() * ahead};
 }
 
-/// Per length of it [J/m^2].
 double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
   return fracture_energy_.at(middle<2>(facet));
 }
@@ -173,7 +167,7 @@ double CrackTips::beyond_mean(const Tip& tip, const CrackState<2>& state) const 
   if (state.leak_off.empty() || tip.took == 0.0) return 1.0;
   const double took = std::min(tip.took, state.t - tip.since);
   double volume = 0.0, lost = 0.0;
-  for (const Index f : crack_of(tip.at)) {
+  for (const Index f : crack_of(tip.at.facet)) {
     const double length = cracked_.jumps()[f].area;
     volume += length * std::max(0.0, state.opening[f]);
     for (const Tip& other : tips_) {
@@ -184,51 +178,28 @@ double CrackTips::beyond_mean(const Tip& tip, const CrackState<2>& state) const 
   return volume > 0.0 ? 1.0 + lost / volume : 1.0;
 }
 
-/// What faces do under an even pressure and an even shear, beside what K_I and K_II of that J do by
-/// the law: how the crack runs across the lattice, which bonds its last facets cut and where its
-/// other end is says itself there.
+/// What faces do under even loads, beside what K_I and K_II of that J do by the law.
 void CrackTips::ask_even_loads(Tip& tip) const {
   tip.even = {.opening = 1.0};
-  if (!energy_release_.is_straight(tip.at, bent)) return;
-  const std::vector<Index> named = energy_release_.looks_at(tip.at);
-  std::vector<double> unknowns(cracked_.elastic().size(), 0.0);
-  const std::vector<Index> faces = crack_of(tip.at);
-  std::optional<double> volume;
-  const auto under = [&](const Vector<2>& traction) -> std::optional<TipLoad> {
-    volume = cracked_.find_answer(faces, traction, named, unknowns);
-    if (!volume) return {};
-    return energy_release_.under(tip.at, unknowns, faces, traction);
-  };
-  // Of any toughness: what is asked are ratios.
-  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(), 1.0};
-  const auto intensity = [&](const TipLoad& load) {
-    return std::sqrt(std::max(0.0, load.energy_release));
-  };
-  const auto pressed = under({1.0, 0.0});
-  if (!pressed) return;
-  const double opened =
-      cracked_.jump(tip.at.before, unknowns)[0] + cracked_.pressed_by(tip.at.before);
-  const double volume_opened = *volume;
-  const auto sheared = under({0.0, 1.0});
-  const double mode_one = intensity(*pressed), mode_two = intensity(*sheared);
-  const double apart = pressed->opening + cracked_.pressed_by(tip.at.before);
-  const double slid = std::abs(sheared->sliding);
-  if (!(std::min({mode_one, mode_two, opened, apart, slid, volume_opened}) > 0.0)) return;
-  tip.even.intensity = mode_one / volume_opened;
+  const auto even =
+      perifrac::ask_even_loads(cracked_, energy_release_, tip.at, crack_of(tip.at.facet));
+  if (!even || !(std::min({even->sliding, even->opening, even->volume}) > 0.0)) return;
+  tip.even.intensity = even->root_of_j / even->volume;
   if (tip.intensity_before > 0.0) {
     tip.intensity_ratio = std::min(1.0, tip.even.intensity / tip.intensity_before);
   }
+  // Of any toughness: what is asked are ratios.
+  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(), 1.0};
   const double dry = tip_law.opening(within_crack(tip, behind(tip.at)), 0.0, {}, 1.0);
-  tip.even.opening = opened / (dry * mode_one);
-  tip.even.sliding = slid / mode_two * mode_one / apart;
+  tip.even.opening = even->opening / (dry * even->root_of_j);
+  tip.even.sliding = even->sliding;
 }
 
-/// The facets that hang together with the tip's.
-std::vector<Index> CrackTips::crack_of(const CrackTip& tip) const {
+std::vector<Index> CrackTips::crack_of(Index facet) const {
   const std::span<const CrackFacet<2>> facets = cracked_.facets();
-  std::vector<Index> crack = {tip.facet};
+  std::vector<Index> crack = {facet};
   std::vector<bool> taken(facets.size(), false);
-  taken[tip.facet] = true;
+  taken[facet] = true;
   for (std::size_t next = 0; next < crack.size(); ++next) {
     const CrackFacet<2>& from = facets[crack[next]];
     for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -263,8 +234,11 @@ double CrackTips::lagging_readiness(Tip& tip, const TipLaw& tip_law,
 /// behind the tip of a long crack
 ///   w(s) = 4 / (pi E') int q ln|(sqrt s + sqrt s') / (sqrt s - sqrt s')| ds',
 ///   K_I = sqrt(8 / pi) int q / sqrt(4 s') ds'   [m].
-double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const {
+double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law,
+                                    double part) const {
   if (!cracked_.relief_varies()) return 0.0;
+  double there = cracked_.relief(at.facet)[0];
+  if (part < 1.0) there = part * there + (1.0 - part) * cracked_.relief(at.before)[0];
   const auto integral = [s](double t) {
     if (t == s) return -2.0 * s;
     const double a = std::sqrt(s), b = std::sqrt(t);
@@ -276,8 +250,10 @@ double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& 
     const auto from_tip = [&](const Vector<2>& x) {
       return std::hypot(x[0] - at.place[0], x[1] - at.place[1]);
     };
-    const double one = from_tip(facet[0]), other = from_tip(facet[1]);
-    const double more = cracked_.relief(static_cast<Index>(f))[0] - cracked_.relief(at.facet)[0];
+    const bool is_last = static_cast<Index>(f) == at.facet;
+    const double one = is_last ? 0.0 : from_tip(facet[0]);
+    const double other = is_last ? part * cracked_.jumps()[f].area : from_tip(facet[1]);
+    const double more = cracked_.relief(static_cast<Index>(f))[0] - there;
     sum += more * (integral(std::max(one, other)) - integral(std::min(one, other)));
   }
   return 4.0 / (M_PI * tip_law.plane_strain_modulus) * sum;
@@ -289,12 +265,8 @@ double CrackTips::behind(const CrackTip& at) const {
   return std::hypot(back[0], back[1]);
 }
 
-/// Openings end to go as sqrt(s) where the crack's other end makes itself felt: as that of a crack
-/// of half length l under uniform pressure, sqrt(s (1 - s / 2l)), whose K_I at fixed volume goes as
-/// l^-1.5. The s of an endless crack that is as open [m].
 double CrackTips::within_crack(const Tip& tip, double s) const {
-  const double by_length = (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing();  // 1 / l
-  return s * (1.0 - 0.5 * s * by_length);
+  return perifrac::within_crack(s, (1.0 - tip.intensity_ratio) / 1.5 / body_.spacing());
 }
 
 double CrackTips::find_readiness(const CrackState<2>& state) {
@@ -314,18 +286,27 @@ double CrackTips::find_readiness(const CrackState<2>& state) {
   return most;
 }
 
+double CrackTips::turn_of(const Tip& tip, std::span<const Vector<2>> jumps) const {
+  return kink_angle(tip.modes ? *tip.modes : modes_of(energy_release_.jump(tip.at, jumps)));
+}
+
+std::vector<std::pair<CrackTip, double>> CrackTips::take_ready(const CrackState<2>& state) {
+  const std::vector<Vector<2>> jumps = state.jumps();
+  std::vector<std::pair<CrackTip, double>> taken;
+  std::erase_if(tips_, [&](const Tip& tip) {
+    if (!tip.grows || tip.readiness < ready) return false;
+    taken.emplace_back(tip.at, turn_of(tip, jumps));
+    return true;
+  });
+  return taken;
+}
+
 double CrackTips::grow(const CrackState<2>& state) {
   // Where to is asked before the first facet makes the displacements old.
   const std::vector<Vector<2>> jumps = state.jumps();
   const auto goes_on = [](const Tip& tip) { return tip.grows && tip.readiness >= ready; };
   std::vector<double> turns;
-  for (const Tip& tip : tips_) {
-    double turn = 0.0;
-    if (goes_on(tip)) {
-      turn = kink_angle(tip.modes ? *tip.modes : modes_of(energy_release_.jump(tip.at, jumps)));
-    }
-    turns.push_back(std::abs(turn) < straight ? 0.0 : turn);
-  }
+  for (const Tip& tip : tips_) turns.push_back(goes_on(tip) ? turn_of(tip, jumps) : 0.0);
   double energy = 0.0;
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     Tip& tip = tips_[k];
@@ -375,7 +356,6 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   return jump.area * energy_to_cut(facet);
 }
 
-/// The facet would come close to an end of another crack's, where it is to end.
 bool CrackTips::joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const {
   double nearest = 0.75 * body_.spacing();
   bool found = false;

@@ -36,6 +36,20 @@ class CrackTips {
   /// its cracks [J/m]. Nothing where a tip ended: of the rock that it parted last J says nothing.
   std::optional<double> excess_release() const;
 
+  /// Those that were found ready are no tips of these any more: they and how they turn [rad].
+  std::vector<std::pair<CrackTip, double>> take_ready(const CrackState<2>& state);
+
+  /// Per length of it [J/m^2].
+  double energy_to_cut(const CrackFacet<2>& facet) const;
+  CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
+  /// The facet would come close to an end of another crack's, where it is to end.
+  bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
+  /// Beyond K_I's share, `s` behind a tip that has crossed `part` of its last facet [m].
+  double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law,
+                           double part = 1.0) const;
+  /// The facets that hang together with this one.
+  std::vector<Index> crack_of(Index facet) const;
+
   void visit_state(StateVisitor& visitor);
 
  private:
@@ -65,7 +79,6 @@ class CrackTips {
     double spent = 0.0, released = 0.0;
   };
 
-  double energy_to_cut(const CrackFacet<2>& facet) const;
   bool is_followed(const Tip& tip, const CrackState<2>& state) const;
   double readiness(Tip& tip, const CrackState<2>& state, std::span<const Vector<2>> jumps) const;
   double dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
@@ -76,12 +89,9 @@ class CrackTips {
   double beyond_mean(const Tip& tip, const CrackState<2>& state) const;
   double lagging_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state) const;
   void ask_even_loads(Tip& tip) const;
-  std::vector<Index> crack_of(const CrackTip& tip) const;
-  double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law) const;
   double behind(const CrackTip& at) const;
   double within_crack(const Tip& tip, double s) const;
-  CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
-  bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
+  double turn_of(const Tip& tip, std::span<const Vector<2>> jumps) const;
   double advance(Tip& tip, double turn, double t);
 
   const Body<2>& body_;

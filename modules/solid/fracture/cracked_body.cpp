@@ -16,6 +16,12 @@ CrackedBody<D>::CrackedBody(std::shared_ptr<Family<D>> family, double spacing,
       free_unknowns_(std::move(free_unknowns)) {}
 
 template <int D>
+const PartialCuts& CrackedBody<D>::partial() const {
+  static const PartialCuts none;
+  return none;
+}
+
+template <int D>
 void CrackedBody<D>::add_jump(const FaceJump<D>& jump) {
   jumps_.push_back(jump);
   pressed_.push_back(this->pressed_by(static_cast<Index>(jumps_.size()) - 1));

@@ -10,6 +10,7 @@
 #include <Eigen/SparseCore>
 
 #include "modules/solid/fracture/cut_body.hpp"
+#include "modules/solid/fracture/partial_cuts.hpp"
 
 namespace perifrac {
 
@@ -37,6 +38,30 @@ class CrackedBody : public CutBody<D> {
   bool cut(const CrackFacet<D>& facet) override = 0;
   /// The bond state was replaced: builds the same body anew.
   void follow_bonds();
+
+  /// It knows its answers without the last cuts as well as with them.
+  virtual bool may_be_partly_cut() const { return false; }
+  /// These facets, which are cut, are so in part from now on, all others whole.
+  virtual void set_partial(std::span<const PartialCut>) {}
+  /// Those, and how they answer.
+  virtual const PartialCuts& partial() const;
+  /// Changes with every set_partial().
+  std::uint64_t partial_version() const { return partial_version_; }
+  /// What loads do at each partial cut, under these on all faces.
+  virtual std::vector<CutLoad> cut_loads(const Eigen::VectorXd& /*pressure*/,
+                                         std::span<const double> /*shear*/) {
+    return {};
+  }
+  /// What partial cuts add to what the cut body does with moves and faces' loads like these.
+  struct Held {
+    double elastic = 0.0;     ///< [J]
+    double relief = 0.0;      ///< Energies::relief [J]
+    Eigen::VectorXd force{};  ///< what holds them, less what faces do there; empty: none [N]
+  };
+  virtual Held held(std::span<const double> /*unknowns*/, const Eigen::VectorXd& /*pressure*/,
+                    std::span<const double> /*shear*/) {
+    return {};
+  }
 
   /// Pieces of the body that nothing holds.
   std::vector<std::vector<Index>> loose_pieces();
@@ -68,6 +93,12 @@ class CrackedBody : public CutBody<D> {
 
   // Of a pressure on the faces and, unless it is empty, a shear along their (first) tangent:
 
+  /// Jumps of all facets by the same traction on the faces named and nothing else [m]; where it may
+  /// be partly cut.
+  virtual std::vector<Vector<D>> jumps_by(std::span<const Index> /*faces*/,
+                                          const Vector<D>& /*traction*/) {
+    return {};
+  }
   /// Openings of all facets, and how far they slide along their tangents [m].
   virtual std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure,
                                              std::span<const double> shear = {}) = 0;
@@ -124,7 +155,8 @@ class CrackedBody : public CutBody<D> {
                       bool relief = true) const;
 
   Eigen::SparseMatrix<double> free_unknowns_;
-  std::vector<double> pressed_;  ///< pressed_by(), by facet
+  std::vector<double> pressed_;  ///< pressed_by(), by facet, of a partial cut in part
+  std::uint64_t partial_version_ = 0;
 
  private:
   void add_force(std::size_t f, const Vector<D>& load, Eigen::VectorXd& force) const;

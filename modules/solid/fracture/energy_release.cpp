@@ -66,6 +66,9 @@ constexpr double mode_ratio = 0.87;
 
 constexpr double largest_kink = 70.0 * M_PI / 180.0;
 
+/// A turn below this is rounding [rad].
+constexpr double least_kink = 1e-6;
+
 }  // namespace
 
 EnergyRelease::EnergyRelease(CutBody<2>& body, double spacing)
@@ -250,6 +253,7 @@ double kink_angle(const TipModes& modes) {
   const double ratio = modes.sliding / modes.opening;
   const double angle =
       2.0 * std::atan((1.0 - std::sqrt(1.0 + 8.0 * ratio * ratio)) / (4.0 * ratio));
+  if (std::abs(angle) < least_kink) return 0.0;
   return std::clamp(angle, -largest_kink, largest_kink);
 }
 

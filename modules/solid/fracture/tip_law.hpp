@@ -8,6 +8,13 @@ struct TipFluid {
   double leak_off_coefficient;  ///< Carter's C_L of one side [m/s^0.5]
 };
 
+/// Openings end to go as sqrt(s) where the crack's other end makes itself felt: as that of a crack
+/// of half length l under uniform pressure, sqrt(s (1 - s / 2l)), whose K_I at fixed volume goes as
+/// l^-1.5. The s of an endless crack that is as open [m].
+inline double within_crack(double s, double inverse_half_length) {
+  return s * (1.0 - 0.5 * s * inverse_half_length);
+}
+
 /// Opening of a crack close behind its tip: the asymptotes of toughness, of viscosity where fluid
 /// stays in the crack and of viscosity where it leaks off,
 ///   w = K' s^(1/2) / E',
