@@ -31,6 +31,15 @@ double ElasticRock::youngs_modulus() const {
   return shear_modulus * (3.0 * lame_lambda + 2.0 * shear_modulus) / (lame_lambda + shear_modulus);
 }
 
+bool has_elastic_rock(const Section& scene) {
+  if (!writes(scene, "solid.material") || scene.word("solid.type") == "rigid") return false;
+  const KeyTable constants = elastic_constant_keys();
+  const std::vector<std::string> given = scene.names("solid.material");
+  return std::ranges::count_if(given, [&](const std::string& name) {
+           return std::ranges::count(constants, "material." + name, &Key::path) > 0;
+         }) == 2;
+}
+
 ElasticRock read_elastic_rock(const Section& scene, const std::string& region) {
   require_even(scene, "solid.material.scatter");
   require_even(scene, "damage.scatter");

@@ -28,6 +28,9 @@ struct PorousRock {
   double mobility;  ///< permeability / viscosity [m^2/(Pa s)]
 };
 
+/// The scene has a solid that deforms by two elastic constants: one from outside need not.
+bool has_elastic_rock(const Section& scene);
+
 /// Reads them from the scene; in a region of the body, what the physics says of it where it does.
 /// Throws InputError.
 ElasticRock read_elastic_rock(const Section& scene, const std::string& region = "");

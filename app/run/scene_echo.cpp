@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/rock.hpp"
 #include "app/run/scene_keys.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/body/crack_list.hpp"
@@ -130,7 +131,7 @@ std::vector<std::string> what_was_read(const Section& scene, const Simulation& s
     }
     if (!read.empty()) lines.push_back(fmt::format("read {}: {}", section, fmt::join(read, ", ")));
   }
-  if (!writes(scene, "solid") || scene.word("solid.type") == "rigid") return lines;
+  if (!has_elastic_rock(scene)) return lines;
   if (const auto stated = read_stated_stress(scene)) {
     lines.push_back(describe(*stated));
     std::visit([&](const auto& body) { append_closure(scene, *body, *stated, lines); },

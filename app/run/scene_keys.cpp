@@ -22,10 +22,6 @@ KeyTable top_level_keys() {
        .range = "[2, 3]",
        .required = true,
        .meaning = "2: plane strain, totals per metre of thickness. 3."},
-      {.path = "modules",
-       .type = KeyType::tree,
-       .meaning = "Libraries with modules and materials from outside the program, their paths seen "
-                  "from the scene's folder. Loaded with --allow-modules alone."},
       {.path = "gravity",
        .type = KeyType::vector,
        .unit = "m/s^2",
@@ -33,6 +29,11 @@ KeyTable top_level_keys() {
   };
   const KeyTable seeds = crack_seed_keys();
   keys.insert(keys.end(), seeds.begin(), seeds.end());
+  keys.push_back({.path = "modules",
+                  .type = KeyType::tree,
+                  .meaning = "Libraries with modules and materials from outside the program, their "
+                             "paths seen from the scene's folder. Loaded with --allow-modules "
+                             "alone."});
   return keys;
 }
 

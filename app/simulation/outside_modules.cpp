@@ -1,6 +1,8 @@
 #include "app/simulation/outside_modules.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
 #include <exception>
@@ -50,12 +52,7 @@ class Library {
   void load() const {
     check_stamp();
     try {
-      void* const handle = ::dlopen(fs::absolute(file_).c_str(), RTLD_NOW | RTLD_LOCAL);
-      if (handle == nullptr) {
-        fail(fmt::format("cannot be loaded ({})", one_line(::dlerror())),
-             "a library that needs nothing but this program and what it is linked with");
-      }
-      take(handle);
+      take(open());
     } catch (const InputError&) {
       throw;
     } catch (const std::exception& error) {
@@ -71,6 +68,35 @@ class Library {
   }
 
  private:
+  void* open() const {
+    opened = this;
+    const auto before = std::set_terminate(end_in_opened);
+    void* const handle = ::dlopen(fs::absolute(file_).c_str(), RTLD_NOW | RTLD_LOCAL);
+    std::set_terminate(before);
+    if (handle == nullptr) {
+      fail(fmt::format("cannot be loaded ({})", one_line(::dlerror())),
+           "a library that needs nothing but this program and what it is linked with");
+    }
+    return handle;
+  }
+
+  /// What a library throws while it is opened cannot pass the loader, which is C.
+  [[noreturn]] static void end_in_opened() {
+    std::string what = "of a kind that is no std::exception";
+    try {
+      if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+    } catch (const std::exception& error) {
+      what = one_line(error.what());
+    } catch (...) {  // said already
+    }
+    try {
+      opened->fail_in_it(what);
+    } catch (const InputError& error) {
+      fmt::print(stderr, "{}\n", error.what());
+    }
+    std::_Exit(2);
+  }
+
   [[noreturn]] void fail(const std::string& problem, const std::string& expected) const {
     throw InputError(fmt::format("{}: modules[{}]: {} {}; expected {}", node_.place, item_,
                                  in_quotes(node_.text), problem, expected));
@@ -86,10 +112,13 @@ class Library {
       fail(fmt::format("is not there ({})", file_.lexically_normal().string()),
            "a shared library, its path seen from the scene's folder");
     }
-    std::ifstream stream(file_, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    std::string bytes;
+    if (fs::is_regular_file(file_, missing)) {
+      std::ifstream stream(file_, std::ios::binary);
+      bytes.assign(std::istreambuf_iterator<char>(stream), {});
+    }
     const auto mark = bytes.find(stamp_mark);
-    if (!fs::is_regular_file(file_, missing) || mark == std::string::npos) {
+    if (mark == std::string::npos) {
       fail("is no library of modules",
            "one made by perifrac_add_module, with PERIFRAC_MODULES in a source "
            "(perifrac new module NAME)");
@@ -140,6 +169,8 @@ class Library {
     std::memcpy(&result, &symbol, sizeof result);
     return result;
   }
+
+  inline static const Library* opened = nullptr;
 
   const YamlNode& node_;
   std::size_t item_;

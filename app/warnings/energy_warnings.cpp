@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/references/rock.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -21,7 +22,7 @@ bool is_rigid(const Section& scene) {
 /// What the body holds at a strain of 1e-9 all over [J], in 2D per metre; 0 where nothing strains.
 double hardly_any(const Section& scene, const Simulation& simulation) {
   constexpr double strain = 1e-9;
-  if (!simulation.has_body() || !scene.has("solid") || is_rigid(scene)) return 0.0;
+  if (!simulation.has_body() || !has_elastic_rock(scene)) return 0.0;
   const double modulus = read_isotropic_elasticity<3>(scene.at("solid"), "material").shear_modulus;
   return std::visit(
       [&](const auto& body) {

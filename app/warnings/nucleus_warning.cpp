@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/references/rock.hpp"
 #include "modules/solid/fracture/crack_nucleation.hpp"
 #include "modules/solid/fracture/damage_keys.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
@@ -12,6 +13,7 @@ namespace perifrac {
 
 std::optional<std::string> nucleus_warning(const Section& scene) {
   if (!scene.has("damage.tensile_strength") || !scene.has("body.spacing")) return {};
+  if (!has_elastic_rock(scene)) return {};
   const double strength = scene.number("damage.tensile_strength");
   const double modulus =
       read_isotropic_elasticity<2>(scene.at("solid"), "material").plane_strain_modulus();

@@ -35,7 +35,7 @@ double diffusivity(const Section& scene) {
   double largest = 0.0;
   for (int a = 0; a < D; ++a) largest = std::max(largest, mobility[(D + 1) * a]);
   double storage = pores.storage;
-  if (writes(scene, "solid") && scene.word("solid.type") != "rigid") {
+  if (has_elastic_rock(scene)) {
     storage += pores.biot_coefficient * pores.biot_coefficient /
                read_elastic_rock(scene).uniaxial_modulus();
   }

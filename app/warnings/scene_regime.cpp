@@ -133,7 +133,7 @@ void warn(const Section& scene, double to_faces, SceneRegime& regime) {
 }  // namespace
 
 std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& simulation) {
-  if (!drives_a_crack(scene)) return std::nullopt;
+  if (!drives_a_crack(scene) || !has_elastic_rock(scene)) return std::nullopt;
   const ElasticRock rock = read_elastic_rock(scene);
   const Place inlet = read_inlet(scene);
   const Mouth mouth = find_mouth(scene, inlet);

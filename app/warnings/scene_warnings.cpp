@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/rock.hpp"
 #include "app/references/table_reference.hpp"
 #include "app/simulation/place_reader.hpp"
 #include "app/warnings/nucleus_warning.hpp"
@@ -40,7 +41,7 @@ std::optional<std::string> grain_warning(const Section& scene, const std::string
 }
 
 std::vector<std::string> grain_warnings(const Section& scene) {
-  if (!writes(scene, "pore_flow") || !writes(scene, "solid.material")) return {};
+  if (!writes(scene, "pore_flow") || !has_elastic_rock(scene)) return {};
   std::vector<std::string> regions = {""};
   for (const char* const physics : {"pore_flow.regions", "solid.regions"}) {
     if (!writes(scene, physics)) continue;
@@ -87,6 +88,7 @@ constexpr double telling_contrast = 4.0;
 /// A probe beside such a border.
 std::optional<std::string> border_warning(const Section& scene) {
   if (!writes(scene, "solid.regions") || !writes(scene, "body.spacing")) return {};
+  if (!has_elastic_rock(scene)) return {};
   const double horizon = scene.number("body.horizon_ratio") * scene.number("body.spacing");
   for (const std::string& region : scene.names("solid.regions")) {
     const std::string material = fmt::format("solid.regions.{}.material", region);

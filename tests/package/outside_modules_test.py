@@ -256,7 +256,9 @@ perifrac_add_module({name} library.cpp)
 
     def test_studies_load_them(self):
         study = self.rock / "study.yaml"
-        study.write_text("scene: scene.yaml\naxes:\n  - {key: solid.stiffness, values: [1 GPa, 2 GPa]}\nrepetitions: 1\n")
+        study.write_text("scene: scene.yaml\naxes:\n  - {name: stiffness, key: solid.stiffness, values: [1 GPa, 2 GPa]}\n"
+                         "  - {name: spacing, key: body.spacing, values: [1 m, 2 m]}\n"
+                         "error: {against: finer, quantity: energy_error}\nrepetitions: 1\n")
         for options, code in (((), 2), (("--allow-modules",), 0)):
             done = run(self.program, "study", study, "--no-report", "--output", self.folder / "study", *options)
             self.assertEqual(done.returncode, code, done.stderr)
