@@ -1,5 +1,6 @@
 #include "modules/solid/dynamic_solid.hpp"
 
+#include "modules/solid/memory_ports.hpp"
 #include "modules/solid/whole_solid.hpp"
 
 namespace perifrac {
@@ -64,6 +65,9 @@ void DynamicSolid<D>::make_ports(const SolidBoundary<D>& boundary) {
          [this] { return kinetic_energy(system_->mass(), motion_.velocity); });
   energy("external_work", PortRole::energy_gained, [this] { return external_work(); });
   energy("damped_energy", PortRole::energy_dissipated, [this] { return damped_energy(); });
+  if (NonlinearResponse* const rock = system_->remembers()) {
+    add_memory_ports(*rock, *points, D, ports_);
+  }
   ports_.total(work_port("integrator_steps"), whole_solid,
                [this] { return static_cast<double>(verlet_->steps()); });
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));

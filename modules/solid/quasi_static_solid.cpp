@@ -8,6 +8,9 @@
 #include "core/profile/profile.hpp"
 #include "core/solvers/multigrid.hpp"
 #include "modules/solid/boundary/rigid_motion.hpp"
+#include "modules/solid/equilibrium/newton_solver.hpp"
+#include "modules/solid/material/nonlinear_response.hpp"
+#include "modules/solid/memory_ports.hpp"
 #include "modules/solid/whole_solid.hpp"
 
 namespace perifrac {
@@ -31,6 +34,9 @@ QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
   const Eigen::SparseMatrix<double> free_unknowns = boundary.free_unknowns(mirror);
   solver_ = make_stiffness_solver<D>(*body_, elastic_, boundary, free_unknowns, choice);
+  if (elastic_->nonlinear() != nullptr) {
+    solver_ = std::make_unique<NewtonSolver<D>>(elastic_, std::move(solver_));
+  }
   for (const auto& [face, column] : boundary.plates(mirror)) {
     plates_.emplace_back(face, first_row(free_unknowns, column));
   }
@@ -91,6 +97,9 @@ void QuasiStaticSolid<D>::make_ports() {
                [this] { return elastic_energy_; });
   ports_.total(total_port("external_work", "J", PortRole::energy_gained, D), whole_solid,
                [this] { return external_work_; });
+  if (NonlinearResponse* const rock = elastic_->nonlinear(); rock && rock->memory_size() > 0) {
+    add_memory_ports(*rock, *points, D, ports_);
+  }
   for (const auto& [face, unknown] : plates_) {
     ports_.total({face + "_plate_displacement", "m"}, whole_solid,
                  [this, unknown = unknown] { return unknowns_[unknown]; });
@@ -114,6 +123,10 @@ void QuasiStaticSolid<D>::initialize(double) {
   unknowns_.assign(elastic_->size(), 0.0);
   force_.assign(elastic_->size(), 0.0);
   external_work_ = 0.0;
+  if (elastic_->nonlinear() != nullptr) {
+    elastic_->nonlinear()->forget();
+    initial_force_ = elastic_->initial_force();
+  }
   derive_from_unknowns();
 }
 
@@ -137,6 +150,8 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
     solver_->solve(load, view(inner_force_), unknowns);
   } catch (const NotConverged& error) {
     throw NumericalError("displacement", "the whole body", window.end, error.what());
+  } catch (const NoEquilibrium& error) {
+    throw NumericalError("displacement", "the whole body", window.end, error.what());
   }
   view(unknowns_) = unknowns;
 
@@ -145,7 +160,17 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
   external_work_ += work_at_rest();
   view(force_) = view(inner_force_) - pore;
   external_work_ += 0.5 * (force_before + view(force_)).dot(view(unknowns_) - before);
+  remember(window.length());
   return window.end;
+}
+
+/// The rock's memory follows the window's end, from where the next one starts.
+template <int D>
+void QuasiStaticSolid<D>::remember(double seconds) {
+  NonlinearResponse* const rock = elastic_->nonlinear();
+  if (rock == nullptr || rock->memory_size() == 0) return;
+  rock->follow(unknowns_, seconds);
+  derive_from_unknowns();
 }
 
 /// What the solver starts from: the displacements that are prescribed at the window's end, and of
@@ -162,7 +187,9 @@ void QuasiStaticSolid<D>::prescribe(const TimeWindow& window) {
     moved = moved || unknowns_[k] != prescribed[k];
     unknowns_[k] = prescribed[k];
   }
-  if (moved) elastic_->apply_stiffness(unknowns_, inner_force_);
+  if (moved && elastic_->nonlinear() == nullptr) {
+    elastic_->apply_stiffness(unknowns_, inner_force_);
+  }
 }
 
 /// What the pore stress beyond that at rest does to all unknowns [N].
@@ -189,6 +216,12 @@ template <int D>
 void QuasiStaticSolid<D>::derive_from_unknowns() {
   dilatation_.resize(slope_.size());
   inner_force_.resize(unknowns_.size());
+  if (elastic_->nonlinear() != nullptr) {
+    elastic_->apply(unknowns_, {}, inner_force_, dilatation_);
+    view(inner_force_) -= view(std::as_const(initial_force_));
+    elastic_energy_ = elastic_->energy(unknowns_, inner_force_);
+    return;
+  }
   elastic_->apply_stiffness(unknowns_, inner_force_, dilatation_);
   elastic_energy_ = 0.5 * view(unknowns_).dot(view(inner_force_));
 }
@@ -198,6 +231,7 @@ void QuasiStaticSolid<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("displacement", unknowns_);
   visitor.visit("external_force", force_);
   visitor.visit("external_work", external_work_);
+  if (elastic_->nonlinear() != nullptr) elastic_->nonlinear()->visit_state(visitor);
   interface_.visit_state(visitor);
 }
 

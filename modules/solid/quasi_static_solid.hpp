@@ -17,8 +17,9 @@
 
 namespace perifrac {
 
-/// A linear elastic solid in equilibrium at the end of every window, solved for by
-/// StiffnessSolver. Loads and prescribed displacements are those of the window's end. Small strain.
+/// A solid in equilibrium at the end of every window, solved for by StiffnessSolver; where its
+/// stress is not linear in strain, by Newton's method. Loads and prescribed displacements are those
+/// of the window's end. Small strain.
 ///
 /// Ports: in `pore_stress` [Pa], `interface_impulse` [N s] on the points; out `displacement` [m],
 /// `dilatation` with its slope d(dilatation)/d(pore_stress), `effective_stress` [Pa] (D * D
@@ -62,6 +63,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   Eigen::VectorXd pore_force() const;
   double work_at_rest() const;
   void prescribe(const TimeWindow& window);
+  void remember(double seconds);
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;
@@ -77,7 +79,8 @@ class QuasiStaticSolid final : public PhysicsModule {
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   std::vector<double> force_;     ///< external force on every unknown, reactions included [N]
   double external_work_ = 0.0;
-  std::vector<double> inner_force_;  ///< the stiffness times the unknowns [N]
+  std::vector<double> inner_force_;    ///< what the rock answers to the unknowns [N]
+  std::vector<double> initial_force_;  ///< of a nonlinear one at rest [N]
 
   std::vector<double> pore_stress_;          ///< input; empty until it is connected
   std::vector<double> pore_stress_at_rest_;  ///< empty: none

@@ -148,19 +148,9 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
                        "solid.type: quasi_static, damage.type: critical_stretch or dimension: 2");
 }
 
-/// Equilibrium is found with one stiffness: a law with another at every strain is not solved.
-void check_is_linear(const Section& section) {
-  if (is_linear_material(section)) return;
-  section.fail("material.type",
-               fmt::format("'{}', which is not linear, in a solid in equilibrium",
-                           section.word("material.type")),
-               "type: dynamic (damped, it comes to rest), or a linear material");
-}
-
 template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
-  check_is_linear(section);
   if (has_cracks(section)) return make_fracturing(section, body);
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);

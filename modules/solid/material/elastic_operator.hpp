@@ -13,6 +13,8 @@
 
 namespace perifrac {
 
+class NonlinearResponse;
+
 /// The pore stress that loads a solid: at point i value[i] + slope[i] * dilatation[i] [Pa].
 /// Empty spans: none, or no slope.
 struct PoreStress {
@@ -98,6 +100,9 @@ class ElasticOperator {
 
   /// Stiffness of a point against a change of volume at fixed mean stress [Pa].
   virtual double drained_bulk_modulus(Index i) const = 0;
+
+  /// What it tells beyond a linear operator; none: it is linear, and remembers nothing.
+  virtual NonlinearResponse* nonlinear() { return nullptr; }
 
   /// 1, the pore stress pushes points apart; -1 in formulas that have its sign wrong.
   virtual double pore_sign() const { return 1.0; }

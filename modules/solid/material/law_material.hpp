@@ -48,16 +48,20 @@ std::unique_ptr<ElasticOperator<D>> make_law_material(const MaterialParts<D>& pa
 
 /// The material of a law, a class template on the dimension:
 ///   static constexpr int components = D;
-///   static constexpr bool is_linear = ...;              // left out: true
 ///   static Law read(const Section& material, const IsotropicElasticity<D>& rock);
 ///   std::array<Number, D * D> stress(const std::array<Number, D * D>& gradient) const;   // [Pa]
 ///   double stabilisation() const;                       // of bonds against their gradient [Pa]
 ///   double drained_bulk_modulus() const;                // [Pa]
 ///   const IsotropicElasticity<D>& isotropic() const;    // the rock that it was read from
-/// A nonlinear one also:
+/// `stress` as a template on Number goes over several points at once. A nonlinear one also:
+///   static constexpr bool is_linear = false;
 ///   double energy(const std::array<double, D * D>& gradient) const;   // [J/m^3]
 ///   double stiffening() const;     // how many times as stiff as at rest it may become, 1 or more
-/// `stress` as a template on Number goes over several points at once.
+/// One with a memory has it as a further argument of stress() and energy(), all 0 at first, and
+///   static constexpr std::size_t memory = ...;          // how many numbers a point remembers
+///   double follow(const std::array<double, D * D>& gradient, std::array<double, memory>& memory,
+///                 double seconds) const;
+/// which takes it along to the gradient that was reached, and returns the heat per volume of that.
 template <template <int> class Law>
 MaterialType law_material(std::string name, std::string meaning, KeyTable keys = {}) {
   return {.name = std::move(name),

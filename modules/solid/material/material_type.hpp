@@ -31,8 +31,7 @@ struct MaterialType {
   std::string meaning;
   /// Beside the elastic constants, which each material has; paths seen from `material`.
   KeyTable keys{};
-  /// Forces follow displacements linearly: else a solid in equilibrium refuses it.
-  bool is_linear = true;
+  bool is_linear = true;  ///< forces follow displacements linearly, whatever came before
 
   /// Make the operator that a solid moves by; throw InputError.
   std::unique_ptr<ElasticOperator<2>> (*make_2d)(const MaterialParts<2>&);

@@ -13,6 +13,7 @@
 #include "core/time/second_order_system.hpp"
 #include "modules/solid/boundary/solid_boundary.hpp"
 #include "modules/solid/material/elastic_operator.hpp"
+#include "modules/solid/material/nonlinear_response.hpp"
 #include "modules/solid/motion/body_fracture.hpp"
 #include "modules/solid/motion/external_work.hpp"
 #include "modules/solid/motion/lumped_mass.hpp"
@@ -46,11 +47,14 @@ class ElasticDynamics final : public SecondOrderSystem {
   }
   void end_step(double step, std::span<double> velocity) override {
     if (fracture_ != nullptr) fracture_->end_step(step, velocity);
+    if (remembers_ != nullptr) remembers_->follow(unknowns_, step);
   }
   bool changes() override;
 
   /// The body may break from now on, in the family of the operator. It must stay.
   void set_fracture(BodyFracture& fracture) { fracture_ = &fracture; }
+  /// The rock, where it has a memory.
+  NonlinearResponse* remembers() const { return remembers_; }
   bool may_break() const { return fracture_ != nullptr; }
   /// Bonds were broken between steps.
   void note_broken_bonds() { plates_.forget(); }
@@ -111,7 +115,8 @@ class ElasticDynamics final : public SecondOrderSystem {
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
   BodyFracture* fracture_ = nullptr;
-  std::vector<double> initial_force_;  ///< of the initial stress [N]; empty without one
+  NonlinearResponse* remembers_ = nullptr;  ///< the rock; none: it has no memory
+  std::vector<double> initial_force_;       ///< of the initial stress [N]; empty without one
   ScheduledVector prescribed_;
   bool prescribes_ = false;  ///< something other than 0
   ScheduledVector loads_;

@@ -6,6 +6,7 @@
 
 #include "modules/solid/material/isotropic_elasticity.hpp"
 #include "modules/solid/material/tangent_law.hpp"
+#include "tests/unit/solid/hardening.hpp"
 
 namespace perifrac {
 namespace {
@@ -37,7 +38,7 @@ struct Changed {
 };
 
 template <int D>
-void hold() {
+void hold_laws() {
   for (const double size : {1e-6, 1e-3, 1.0}) EXPECT_EQ(law_problem<D>(rock<D>, size), "");
   EXPECT_EQ(law_problem<D>(Changed<D>{}), "");
   EXPECT_EQ(law_problem<D>(TangentLaw<D>::of(Changed<D>{})), "");
@@ -46,8 +47,40 @@ void hold() {
   EXPECT_THAT(law_problem<D>(Changed<D>{.softening = 1e11}), HasSubstr("does not resist"));
 }
 
-TEST(LawCheck, TellsLawsFromWhatAreNone2d) { hold<2>(); }
-TEST(LawCheck, TellsLawsFromWhatAreNone3d) { hold<3>(); }
+TEST(LawCheck, TellsLawsFromWhatAreNone2d) { hold_laws<2>(); }
+TEST(LawCheck, TellsLawsFromWhatAreNone3d) { hold_laws<3>(); }
+
+/// Flow with one thing changed.
+template <int D>
+struct Flowing : test::Hardening<D> {
+  double heat = 1.0, skew = 0.0, creep = 0.0;
+
+  using Gradient = Tensor<D, D>;
+  Gradient stress(const Gradient& g, const Gradient& plastic) const {
+    Gradient s = test::Hardening<D>::stress(g, plastic);
+    s[1] += skew * g[0];
+    return s;
+  }
+  double follow(const Gradient& g, Gradient& plastic, double seconds) const {
+    const double found = test::Hardening<D>::follow(g, plastic, seconds);
+    plastic[0] += creep;
+    plastic[D + 1] -= creep;
+    return heat * found;
+  }
+};
+
+template <int D>
+void hold_with_memory() {
+  const test::Hardening<D> good{rock<D>, 4e6, 1e9};
+  for (const double size : {1e-4, 1e-3, 1e-2}) EXPECT_EQ(law_problem<D>(good, size), "");
+  EXPECT_EQ(law_problem<D>(Flowing<D>{good}), "");
+  EXPECT_THAT(law_problem<D>(Flowing<D>{good, 0.5}), HasSubstr("into heat"));
+  EXPECT_THAT(law_problem<D>(Flowing<D>{good, 1.0, 1e9}), HasSubstr("derivative"));
+  EXPECT_NE(law_problem<D>(Flowing<D>{good, 1.0, 0.0, 1e-4}), "");
+}
+
+TEST(LawCheck, TellsMemoriesFromWhatAreNone2d) { hold_with_memory<2>(); }
+TEST(LawCheck, TellsMemoriesFromWhatAreNone3d) { hold_with_memory<3>(); }
 
 TEST(LawCheck, ATangentIsTheLawAtRest) {
   const auto tangent = TangentLaw<3>::of(Changed<3>{});
