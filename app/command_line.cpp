@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <type_traits>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -54,6 +56,22 @@ void add_allow_modules(CLI::App& verb) {
                          "load the libraries that the scene names; their code may do all you may");
 }
 
+/// Numbers as people write them: CLI11 takes `nan` as being in any range, and 0x1 for 1.
+template <class Number>
+CLI::Validator decimal(Number least, Number largest) {
+  const auto check = [least, largest](const std::string& text) {
+    Number value{};
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const bool is_right = error == std::errc{} && rest == end && value >= least && value <= largest;
+    return is_right ? std::string()
+                    : fmt::format("'{}' is no {} from {} to {}", text,
+                                  std::is_integral_v<Number> ? "whole number" : "number", least,
+                                  largest);
+  };
+  return {check, fmt::format("{} to {}", least, largest), "decimal"};
+}
+
 void add_scene_options(CLI::App& verb, Request& request) {
   CLI::Option* const scene = verb.add_option("scene", request.run.scene, "scene file (YAML)");
   verb.add_option("--example", request.example, "a scene that comes with the program, as in mandel")
@@ -82,7 +100,7 @@ void add_run_options(CLI::App& verb, Request& request) {
   add_overwrite(verb, request.run.overwrite);
   verb.add_option("--threads", request.threads, "threads; results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      ->check(decimal(1, 1024));
   verb.add_option("--restart", request.run.restart, "checkpoint to go on from")->type_name("FILE");
   verb.add_option("--until", request.run.until, "another end than the scene's, as in '20 s'")
       ->type_name("TIME");
@@ -97,10 +115,10 @@ void add_check_options(CLI::App& verb, Request& request) {
   verb.add_option("--trial", request.trial,
                   "try the first windows for so long, to foretell the run's time; 0: do not")
       ->type_name("SECONDS")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(decimal(0.0, 1e6));
   verb.add_option("--threads", request.threads, "threads that the run will have")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      ->check(decimal(1, 1024));
 }
 
 void add_study_options(CLI::App& verb, StudyRequest& study) {
@@ -109,7 +127,7 @@ void add_study_options(CLI::App& verb, StudyRequest& study) {
   add_overwrite(verb, study.overwrite);
   verb.add_option("--jobs", study.jobs, "variants at a time; those that run together are slower")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      ->check(decimal(1, 1024));
   verb.add_option("--launcher", study.launcher,
                   "words before the command of every run, as in 'srun -n1'")
       ->type_name("WORDS");
@@ -131,7 +149,7 @@ void add_watch_options(CLI::App& verb, WatchRequest& watch) {
   verb.add_option("folder", watch.folder, "folder of a run")->required()->type_name("DIR");
   verb.add_option("--port", watch.port, "of 127.0.0.1; 0: one that is free")
       ->type_name("N")
-      ->check(CLI::Range(0, 65535));
+      ->check(decimal(0, 65535));
 }
 
 /// Of verbs that help to write a scene.
