@@ -57,8 +57,6 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
   initial_force_ = elastic_->initial_force();
   if (std::ranges::all_of(initial_force_, [](double f) { return f == 0.0; })) initial_force_ = {};
   find_acted_on();
-  NonlinearResponse* const rock = elastic_->nonlinear();
-  if (rock != nullptr && rock->memory_size() > 0) remembers_ = rock;
 }
 
 template <int D>
@@ -176,7 +174,7 @@ void ElasticDynamics<D>::find_acted_on() {
 template <int D>
 void ElasticDynamics<D>::start() {
   unknowns_.assign(moved_.unknowns(), 0.0);
-  if (remembers_ != nullptr) remembers_->forget();
+  if (NonlinearResponse* const rock = remembers()) rock->forget();
   inner_is_elastic_ = false;
   work_.start(unknowns_.size());
   pore_stress_.start();
@@ -186,7 +184,7 @@ void ElasticDynamics<D>::start() {
 template <int D>
 void ElasticDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("displacement", unknowns_);
-  if (remembers_ != nullptr) remembers_->visit_state(visitor);
+  if (NonlinearResponse* const rock = remembers()) rock->visit_state(visitor);
   work_.visit_state(visitor);
   pore_stress_.visit_state(visitor);
 }

@@ -47,14 +47,17 @@ class ElasticDynamics final : public SecondOrderSystem {
   }
   void end_step(double step, std::span<double> velocity) override {
     if (fracture_ != nullptr) fracture_->end_step(step, velocity);
-    if (remembers_ != nullptr) remembers_->follow(unknowns_, step);
+    if (NonlinearResponse* const rock = remembers()) rock->follow(unknowns_, step);
   }
   bool changes() override;
 
   /// The body may break from now on, in the family of the operator. It must stay.
   void set_fracture(BodyFracture& fracture) { fracture_ = &fracture; }
   /// The rock, where it has a memory.
-  NonlinearResponse* remembers() const { return remembers_; }
+  NonlinearResponse* remembers() const {
+    NonlinearResponse* const rock = elastic_->nonlinear();
+    return rock != nullptr && rock->memory_size() > 0 ? rock : nullptr;
+  }
   bool may_break() const { return fracture_ != nullptr; }
   /// Bonds were broken between steps.
   void note_broken_bonds() { plates_.forget(); }
@@ -115,8 +118,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
   BodyFracture* fracture_ = nullptr;
-  NonlinearResponse* remembers_ = nullptr;  ///< the rock; none: it has no memory
-  std::vector<double> initial_force_;       ///< of the initial stress [N]; empty without one
+  std::vector<double> initial_force_;  ///< of the initial stress [N]; empty without one
   ScheduledVector prescribed_;
   bool prescribes_ = false;  ///< something other than 0
   ScheduledVector loads_;
