@@ -31,9 +31,8 @@ void DynamicSolid<D>::make_ports(const SolidBoundary<D>& boundary) {
   ports_.in(
       {"pore_stress", "Pa"},
       [this, count] {
-        for (auto* input : {&pore_stress_, &pore_stress_rate_, &pore_stress_slope_}) {
+        for (auto* input : {&pore_stress_, &pore_stress_rate_, &pore_stress_slope_})
           input->resize(count);
-        }
       },
       [this, points] {
         return PortView{points, pore_stress_, pore_stress_rate_, pore_stress_slope_};
@@ -65,9 +64,7 @@ void DynamicSolid<D>::make_ports(const SolidBoundary<D>& boundary) {
          [this] { return kinetic_energy(system_->mass(), motion_.velocity); });
   energy("external_work", PortRole::energy_gained, [this] { return external_work(); });
   energy("damped_energy", PortRole::energy_dissipated, [this] { return damped_energy(); });
-  if (NonlinearResponse* const rock = system_->remembers()) {
-    add_memory_ports(*rock, *points, D, ports_);
-  }
+  if (auto* const rock = system_->remembers()) add_memory_ports(*rock, *points, D, ports_);
   ports_.total(work_port("integrator_steps"), whole_solid,
                [this] { return static_cast<double>(verlet_->steps()); });
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));

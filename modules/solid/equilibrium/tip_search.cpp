@@ -7,7 +7,7 @@ namespace perifrac {
 namespace {
 
 /// A tip is where the excess is below this.
-constexpr double tolerance = 5e-4;
+constexpr double excess_tolerance = 5e-4;
 /// Between places so close, of which one is too far and one not, either will do.
 constexpr double narrow = 1e-3;
 constexpr int most_tries = 15;
@@ -27,9 +27,9 @@ bool TipSearch::look_further(double excess, double foretold) {
   if (++tries_ == 1) return true;
   const double slope = (excess - excess_before_) / (trial_ - trial_before_);
   reach_ = std::isfinite(slope) && slope < 0.0 ? trial_ - excess / slope : foretold;
-  const bool stands = trial_ <= part_ && excess <= tolerance;
-  const bool beyond = trial_ >= farthest && excess >= -tolerance;
-  if (std::abs(excess) <= tolerance || stands || beyond) return false;
+  const bool stands = trial_ <= part_ && excess <= excess_tolerance;
+  const bool beyond = trial_ >= farthest && excess >= -excess_tolerance;
+  if (std::abs(excess) <= excess_tolerance || stands || beyond) return false;
   (excess > 0.0 ? low_ : high_) = trial_;
   if (!(low_ < high_)) {  // other modules have gone on meanwhile
     if (excess > 0.0) high_ = farthest;
