@@ -29,7 +29,7 @@ template <int D>
 QuasiStaticSolid<D>::QuasiStaticSolid(std::shared_ptr<const Body<D>> body,
                                       std::shared_ptr<ElasticOperator<D>> elastic,
                                       const SolidBoundary<D>& boundary, const SolverChoice& choice)
-    : body_(std::move(body)), elastic_(std::move(elastic)) {
+    : body_(std::move(body)), elastic_(std::move(elastic)), memory_(with_memory(*elastic_)) {
   const ProfileScope profiled("assembly");
   const auto mirror = boundary.mirror_condition(*body_->family(boundary.mirrored()));
   const Eigen::SparseMatrix<double> free_unknowns = boundary.free_unknowns(mirror);
@@ -97,9 +97,7 @@ void QuasiStaticSolid<D>::make_ports() {
                [this] { return elastic_energy_; });
   ports_.total(total_port("external_work", "J", PortRole::energy_gained, D), whole_solid,
                [this] { return external_work_; });
-  if (NonlinearResponse* const rock = elastic_->nonlinear(); rock && rock->memory_size() > 0) {
-    add_memory_ports(*rock, *points, D, ports_);
-  }
+  if (memory_ != nullptr) add_memory_ports(*memory_, *points, D, ports_);
   for (const auto& [face, unknown] : plates_) {
     ports_.total({face + "_plate_displacement", "m"}, whole_solid,
                  [this, unknown = unknown] { return unknowns_[unknown]; });
@@ -123,10 +121,7 @@ void QuasiStaticSolid<D>::initialize(double) {
   unknowns_.assign(elastic_->size(), 0.0);
   force_.assign(elastic_->size(), 0.0);
   external_work_ = 0.0;
-  if (elastic_->nonlinear() != nullptr) {
-    elastic_->nonlinear()->forget();
-    initial_force_ = elastic_->initial_force();
-  }
+  if (memory_ != nullptr) memory_->forget();
   derive_from_unknowns();
 }
 
@@ -160,17 +155,11 @@ double QuasiStaticSolid<D>::advance(const TimeWindow& window) {
   external_work_ += work_at_rest();
   view(force_) = view(inner_force_) - pore;
   external_work_ += 0.5 * (force_before + view(force_)).dot(view(unknowns_) - before);
-  remember(window.length());
+  if (memory_ != nullptr) {  // it follows to where the next window starts
+    memory_->follow(unknowns_, window.length());
+    derive_from_unknowns();
+  }
   return window.end;
-}
-
-/// The rock's memory follows the window's end, from where the next one starts.
-template <int D>
-void QuasiStaticSolid<D>::remember(double seconds) {
-  NonlinearResponse* const rock = elastic_->nonlinear();
-  if (rock == nullptr || rock->memory_size() == 0) return;
-  rock->follow(unknowns_, seconds);
-  derive_from_unknowns();
 }
 
 /// What the solver starts from: the displacements that are prescribed at the window's end, and of
@@ -187,9 +176,7 @@ void QuasiStaticSolid<D>::prescribe(const TimeWindow& window) {
     moved = moved || unknowns_[k] != prescribed[k];
     unknowns_[k] = prescribed[k];
   }
-  if (moved && elastic_->nonlinear() == nullptr) {
-    elastic_->apply_stiffness(unknowns_, inner_force_);
-  }
+  if (moved) elastic_->respond(unknowns_, inner_force_);
 }
 
 /// What the pore stress beyond that at rest does to all unknowns [N].
@@ -216,14 +203,8 @@ template <int D>
 void QuasiStaticSolid<D>::derive_from_unknowns() {
   dilatation_.resize(slope_.size());
   inner_force_.resize(unknowns_.size());
-  if (elastic_->nonlinear() != nullptr) {
-    elastic_->apply(unknowns_, {}, inner_force_, dilatation_);
-    view(inner_force_) -= view(std::as_const(initial_force_));
-    elastic_energy_ = elastic_->energy(unknowns_, inner_force_);
-    return;
-  }
-  elastic_->apply_stiffness(unknowns_, inner_force_, dilatation_);
-  elastic_energy_ = 0.5 * view(unknowns_).dot(view(inner_force_));
+  elastic_->respond(unknowns_, inner_force_, dilatation_);
+  elastic_energy_ = elastic_->energy(unknowns_, inner_force_);
 }
 
 template <int D>
@@ -231,7 +212,7 @@ void QuasiStaticSolid<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("displacement", unknowns_);
   visitor.visit("external_force", force_);
   visitor.visit("external_work", external_work_);
-  if (elastic_->nonlinear() != nullptr) elastic_->nonlinear()->visit_state(visitor);
+  if (memory_ != nullptr) memory_->visit_state(visitor);
   interface_.visit_state(visitor);
 }
 

@@ -63,11 +63,11 @@ class QuasiStaticSolid final : public PhysicsModule {
   Eigen::VectorXd pore_force() const;
   double work_at_rest() const;
   void prescribe(const TimeWindow& window);
-  void remember(double seconds);
   void derive_from_unknowns();
 
   std::shared_ptr<const Body<D>> body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
+  NonlinearResponse* memory_;  ///< of the rock; nullptr: it has none
   PortTable ports_;
   std::vector<std::pair<std::string, Index>> plates_;  ///< face, and an unknown that it moves
   std::string free_motion_;
@@ -79,8 +79,7 @@ class QuasiStaticSolid final : public PhysicsModule {
   std::vector<double> unknowns_;  ///< D blocks of displacement, then face values [m]
   std::vector<double> force_;     ///< external force on every unknown, reactions included [N]
   double external_work_ = 0.0;
-  std::vector<double> inner_force_;    ///< what the rock answers to the unknowns [N]
-  std::vector<double> initial_force_;  ///< of a nonlinear one at rest [N]
+  std::vector<double> inner_force_;  ///< what the rock answers to the unknowns [N]
 
   std::vector<double> pore_stress_;          ///< input; empty until it is connected
   std::vector<double> pore_stress_at_rest_;  ///< empty: none

@@ -31,47 +31,26 @@ PERIFRAC_MODULES(perifrac::not_there_type())
 """
 EMPTY = """#include "core/module/outside_modules.hpp"
 """
-# Energy per volume 1/2 F : C : F + 1/4 c |E|^4; WRONG is 1, or what it is multiplied with in the stress alone.
-NONLINEAR = """#include "modules/solid/material/law_material.hpp"
+# The laws of unit tests under words of scenes. WRONG is 1, or what stress beyond the linear is multiplied with alone.
+OWN_LAWS = f'''#include "{Path(__file__).resolve().parents[2] / "tests/unit/solid/nonlinear_laws.hpp"}"
+#include "modules/solid/material/law_material.hpp"
 #include "modules/solid/material/outside_materials.hpp"
-namespace perifrac {
+'''
+NONLINEAR = OWN_LAWS + """namespace perifrac {
 template <int D>
-struct Stiffening {
-  static constexpr int components = D;
-  static constexpr bool is_linear = false;
-  IsotropicElasticity<D> rock;
-  using Gradient = std::array<double, D * D>;
-  static Stiffening read(const Section&, const IsotropicElasticity<D>& rock) { return {rock}; }
-  static Gradient strain(const Gradient& g) {
-    Gradient e;
-    for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b) e[a * D + b] = 0.5 * (g[a * D + b] + g[b * D + a]);
-    return e;
+struct Stiffening : test::Stiffening<D> {
+  static Stiffening read(const Section&, const IsotropicElasticity<D>& rock) {
+    return {{rock, 1e4 * rock.shear_modulus}};
   }
-  double hard() const { return 1e4 * rock.shear_modulus; }
-  Gradient stress(const Gradient& g) const {
-    const Gradient e = strain(g);
-    Gradient s = rock.stress(g);
-    for (int k = 0; k < D * D; ++k) s[k] += WRONG * hard() * squared_norm(e) * e[k];
-    return s;
+  Tensor<D, D> stress(const Tensor<D, D>& g) const {
+    const Tensor<D, D> linear = this->rock.stress(g);
+    return linear + WRONG * (test::Stiffening<D>::stress(g) - linear);
   }
-  double energy(const Gradient& g) const {
-    const double square = squared_norm(strain(g));
-    return 0.5 * dot(g, rock.stress(g)) + 0.25 * hard() * square * square;
-  }
-  double stabilisation() const { return rock.stabilisation(); }
-  double drained_bulk_modulus() const { return rock.drained_bulk_modulus(); }
-  double stiffening() const { return 2.0; }
-  const IsotropicElasticity<D>& isotropic() const { return rock; }
 };
 }
 PERIFRAC_MATERIALS(perifrac::law_material<perifrac::Stiffening>("NAME", "stiffens"))
 """
-# Flow with hardening of tests/unit/solid, which remembers the plastic strain.
-FLOWING = """#include "HEADER"
-#include "modules/solid/material/law_material.hpp"
-#include "modules/solid/material/outside_materials.hpp"
-namespace perifrac {
+FLOWING = OWN_LAWS + """namespace perifrac {
 template <int D>
 struct Flowing : test::Hardening<D> {
   static Flowing read(const Section&, const IsotropicElasticity<D>& rock) { return {{rock, 5e6, 2e9}}; }
@@ -267,8 +246,7 @@ perifrac_add_module({name} library.cpp)
 
     def test_material_with_a_memory(self):
         """What it remembers is in frames, restart files and the ledger."""
-        source = Path(__file__).resolve().parents[2] / "tests/unit/solid/hardening.hpp"
-        library = self.library("hardening", FLOWING.replace("HEADER", str(source)))
+        library = self.library("hardening", FLOWING)
         scene = self.plate("hardening", library, "quasi_static")
         text = scene.read_text().replace("[20 MPa, 0 Pa]}", "[20 MPa, 0 Pa], schedule: {ramp: 0.05 s}}")
         scene.write_text(text + "coupling: {window: {first: 1 ms, growth: 1, largest: 1 ms}}\noutput: {times: [0.05 s]}\n")

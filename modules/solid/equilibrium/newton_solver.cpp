@@ -30,8 +30,6 @@ NewtonSolver<D>::NewtonSolver(std::shared_ptr<ElasticOperator<D>> elastic,
 template <int D>
 void NewtonSolver<D>::prepare() {
   at_rest_->prepare();
-  const std::vector<double> force = elastic_->initial_force();
-  initial_force_ = view(force);
   inner_.setZero(elastic_->size());
 }
 
@@ -50,8 +48,7 @@ Eigen::VectorXd NewtonSolver<D>::at_rest(const Eigen::VectorXd& force) {
 
 template <int D>
 void NewtonSolver<D>::find_left_over(const Eigen::VectorXd& load, const Eigen::VectorXd& unknowns) {
-  elastic_->apply(view(unknowns), {}, view(inner_), {});
-  inner_ -= initial_force_;
+  elastic_->respond(view(unknowns), view(inner_));
   left_over_ = load - inner_;
   answer_ = at_rest(left_over_);
   error_ = left_over_.dot(answer_);

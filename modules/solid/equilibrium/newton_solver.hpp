@@ -39,7 +39,6 @@ class NewtonSolver final : public StiffnessSolver<D> {
 
   std::shared_ptr<ElasticOperator<D>> elastic_;
   std::unique_ptr<StiffnessSolver<D>> at_rest_;
-  Eigen::VectorXd initial_force_;
   Eigen::VectorXd inner_, left_over_, answer_;  ///< at the displacements last looked at
   double error_ = 0.0;                          ///< [J]
 };

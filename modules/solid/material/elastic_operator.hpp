@@ -63,11 +63,18 @@ class ElasticOperator {
   virtual void apply_stiffness(std::span<const double> u, std::span<double> force,
                                std::span<double> dilatation = {}) = 0;
 
+  /// dE/du without pore stress and initial stress, of displacements of any size that it bears:
+  /// where it is linear, the stiffness times u.
+  virtual void respond(std::span<const double> u, std::span<double> force,
+                       std::span<double> dilatation = {}) {
+    apply_stiffness(u, force, dilatation);
+  }
+
   /// Adds the force of a pore stress [Pa] on every unknown [N].
   virtual void add_pore_force(std::span<const double> pore_stress, std::span<double> force) = 0;
 
-  /// E(u) without pore stress and initial stress [J, per metre in 2D]; `force` is that of apply()
-  /// without them.
+  /// E(u) without pore stress and initial stress [J, per metre in 2D]; `force` is that of
+  /// respond().
   virtual double energy(std::span<const double> u, std::span<const double> force) {
     double sum = 0.0;
     for (std::size_t k = 0; k < u.size(); ++k) sum += 0.5 * u[k] * force[k];

@@ -34,7 +34,8 @@ class NonlinearElasticity final : public LinearExactElasticity<D, LawField<Law>>
              initial_stress),
         family_(std::move(family)),
         at_rest_(LinearExactOperator<D, AtRest>(family_, mirror, tangent(law))),
-        stiffening_(stiffening) {}
+        stiffening_(stiffening),
+        initial_force_(this->initial_force()) {}
 
   NonlinearResponse* nonlinear() override { return this; }
 
@@ -47,6 +48,11 @@ class NonlinearElasticity final : public LinearExactElasticity<D, LawField<Law>>
   void apply_stiffness(std::span<const double> u, std::span<double> force,
                        std::span<double> dilatation = {}) override {
     at_rest_.apply_stiffness(u, force, dilatation);
+  }
+  void respond(std::span<const double> u, std::span<double> force,
+               std::span<double> dilatation = {}) override {
+    Base::apply(u, {}, force, dilatation);
+    for (std::size_t k = 0; k < force.size(); ++k) force[k] -= initial_force_[k];
   }
   void add_pore_force(std::span<const double> pore_stress, std::span<double> force) override {
     at_rest_.add_pore_force(pore_stress, force);
@@ -124,6 +130,7 @@ class NonlinearElasticity final : public LinearExactElasticity<D, LawField<Law>>
   LinearExactElasticity<D, AtRest> at_rest_;
   std::optional<LinearExactOperator<D, TangentField<D>>> tangent_;  ///< once it is asked for
   double stiffening_;
+  std::vector<double> initial_force_;
   double heat_ = 0.0;
   std::vector<double> block_sums_;  // workspace
 };

@@ -30,4 +30,11 @@ class NonlinearResponse {
   virtual void visit_state(StateVisitor& visitor) = 0;
 };
 
+/// The response of a material that remembers; nullptr: it does not.
+template <class Material>
+NonlinearResponse* with_memory(Material& rock) {
+  NonlinearResponse* const nonlinear = rock.nonlinear();
+  return nonlinear != nullptr && nonlinear->memory_size() > 0 ? nonlinear : nullptr;
+}
+
 }  // namespace perifrac

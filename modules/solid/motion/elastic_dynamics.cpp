@@ -31,6 +31,7 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
                                     const SolidBoundary<D>& boundary, double density)
     : body_(body),
       elastic_(std::move(elastic)),
+      memory_(with_memory(*elastic_)),
       prescribed_(elastic_->size()),
       loads_(elastic_->size()),
       moved_(lumped(body, boundary, density)),
@@ -174,7 +175,7 @@ void ElasticDynamics<D>::find_acted_on() {
 template <int D>
 void ElasticDynamics<D>::start() {
   unknowns_.assign(moved_.unknowns(), 0.0);
-  if (NonlinearResponse* const rock = remembers()) rock->forget();
+  if (memory_ != nullptr) memory_->forget();
   inner_is_elastic_ = false;
   work_.start(unknowns_.size());
   pore_stress_.start();
@@ -184,7 +185,7 @@ void ElasticDynamics<D>::start() {
 template <int D>
 void ElasticDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("displacement", unknowns_);
-  if (NonlinearResponse* const rock = remembers()) rock->visit_state(visitor);
+  if (memory_ != nullptr) memory_->visit_state(visitor);
   work_.visit_state(visitor);
   pore_stress_.visit_state(visitor);
 }

@@ -47,17 +47,14 @@ class ElasticDynamics final : public SecondOrderSystem {
   }
   void end_step(double step, std::span<double> velocity) override {
     if (fracture_ != nullptr) fracture_->end_step(step, velocity);
-    if (NonlinearResponse* const rock = remembers()) rock->follow(unknowns_, step);
+    if (memory_ != nullptr) memory_->follow(unknowns_, step);
   }
   bool changes() override;
 
   /// The body may break from now on, in the family of the operator. It must stay.
   void set_fracture(BodyFracture& fracture) { fracture_ = &fracture; }
   /// The rock, where it has a memory.
-  NonlinearResponse* remembers() const {
-    NonlinearResponse* const rock = elastic_->nonlinear();
-    return rock != nullptr && rock->memory_size() > 0 ? rock : nullptr;
-  }
+  NonlinearResponse* remembers() const { return memory_; }
   bool may_break() const { return fracture_ != nullptr; }
   /// Bonds were broken between steps.
   void note_broken_bonds() { plates_.forget(); }
@@ -117,6 +114,7 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
+  NonlinearResponse* memory_;  ///< of the rock; nullptr: it has none
   BodyFracture* fracture_ = nullptr;
   std::vector<double> initial_force_;  ///< of the initial stress [N]; empty without one
   ScheduledVector prescribed_;

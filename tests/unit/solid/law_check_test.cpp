@@ -6,7 +6,7 @@
 
 #include "modules/solid/material/isotropic_elasticity.hpp"
 #include "modules/solid/material/tangent_law.hpp"
-#include "tests/unit/solid/hardening.hpp"
+#include "tests/unit/solid/nonlinear_laws.hpp"
 
 namespace perifrac {
 namespace {

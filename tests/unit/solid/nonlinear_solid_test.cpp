@@ -5,8 +5,8 @@
 
 #include "core/base/errors.hpp"
 #include "modules/solid/material/nonlinear_elasticity.hpp"
-#include "tests/unit/solid/hardening.hpp"
 #include "tests/unit/solid/moving_solid.hpp"
+#include "tests/unit/solid/nonlinear_laws.hpp"
 
 namespace perifrac {
 namespace {
