@@ -1,18 +1,23 @@
 #include "coupling/acceleration.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <deque>
 
-#include <Eigen/QR>
+#include <Eigen/Dense>
+#include <fmt/format.h>
 
 namespace perifrac {
 namespace {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 class NoAcceleration final : public Acceleration {
  public:
   void reset() override {}
-  VectorXd next(const VectorXd&, const VectorXd& answer) override { return answer; }
+  VectorXd next(const VectorXd&, const VectorXd& answer, const VectorXd&) override {
+     return answer; }
 };
 
 class Aitken final : public Acceleration {
@@ -22,15 +27,15 @@ class Aitken final : public Acceleration {
     last_.resize(0);
   }
 
-  VectorXd next(const VectorXd& used, const VectorXd& answer) override {
-    const VectorXd residual = answer - used;
+  VectorXd next(const VectorXd& used, const VectorXd& answer, const VectorXd& scale) override {
+    const VectorXd residual = scale.cwiseProduct(answer - used);
     if (last_.size() > 0) {
       const VectorXd change = residual - last_;
       const double square = change.squaredNorm();
       if (square > 0.0) factor_ *= -last_.dot(change) / square;
     }
     last_ = residual;
-    return used + factor_ * residual;
+    return used + factor_ * (answer - used);
   }
 
  private:
@@ -38,39 +43,99 @@ class Aitken final : public Acceleration {
   VectorXd last_;
 };
 
-class Anderson final : public Acceleration {
+/// One step from an input to the next: what residual and answer changed by.
+struct Step {
+  VectorXd residual;
+  VectorXd answer;
+};
+
+/// The combination of steps whose residuals, scaled, come nearest to `residual`; steps come newest
+/// first, and those that say next to nothing beyond newer ones are left out of `steps`.
+VectorXd combine(std::deque<Step>& steps, const VectorXd& residual, const VectorXd& scale) {
+  constexpr double new_part = 1e-2;
+  MatrixXd basis(residual.size(), std::ssize(steps));
+  MatrixXd parts = MatrixXd::Zero(std::ssize(steps), std::ssize(steps));
+  Eigen::Index used = 0;
+  for (std::size_t i = 0; i < steps.size();) {
+    VectorXd left = scale.cwiseProduct(steps[i].residual);
+    const double whole = left.norm();
+    for (int twice = 0; twice < 2; ++twice) {  // once leaves rounding of what it takes off
+      const VectorXd along = basis.leftCols(used).transpose() * left;
+      left -= basis.leftCols(used) * along;
+      parts.col(used).head(used) = twice == 0 ? along : VectorXd(parts.col(used).head(used) + along);
+    }
+    const double rest = left.norm();
+    if (!(rest > new_part * whole)) {
+      steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
+      continue;
+    }
+    basis.col(used) = left / rest;
+    parts(used, used) = rest;
+    ++used, ++i;
+  }
+  const VectorXd along = basis.leftCols(used).transpose() * residual;
+  return parts.topLeftCorner(used, used).triangularView<Eigen::Upper>().solve(along);
+}
+
+/// Answers as linear in the input as its steps say.
+class Secants final : public Acceleration {
  public:
+  /// Of the windows before, so many steps are kept; of this one, `depth`.
+  Secants(std::size_t depth, std::size_t kept) : depth_(depth), kept_(kept) {}
+
   void reset() override {
     steps_.clear();
-    residual_.resize(0);
+    begin_window();
   }
 
-  VectorXd next(const VectorXd& used, const VectorXd& answer) override {
+  void begin_window() override {
+    if (steps_.size() > kept_) steps_.resize(kept_);
+    residual_.resize(0);
+    own_ = 0;
+  }
+
+  /// What is new has not been asked yet, and has answered nothing.
+  void follow(std::span<const Eigen::Index> kept, Eigen::Index size) override {
+    for (Step& step : steps_) {
+      for (VectorXd* values : {&step.residual, &step.answer}) {
+        VectorXd all = VectorXd::Zero(size);
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+          all[kept[i]] = (*values)[static_cast<Eigen::Index>(i)];
+        }
+        *values = std::move(all);
+      }
+    }
+  }
+
+  VectorXd next(const VectorXd& used, const VectorXd& answer, const VectorXd& scale) override {
     const VectorXd residual = answer - used;
-    if (residual_.size() > 0) steps_.push_back({residual - residual_, answer - answer_});
-    if (steps_.size() > anderson_depth) steps_.pop_front();
+    if (residual_.size() > 0) {
+      steps_.push_front({residual - residual_, answer - answer_});
+      if (++own_ > depth_) steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(depth_));
+    }
     residual_ = residual;
     answer_ = answer;
-    if (steps_.empty()) return answer;
+    const VectorXd factors = combine(steps_, scale.cwiseProduct(residual), scale);
+    VectorXd next = answer;
+    for (Eigen::Index i = 0; i < factors.size(); ++i) next -= factors[i] * steps_[i].answer;
+    return next;
+  }
 
-    const auto depth = static_cast<Eigen::Index>(steps_.size());
-    Eigen::MatrixXd residuals(residual.size(), depth);
-    Eigen::MatrixXd answers(residual.size(), depth);
-    for (Eigen::Index i = 0; i < depth; ++i) {
-      residuals.col(i) = steps_[i].residual;
-      answers.col(i) = steps_[i].answer;
+  void visit_state(StateVisitor& visitor) override {
+    auto count = static_cast<std::int64_t>(std::min(steps_.size(), kept_));
+    visitor.visit("steps", count);
+    steps_.resize(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      visitor.visit(fmt::format("residual_{}", i), steps_[i].residual);
+      visitor.visit(fmt::format("answer_{}", i), steps_[i].answer);
     }
-    // Pivoting leaves out steps that say nothing new: near the solution they are all rounding.
-    return answer - answers * residuals.colPivHouseholderQr().solve(residual);
   }
 
  private:
-  struct Step {
-    VectorXd residual;
-    VectorXd answer;
-  };
-
-  std::deque<Step> steps_;
+  std::size_t depth_;
+  std::size_t kept_;
+  std::deque<Step> steps_;  ///< the newest first
+  std::size_t own_ = 0;     ///< of this window
   VectorXd residual_;
   VectorXd answer_;
 };
@@ -82,7 +147,9 @@ std::unique_ptr<Acceleration> make_acceleration(AccelerationType type) {
     case AccelerationType::aitken:
       return std::make_unique<Aitken>();
     case AccelerationType::anderson:
-      return std::make_unique<Anderson>();
+      return std::make_unique<Secants>(anderson_depth, 0);
+    case AccelerationType::quasi_newton:
+      return std::make_unique<Secants>(8, 24);
     case AccelerationType::none:
       break;
   }

@@ -19,6 +19,7 @@ Split split(const std::string& word) {
 AccelerationType acceleration_type(const std::string& word) {
   if (word == "aitken") return AccelerationType::aitken;
   if (word == "anderson") return AccelerationType::anderson;
+  if (word == "quasi_newton") return AccelerationType::quasi_newton;
   return AccelerationType::none;
 }
 
@@ -78,7 +79,7 @@ const KeyTable& coupling_keys() {
       {.path = "acceleration",
        .type = KeyType::word,
        .fallback = "anderson",
-       .words = {"none", "aitken", "anderson"},
+       .words = {"none", "aitken", "anderson", "quasi_newton"},
        .meaning = "How the next pass's input is formed from those before"},
   };
   return keys;

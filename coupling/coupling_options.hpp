@@ -17,7 +17,7 @@ enum class WindowType {
   one_step,  ///< the shortest of the modules' own stable steps
 };
 
-enum class AccelerationType { none, aitken, anderson };
+enum class AccelerationType { none, aitken, anderson, quasi_newton };
 
 /// The `coupling` section of a scene.
 struct CouplingOptions {

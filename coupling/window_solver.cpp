@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -62,6 +63,7 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   if (reached < window.end) ++work_.events;
   find_held_back(iterations);
   for (Link& link : links_) link.accept();
+  follow_points();
   const std::int64_t passes = work_.passes - passes_before;
   const bool one_pass = iterations.max == 1 || (iterations.at_once > 0.0 && passes == 1);
   if (one_pass) watch(reached - window.begin);
@@ -116,10 +118,15 @@ double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterati
     slot.module->prepare(window);
   }
   predict(window.length());
-  acceleration_->reset();
+  acceleration_->begin_window();
   GrowthWatch watch;
   for (int passes = 1;; ++passes) {
     const double reached = pass(window);
+    if (std::getenv("DBG")) {
+      fmt::print(stderr, "t {:.6f} dt {:.2e} pass {}", window.begin, window.length(), passes);
+      for (const Link& link : links_) if (link.predicts()) fmt::print(stderr, " | {} n={} {:.1e}", link.path(), link.answer().size(), link.mismatch().relative());
+      fmt::print(stderr, "{}\n", reached < window.end ? " event" : "");
+    }
     if (reached < window.end || iterations.max == 1 || has_converged(iterations.tolerance)) {
       return reached;
     }
@@ -254,28 +261,60 @@ void WindowSolver::accelerate(double length) {
   for (const Link& link : links_) {
     if (link.predicts()) size += static_cast<Eigen::Index>(link.answer().size());
   }
-  if (size != accelerated_size_) acceleration_->reset();  // a module has inserted points
-  accelerated_size_ = size;
-
   Eigen::VectorXd used(size);
   Eigen::VectorXd answer(size);
+  Eigen::VectorXd scale(size);
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (!links_[i].predicts()) continue;
     for (std::size_t j = 0; j < links_[i].answer().size(); ++j, ++at) {
-      used[at] = weights_[i] * links_[i].used()[j];
-      answer[at] = weights_[i] * links_[i].answer()[j];
+      used[at] = links_[i].used()[j];
+      answer[at] = links_[i].answer()[j];
+      scale[at] = weights_[i];
     }
   }
-  const Eigen::VectorXd next = acceleration_->next(used, answer);
+  const Eigen::VectorXd next = acceleration_->next(used, answer, scale);
   at = 0;
   std::vector<double> values;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (!links_[i].predicts()) continue;
     values.resize(links_[i].answer().size());
-    for (double& value : values) value = next[at++] / weights_[i];
+    for (double& value : values) value = next[at++];
     links_[i].relax(values, length);
   }
+}
+
+/// Where the old points lead the new ones; false where they have moved or some are gone.
+bool leads(const PointSet& before, const PointSet& now) {
+  if (now.count < before.count) return false;
+  for (int axis = 0; axis < before.dimension; ++axis) {
+    const auto begin = now.position[axis].first(before.count);
+    if (!std::ranges::equal(before.position[axis], begin)) return false;
+  }
+  return true;
+}
+
+void WindowSolver::follow_points() {
+  if (accelerated_.empty()) accelerated_.resize(links_.size());
+  std::vector<Eigen::Index> kept;
+  Eigen::Index size = 0;
+  bool is_known = true, has_changed = false;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (!links_[i].predicts()) continue;
+    const LinkEnd& source = links_[i].source();
+    const PointSet& now = *source.module->port(source.port).points;
+    const SharedPoints before = std::exchange(accelerated_[i], freeze(now, accelerated_[i]));
+    if (before && before != accelerated_[i]) {
+      has_changed = true;
+      is_known = is_known && leads(before->set(), now);
+    }
+    const auto components = static_cast<Eigen::Index>(source.module->ports()[source.port].components);
+    const auto old = components * static_cast<Eigen::Index>(before ? before->set().count : now.count);
+    for (Eigen::Index j = 0; j < old; ++j) kept.push_back(size + j);
+    size += components * static_cast<Eigen::Index>(now.count);
+  }
+  if (!is_known) return acceleration_->reset();
+  if (has_changed) acceleration_->follow(kept, size);
 }
 
 void WindowSolver::fail(double t, int passes, const char* problem) const {

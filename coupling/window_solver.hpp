@@ -99,6 +99,8 @@ class WindowSolver {
   double weighted_mismatch() const;
   /// Replaces what the lagged links send next.
   void accelerate(double length);
+  /// Tells the acceleration which points have come since the last window, where others stayed.
+  void follow_points();
   void watch(double length);
   [[noreturn]] void fail(double t, int passes, const char* problem) const;
 
@@ -111,7 +113,7 @@ class WindowSolver {
   double held_back_ = 0.0;
   const Link* holding_link_ = nullptr;
   std::string ended_by_;
-  Eigen::Index accelerated_size_ = 0;
+  std::vector<SharedPoints> accelerated_;  ///< points of the lagged links' sources, one a link
   std::vector<double> weights_;          ///< one a link; of use for the lagged ones
   std::vector<StabilityWatch> watches_;  ///< likewise
   Snapshot begin_;

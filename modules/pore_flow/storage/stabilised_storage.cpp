@@ -5,31 +5,11 @@
 #include <utility>
 
 #include "core/bonds/bond_state.hpp"
-#include "core/operators/linear_exact.hpp"
 #include "core/profile/profile.hpp"
 
 namespace perifrac {
 
 namespace {
-
-/// Of the linear-exact operator's energy, what linear fields do not have, and that alone; of Darcy
-/// flow's size for a mobility of 1.
-template <int D>
-struct RoughnessLaw {
-  double weight;
-
-  Tensor<1, D> stress(const Tensor<1, D>&) const { return {}; }
-  double stabilisation() const { return 4.0 * D / 3.0 * weight; }
-};
-
-template <int D>
-struct RoughnessLaws {
-  static constexpr int components = 1;
-
-  std::vector<RoughnessLaw<D>> laws;
-
-  const RoughnessLaw<D>& at(Index i) const { return laws[i]; }
-};
 
 /// From here on the roughest pressures hold 0.5 alpha^2 times the slope and more (decision 17).
 constexpr double enough_to_split = 0.1;
@@ -50,10 +30,6 @@ std::vector<double> raise_near_faces(const Family<D>& family) {
   return weight;
 }
 
-Eigen::Map<Eigen::VectorXd> view(std::span<double> values) {
-  return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
 }  // namespace
 
 template <int D>
@@ -66,9 +42,10 @@ StabilisedStorage<D>::StabilisedStorage(PoreMaterials materials,
       splits_well_(strength >= enough_to_split),
       answer_(intact_->point_count, 0.0),
       raise_(irregular ? raise_near_faces(*intact_) : std::vector<double>()),
+      roughness_(intact_, MirrorCondition<D, 1>(*intact_), laws()),
+      own_(intact_->point_count),
       right_side_(intact_->point_count) {
-  assemble();
-  factor();
+  find_own();
 }
 
 template <int D>
@@ -78,48 +55,98 @@ bool StabilisedStorage<D>::set_dilatation(const DilatationInput& input) {
     const double alpha = materials().at(i).biot_coefficient;
     answer_[i] = alpha * alpha * input.slope[i];
   }
-  assemble();
-  factor();
+  roughness_.change_law([this](RoughnessLaws<D>& present) { present = laws(); });
+  find_own();
   return true;
 }
 
 template <int D>
 void StabilisedStorage<D>::take_bonds(std::span<const BrokenBond> broken) {
   if (broken.empty() && broken_.empty()) return;
+  std::vector<Index> points;
+  const auto add_ends = [&points](const BrokenBond& bond) {
+    points.insert(points.end(), {bond.i, bond.j});
+  };
+  std::ranges::for_each(broken_, add_ends);
   broken_.assign(broken.begin(), broken.end());
-  assemble();
-  factor();
+  std::ranges::for_each(broken_, add_ends);
+  keep_each_once(points);
+  const auto cut = std::make_shared<Family<D>>(*intact_);
+  for (const BrokenBond& bond : broken_) silence(*cut, bond.i, bond.j);
+  roughness_.update(cut, points);
+  find_own();
 }
 
 template <int D>
-void StabilisedStorage<D>::assemble() {
-  const ProfileScope profiled("assembly");
+RoughnessLaws<D> StabilisedStorage<D>::laws() const {
   RoughnessLaws<D> laws;
   for (std::size_t i = 0; i < answer_.size(); ++i) {
     laws.laws.push_back({scale_ * answer_[i] * (raise_.empty() ? 1.0 : raise_[i])});
   }
-  LinearExactOperator<D, RoughnessLaws<D>> op(intact_, MirrorCondition<D, 1>(*intact_),
-                                              std::move(laws));
-  if (!broken_.empty()) {
-    const auto cut = std::make_shared<Family<D>>(*intact_);
-    std::vector<Index> points;
-    for (const BrokenBond& bond : broken_) {
-      silence(*cut, bond.i, bond.j);
-      points.insert(points.end(), {bond.i, bond.j});
+  return laws;
+}
+
+/// The bonds' part of the diagonal is what they would have without their points' gradients.
+template <int D>
+void StabilisedStorage<D>::find_own() {
+  between_.reset();
+  const Family<D>& family = roughness_.family();
+  const std::span<const double> storage = effective_storage(0.0, {});
+  for (Index i = 0; i < family.point_count; ++i) own_[i] = family.volume[i] * storage[i];
+  Eigen::VectorXd diagonal = own_;
+  for (Index i = 0; i < family.point_count; ++i) {
+    const double stiffness = family.volume[i] * roughness_.law().at(i).stabilisation() /
+                             roughness_.weighted_volume(i);
+    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
+      const double part = stiffness * family.weight[bond];
+      diagonal[i] += part;
+      diagonal[family.other[bond]] += part;
     }
-    keep_each_once(points);
-    op.update(cut, points);
   }
-  between_ = op.assemble();
+  inverse_ = diagonal.cwiseInverse();
 }
 
 template <int D>
-void StabilisedStorage<D>::factor() {
-  Eigen::SparseMatrix<double> whole(between_.rows(), between_.cols());
-  whole.setIdentity();
-  whole = 0.0 * whole + 0.0 * between_;
-  add_to(whole, 0.0, {}, intact_->volume);
-  factor_.factor(whole);
+const Eigen::SparseMatrix<double>& StabilisedStorage<D>::between() const {
+  if (!between_) {
+    const ProfileScope profiled("assembly");
+    between_ = roughness_.assemble();
+  }
+  return *between_;
+}
+
+/// (own + B) p = right side.
+template <int D>
+void StabilisedStorage<D>::solve(std::span<double> p) const {
+  const ProfileScope profiled("solves");
+  constexpr double tolerance = 1e-14;
+  constexpr int most = 200;
+  image_.resize(own_.size());
+  const auto apply = [this](const Eigen::VectorXd& u) {
+    roughness_.apply({u.data(), static_cast<std::size_t>(u.size())},
+                     {image_.data(), static_cast<std::size_t>(image_.size())});
+    image_ += own_.cwiseProduct(u);
+  };
+  x_ = inverse_.cwiseProduct(right_side_);
+  apply(x_);
+  residual_ = right_side_ - image_;
+  const double target = tolerance * right_side_.norm();
+  double square = 0.0;
+  for (int k = 0; residual_.norm() > target && k < most; ++k) {
+    correction_ = inverse_.cwiseProduct(residual_);
+    const double next = residual_.dot(correction_);
+    if (k == 0) {
+      direction_ = correction_;
+    } else {
+      direction_ = correction_ + next / square * direction_;
+    }
+    square = next;
+    apply(direction_);
+    const double step = square / direction_.dot(image_);
+    x_ += step * direction_;
+    residual_ -= step * image_;
+  }
+  std::ranges::copy(x_, p.begin());
 }
 
 template <int D>
@@ -130,7 +157,7 @@ void StabilisedStorage<D>::pressure(double t, std::span<const double> zeta,
     right_side_[i] =
         intact_->volume[i] * (zeta[i] - materials().at(i).biot_coefficient * dilatation().at(i, t));
   }
-  factor_.solve(right_side_, view(p.first(points)));
+  solve(p.first(points));
 }
 
 template <int D>
@@ -138,20 +165,21 @@ void StabilisedStorage<D>::pressure_change(double, std::span<const double>,
                                            std::span<const double> change, std::span<double> dp) {
   const Index points = intact_->point_count;
   for (Index i = 0; i < points; ++i) right_side_[i] = intact_->volume[i] * change[i];
-  factor_.solve(right_side_, view(dp.first(points)));
+  solve(dp.first(points));
 }
 
 template <int D>
 void StabilisedStorage<D>::add_pattern_to(Eigen::SparseMatrix<double>& matrix) const {
-  matrix = Eigen::SparseMatrix<double>(matrix + 0.0 * between_);
+  matrix = Eigen::SparseMatrix<double>(matrix + 0.0 * between());
 }
 
 template <int D>
 void StabilisedStorage<D>::add_to(Eigen::SparseMatrix<double>& matrix, double t,
                                   std::span<const double> zeta, std::span<const double> volume) {
   LinearStorage::add_to(matrix, t, zeta, volume);
-  for (Index column = 0; column < between_.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(between_, column); entry; ++entry) {
+  const Eigen::SparseMatrix<double>& b = between();
+  for (Index column = 0; column < b.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(b, column); entry; ++entry) {
       matrix.coeffRef(entry.row(), column) += entry.value();
     }
   }
@@ -159,12 +187,10 @@ void StabilisedStorage<D>::add_to(Eigen::SparseMatrix<double>& matrix, double t,
 
 template <int D>
 double StabilisedStorage<D>::energy_between_points(std::span<const double> p) const {
+  image_.resize(own_.size());
+  roughness_.apply(p.first(own_.size()), {image_.data(), static_cast<std::size_t>(image_.size())});
   double sum = 0.0;
-  for (Index column = 0; column < between_.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(between_, column); entry; ++entry) {
-      sum += p[entry.row()] * entry.value() * p[column];
-    }
-  }
+  for (Eigen::Index i = 0; i < own_.size(); ++i) sum += p[i] * image_[i];
   return 0.5 * sum;
 }
 

@@ -87,15 +87,27 @@ double CrackGrowth<D>::first_event(const TimeWindow& window) {
   // A tip that is late in however short a window is not met by the secant.
   const double longest = ++cuts_ > 5 ? 0.5 : 0.95;
   double share = longest;
-  if (is_late) {
-    share = std::clamp((1.0 - readiness_before_) / (most - readiness_before_), 0.05, longest);
-  }
+  if (is_late) share = std::clamp(due_share(window.length(), most), 0.05, longest);
+  tried_ = {window.length(), most};
   if (begins_late) {
     const double secant =
         std::clamp((1.0 - nucleus_before_) / (nucleus - nucleus_before_), 0.05, longest);
     share = is_late ? std::min(share, secant) : secant;
   }
   return std::min(end, window.begin + share * window.length());
+}
+
+/// The part of a window after which its readiest tip is due: linear in readiness from its beginning,
+/// where that is not known after growth, and of second order where a longer window was tried.
+template <int D>
+double CrackGrowth<D>::due_share(double length, double most) const {
+  const double before = readiness_before_;
+  const double linear = (1.0 - before) / (most - before);
+  if (cuts_ == 1 || !(tried_.readiness > most)) return linear;
+  const double steep = (tried_.length / length - 1.0) / (tried_.readiness - most);  // d share/d readiness
+  if (before == 0.0) return std::max(1.0 - steep * (most - 1.0), 0.4);
+  const double curved = (steep - 1.0 / (most - before)) / (tried_.readiness - before);
+  return std::max(linear - curved * (most - 1.0) * (1.0 - before), 0.3 * linear);
 }
 
 template <int D>

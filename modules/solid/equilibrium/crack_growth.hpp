@@ -44,6 +44,7 @@ class CrackGrowth {
   void on_restored();
 
  private:
+  double due_share(double length, double most) const;
   bool tips_move() const;
   bool start_moving();
   bool grow_tips(double most, double due);
@@ -64,6 +65,9 @@ class CrackGrowth {
   double nucleus_before_ = 0.0;     ///< likewise
   double last_growth_ = 0.0;        ///< [s]
   int cuts_ = 0;                    ///< of the window at hand
+  struct {
+    double length, readiness;
+  } tried_{};  ///< the last of them
 };
 
 }  // namespace perifrac
