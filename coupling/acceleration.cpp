@@ -17,7 +17,8 @@ class NoAcceleration final : public Acceleration {
  public:
   void reset() override {}
   VectorXd next(const VectorXd&, const VectorXd& answer, const VectorXd&) override {
-     return answer; }
+    return answer;
+  }
 };
 
 class Aitken final : public Acceleration {
@@ -29,6 +30,7 @@ class Aitken final : public Acceleration {
 
   VectorXd next(const VectorXd& used, const VectorXd& answer, const VectorXd& scale) override {
     const VectorXd residual = scale.cwiseProduct(answer - used);
+    if (last_.size() != residual.size()) reset();
     if (last_.size() > 0) {
       const VectorXd change = residual - last_;
       const double square = change.squaredNorm();
@@ -52,7 +54,7 @@ struct Step {
 /// The combination of steps whose residuals, scaled, come nearest to `residual`; steps come newest
 /// first, and those that say next to nothing beyond newer ones are left out of `steps`.
 VectorXd combine(std::deque<Step>& steps, const VectorXd& residual, const VectorXd& scale) {
-  constexpr double new_part = 1e-2;
+  constexpr double new_part = 0.05;
   MatrixXd basis(residual.size(), std::ssize(steps));
   MatrixXd parts = MatrixXd::Zero(std::ssize(steps), std::ssize(steps));
   Eigen::Index used = 0;
@@ -62,7 +64,8 @@ VectorXd combine(std::deque<Step>& steps, const VectorXd& residual, const Vector
     for (int twice = 0; twice < 2; ++twice) {  // once leaves rounding of what it takes off
       const VectorXd along = basis.leftCols(used).transpose() * left;
       left -= basis.leftCols(used) * along;
-      parts.col(used).head(used) = twice == 0 ? along : VectorXd(parts.col(used).head(used) + along);
+      parts.col(used).head(used) =
+          twice == 0 ? along : VectorXd(parts.col(used).head(used) + along);
     }
     const double rest = left.norm();
     if (!(rest > new_part * whole)) {
@@ -80,7 +83,7 @@ VectorXd combine(std::deque<Step>& steps, const VectorXd& residual, const Vector
 /// Answers as linear in the input as its steps say.
 class Secants final : public Acceleration {
  public:
-  /// Of the windows before, so many steps are kept; of this one, `depth`.
+  /// At most `depth` steps; of windows before, as many as have `kept` numbers together.
   Secants(std::size_t depth, std::size_t kept) : depth_(depth), kept_(kept) {}
 
   void reset() override {
@@ -89,9 +92,8 @@ class Secants final : public Acceleration {
   }
 
   void begin_window() override {
-    if (steps_.size() > kept_) steps_.resize(kept_);
+    forget_old();
     residual_.resize(0);
-    own_ = 0;
   }
 
   /// What is new has not been asked yet, and has answered nothing.
@@ -109,9 +111,10 @@ class Secants final : public Acceleration {
 
   VectorXd next(const VectorXd& used, const VectorXd& answer, const VectorXd& scale) override {
     const VectorXd residual = answer - used;
-    if (residual_.size() > 0) {
+    if (!steps_.empty() && steps_.front().answer.size() != answer.size()) reset();
+    if (residual_.size() == residual.size()) {
       steps_.push_front({residual - residual_, answer - answer_});
-      if (++own_ > depth_) steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(depth_));
+      if (steps_.size() > depth_) steps_.pop_back();
     }
     residual_ = residual;
     answer_ = answer;
@@ -122,7 +125,8 @@ class Secants final : public Acceleration {
   }
 
   void visit_state(StateVisitor& visitor) override {
-    auto count = static_cast<std::int64_t>(std::min(steps_.size(), kept_));
+    forget_old();
+    auto count = std::ssize(steps_);
     visitor.visit("steps", count);
     steps_.resize(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -132,10 +136,16 @@ class Secants final : public Acceleration {
   }
 
  private:
+  void forget_old() {
+    constexpr std::size_t most = 24;  // older ones are of another crack
+    if (steps_.empty()) return;
+    const std::size_t size = static_cast<std::size_t>(steps_.front().residual.size());
+    steps_.resize(std::min({steps_.size(), most, kept_ / std::max<std::size_t>(size, 1)}));
+  }
+
   std::size_t depth_;
   std::size_t kept_;
   std::deque<Step> steps_;  ///< the newest first
-  std::size_t own_ = 0;     ///< of this window
   VectorXd residual_;
   VectorXd answer_;
 };
@@ -149,7 +159,7 @@ std::unique_ptr<Acceleration> make_acceleration(AccelerationType type) {
     case AccelerationType::anderson:
       return std::make_unique<Secants>(anderson_depth, 0);
     case AccelerationType::quasi_newton:
-      return std::make_unique<Secants>(8, 24);
+      return std::make_unique<Secants>(32, std::size_t{1} << 21);
     case AccelerationType::none:
       break;
   }

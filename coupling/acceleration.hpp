@@ -21,7 +21,7 @@ class Acceleration {
   /// Another window, whose answers are much like those of the one before.
   virtual void begin_window() { reset(); }
 
-  /// The input to try after `used` was answered with `answer`; all of one size since reset().
+  /// The input to try after `used` was answered with `answer`. Another size starts over.
   /// `scale` makes their entries comparable, and may be another one in each window.
   virtual Eigen::VectorXd next(const Eigen::VectorXd& used, const Eigen::VectorXd& answer,
                                const Eigen::VectorXd& scale) = 0;

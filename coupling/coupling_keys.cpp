@@ -78,9 +78,10 @@ const KeyTable& coupling_keys() {
                   "met below the tolerance of the modules' own integrators"},
       {.path = "acceleration",
        .type = KeyType::word,
-       .fallback = "anderson",
+       .fallback = "quasi_newton",
        .words = {"none", "aitken", "anderson", "quasi_newton"},
-       .meaning = "How the next pass's input is formed from those before"},
+       .meaning = "How the next pass's input is formed from those before: anderson from those of "
+                  "the window, quasi_newton from those of windows before, too"},
   };
   return keys;
 }

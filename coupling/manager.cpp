@@ -258,6 +258,7 @@ std::optional<std::string> CouplingManager::new_warning() {
 void CouplingManager::restart_point() {
   for (ModuleSlot& slot : modules_) slot.module->on_restored(time_);
   let_modules_see_slopes();
+  solver_->note_points();
 }
 
 void CouplingManager::visit_state(StateVisitor& visitor) {

@@ -33,6 +33,20 @@ class GrowthWatch {
 /// An event that moves back this often in one window is no event that a window can end at.
 constexpr int most_redos = 50;
 
+/// Where the old points lead the new ones; false where they have moved or some are gone.
+bool leads(const PointSet& before, const PointSet& now) {
+  if (now.count < before.count) return false;
+  for (int axis = 0; axis < before.dimension; ++axis) {
+    const auto begin = now.position[axis].first(before.count);
+    if (!std::ranges::equal(before.position[axis], begin)) return false;
+  }
+  return true;
+}
+
+const PointSet& points_of(const Link& link) {
+  return *link.source().module->port(link.source().port).points;
+}
+
 }  // namespace
 
 WindowSolver::WindowSolver(std::span<ModuleSlot> modules, std::span<Link> links,
@@ -49,6 +63,8 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
     const ProfilePart profiled("rollback");
     begin_.save([&](StateVisitor& visitor) { visit_modules(modules_, visitor); });
   }
+
+  if (accelerated_.empty()) note_points();
 
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
@@ -93,6 +109,7 @@ bool WindowSolver::may_go_back(const Iterations& iterations) const {
 bool WindowSolver::cut(double t) {
   if (!is_saved_) return false;
   go_back(t);
+  acceleration_->reset();
   ++work_.cuts;
   return true;
 }
@@ -122,11 +139,6 @@ double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterati
   GrowthWatch watch;
   for (int passes = 1;; ++passes) {
     const double reached = pass(window);
-    if (std::getenv("DBG")) {
-      fmt::print(stderr, "t {:.6f} dt {:.2e} pass {}", window.begin, window.length(), passes);
-      for (const Link& link : links_) if (link.predicts()) fmt::print(stderr, " | {} n={} {:.1e}", link.path(), link.answer().size(), link.mismatch().relative());
-      fmt::print(stderr, "{}\n", reached < window.end ? " event" : "");
-    }
     if (reached < window.end || iterations.max == 1 || has_converged(iterations.tolerance)) {
       return reached;
     }
@@ -134,7 +146,7 @@ double WindowSolver::iterate(const TimeWindow& window, const Iterations& iterati
     if (passes == 1) weigh_links();
     if (!is_settled()) {
       // Modules change what they answer: what was learned of it is of no use.
-      acceleration_->reset();
+      acceleration_->begin_window();
       watch = {};
     } else if (watch.is_diverging(weighted_mismatch())) {
       fail(window.end, passes, "diverges");
@@ -237,6 +249,9 @@ void WindowSolver::visit_state(StateVisitor& visitor) {
     watches_[i].visit_state(visitor);
     visitor.leave();
   }
+  visitor.enter("acceleration");
+  acceleration_->visit_state(visitor);
+  visitor.leave();
 }
 
 void WindowSolver::weigh_links() {
@@ -284,37 +299,33 @@ void WindowSolver::accelerate(double length) {
   }
 }
 
-/// Where the old points lead the new ones; false where they have moved or some are gone.
-bool leads(const PointSet& before, const PointSet& now) {
-  if (now.count < before.count) return false;
-  for (int axis = 0; axis < before.dimension; ++axis) {
-    const auto begin = now.position[axis].first(before.count);
-    if (!std::ranges::equal(before.position[axis], begin)) return false;
+void WindowSolver::note_points() {
+  accelerated_.resize(links_.size());
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (links_[i].predicts()) accelerated_[i] = freeze(points_of(links_[i]), accelerated_[i]);
   }
-  return true;
 }
 
 void WindowSolver::follow_points() {
-  if (accelerated_.empty()) accelerated_.resize(links_.size());
   std::vector<Eigen::Index> kept;
   Eigen::Index size = 0;
-  bool is_known = true, has_changed = false;
+  bool are_known = true, have_come = false;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (!links_[i].predicts()) continue;
-    const LinkEnd& source = links_[i].source();
-    const PointSet& now = *source.module->port(source.port).points;
+    const PointSet& now = points_of(links_[i]);
     const SharedPoints before = std::exchange(accelerated_[i], freeze(now, accelerated_[i]));
-    if (before && before != accelerated_[i]) {
-      has_changed = true;
-      is_known = is_known && leads(before->set(), now);
-    }
-    const auto components = static_cast<Eigen::Index>(source.module->ports()[source.port].components);
-    const auto old = components * static_cast<Eigen::Index>(before ? before->set().count : now.count);
-    for (Eigen::Index j = 0; j < old; ++j) kept.push_back(size + j);
+    const PointSet& old = before->set();
+    have_come = have_come || !old.same_points(now);
+    are_known = are_known && (old.same_points(now) || leads(old, now));
+    const LinkEnd& source = links_[i].source();
+    const auto components =
+        static_cast<Eigen::Index>(source.module->ports()[source.port].components);
+    for (Eigen::Index j = 0; j < components * static_cast<Eigen::Index>(old.count); ++j)
+      kept.push_back(size + j);
     size += components * static_cast<Eigen::Index>(now.count);
   }
-  if (!is_known) return acceleration_->reset();
-  if (has_changed) acceleration_->follow(kept, size);
+  if (!are_known) return acceleration_->reset();
+  if (have_come) acceleration_->follow(kept, size);
 }
 
 void WindowSolver::fail(double t, int passes, const char* problem) const {

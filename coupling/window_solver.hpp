@@ -67,6 +67,9 @@ class WindowSolver {
   /// pass; null until then.
   const Link* unstable_link() const;
 
+  /// After a state was restored: its points are those that the acceleration knows.
+  void note_points();
+
   /// What the next windows are judged by.
   void visit_state(StateVisitor& visitor);
 
@@ -114,8 +117,8 @@ class WindowSolver {
   const Link* holding_link_ = nullptr;
   std::string ended_by_;
   std::vector<SharedPoints> accelerated_;  ///< points of the lagged links' sources, one a link
-  std::vector<double> weights_;          ///< one a link; of use for the lagged ones
-  std::vector<StabilityWatch> watches_;  ///< likewise
+  std::vector<double> weights_;            ///< one a link; of use for the lagged ones
+  std::vector<StabilityWatch> watches_;    ///< likewise
   Snapshot begin_;
   CouplingWork work_;
 };

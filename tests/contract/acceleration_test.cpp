@@ -1,5 +1,6 @@
 #include "coupling/acceleration.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -23,7 +24,8 @@ struct LinearProblem {
 
   /// Answers asked for until the residual has fallen by `tolerance`; 1000 if it never does.
   int solve(Acceleration& acceleration, double tolerance) const {
-    acceleration.reset();
+    acceleration.begin_window();
+    const Eigen::VectorXd scale = Eigen::VectorXd::Ones(offset.size());
     Eigen::VectorXd y = Eigen::VectorXd::Zero(offset.size());
     for (int asked = 1; asked < 1000; ++asked) {
       const Eigen::VectorXd answer = matrix * y + offset;
@@ -31,7 +33,7 @@ struct LinearProblem {
         EXPECT_LT((y - solution).norm(), 1e3 * tolerance * solution.norm());
         return asked;
       }
-      y = acceleration.next(y, answer);
+      y = acceleration.next(y, answer, scale);
     }
     return 1000;
   }
@@ -71,9 +73,41 @@ TEST(Acceleration, AndersonStaysWhereItConvergedThoughAllStepsAreNoise) {
     if (asked > 20) {
       ASSERT_LT((answer - y).norm(), 1e-10) << asked;
     }
-    y = anderson->next(y, answer);
+    y = anderson->next(y, answer, Eigen::VectorXd::Ones(12));
   }
   EXPECT_LT((y - problem.solution).norm(), 1e-10);
+}
+
+TEST(Acceleration, QuasiNewtonKnowsTheWindowsBefore) {
+  LinearProblem problem(Eigen::VectorXd::LinSpaced(5, -3.0, -0.5));
+  const auto quasi_newton = make_acceleration(AccelerationType::quasi_newton);
+  EXPECT_GE(problem.solve(*quasi_newton, 1e-9), 6);
+  problem.offset *= -2.0;
+  problem.offset[1] += 7.0;
+  problem.solution =
+      (Eigen::MatrixXd::Identity(5, 5) - problem.matrix).partialPivLu().solve(problem.offset);
+  // One answer, which the steps of before lead on from, and another to see that they did.
+  EXPECT_EQ(problem.solve(*quasi_newton, 1e-9), 2);
+  quasi_newton->reset();
+  EXPECT_GE(problem.solve(*quasi_newton, 1e-9), 6);
+}
+
+/// A crack that has grown by a facet: its first facets answer as before.
+TEST(Acceleration, QuasiNewtonGoesOnWhereEntriesHaveCome) {
+  const LinearProblem before(Eigen::VectorXd::LinSpaced(5, -3.0, -0.5));
+  LinearProblem after(Eigen::VectorXd::LinSpaced(6, -3.0, -0.5));
+  after.matrix.setZero();
+  const std::array<Eigen::Index, 5> kept = {0, 1, 3, 4, 5};  // 2 is new
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    for (Eigen::Index j = 0; j < 5; ++j) after.matrix(kept[i], kept[j]) = before.matrix(i, j);
+  }
+  after.matrix(2, 2) = -0.7;
+  after.solution =
+      (Eigen::MatrixXd::Identity(6, 6) - after.matrix).partialPivLu().solve(after.offset);
+  const auto quasi_newton = make_acceleration(AccelerationType::quasi_newton);
+  EXPECT_GE(before.solve(*quasi_newton, 1e-9), 6);
+  quasi_newton->follow(kept, 6);
+  EXPECT_LE(after.solve(*quasi_newton, 1e-9), 4);
 }
 
 TEST(Acceleration, AitkenIsExactForOneNumberAndTamesDivergence) {
@@ -90,12 +124,12 @@ TEST(Acceleration, NoneTriesTheAnswer) {
 }
 
 TEST(Acceleration, AFixedPointStaysPut) {
-  for (const auto type :
-       {AccelerationType::none, AccelerationType::aitken, AccelerationType::anderson}) {
+  for (const auto type : {AccelerationType::none, AccelerationType::aitken,
+                          AccelerationType::anderson, AccelerationType::quasi_newton}) {
     const auto acceleration = make_acceleration(type);
     acceleration->reset();
     const Eigen::VectorXd y = Eigen::VectorXd::Constant(3, 2.0);
-    for (int i = 0; i < 4; ++i) EXPECT_EQ(acceleration->next(y, y), y);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(acceleration->next(y, y, Eigen::VectorXd::Ones(3)), y);
   }
 }
 

@@ -26,7 +26,7 @@ CouplingOptions options(Split split, int iterations) {
           .split = split,
           .max_iterations = iterations,
           .tolerance = 1e-8,
-          .acceleration = AccelerationType::anderson};
+          .acceleration = AccelerationType::quasi_newton};
 }
 
 struct Scheme {

@@ -95,8 +95,8 @@ void StabilisedStorage<D>::find_own() {
   for (Index i = 0; i < family.point_count; ++i) own_[i] = family.volume[i] * storage[i];
   Eigen::VectorXd diagonal = own_;
   for (Index i = 0; i < family.point_count; ++i) {
-    const double stiffness = family.volume[i] * roughness_.law().at(i).stabilisation() /
-                             roughness_.weighted_volume(i);
+    const double stiffness =
+        family.volume[i] * roughness_.law().at(i).stabilisation() / roughness_.weighted_volume(i);
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       const double part = stiffness * family.weight[bond];
       diagonal[i] += part;

@@ -48,16 +48,17 @@ class StabilisedStorage final : public LinearStorage {
   void solve(std::span<double> p) const;
 
   std::shared_ptr<const Family<D>> intact_;
-  double scale_;                     ///< strength dx^2 [m^2]
-  bool splits_well_;                 ///< what a pass leaves of any error is below 0.68 of it
-  std::vector<double> answer_;       ///< alpha^2 slope by point [1/Pa]
-  std::vector<double> raise_;        ///< a factor by point; empty: 1
-  std::vector<BrokenBond> broken_;   ///< of the bonds of roughness_
+  double scale_;                    ///< strength dx^2 [m^2]
+  bool splits_well_;                ///< what a pass leaves of any error is below 0.68 of it
+  std::vector<double> answer_;      ///< alpha^2 slope by point [1/Pa]
+  std::vector<double> raise_;       ///< a factor by point; empty: 1
+  std::vector<BrokenBond> broken_;  ///< of the bonds of roughness_
   mutable LinearExactOperator<D, RoughnessLaws<D>> roughness_;  ///< B
-  Eigen::VectorXd own_;              ///< V (S + alpha^2 slope)
-  Eigen::VectorXd inverse_;          ///< of what is near to the diagonal of own + B
+  Eigen::VectorXd own_;                                         ///< V (S + alpha^2 slope)
+  Eigen::VectorXd inverse_;  ///< of what is near to the diagonal of own + B
   mutable std::optional<Eigen::SparseMatrix<double>> between_;  ///< B, where it was asked for
-  mutable Eigen::VectorXd right_side_, x_, residual_, correction_, direction_, image_;  ///< workspace
+  mutable Eigen::VectorXd right_side_, x_, residual_, correction_, direction_,
+      image_;  ///< workspace
 };
 
 }  // namespace perifrac

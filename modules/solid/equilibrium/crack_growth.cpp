@@ -97,14 +97,16 @@ double CrackGrowth<D>::first_event(const TimeWindow& window) {
   return std::min(end, window.begin + share * window.length());
 }
 
-/// The part of a window after which its readiest tip is due: linear in readiness from its beginning,
-/// where that is not known after growth, and of second order where a longer window was tried.
+/// The part of a window after which its readiest tip is due: linear in readiness from its
+/// beginning, where that is not known after growth, and of second order where a longer window was
+/// tried.
 template <int D>
 double CrackGrowth<D>::due_share(double length, double most) const {
   const double before = readiness_before_;
   const double linear = (1.0 - before) / (most - before);
   if (cuts_ == 1 || !(tried_.readiness > most)) return linear;
-  const double steep = (tried_.length / length - 1.0) / (tried_.readiness - most);  // d share/d readiness
+  const double steep =
+      (tried_.length / length - 1.0) / (tried_.readiness - most);  // d share/d readiness
   if (before == 0.0) return std::max(1.0 - steep * (most - 1.0), 0.4);
   const double curved = (steep - 1.0 / (most - before)) / (tried_.readiness - before);
   return std::max(linear - curved * (most - 1.0) * (1.0 - before), 0.3 * linear);
