@@ -54,7 +54,7 @@ struct Step {
 /// The combination of steps whose residuals, scaled, come nearest to `residual`; steps come newest
 /// first, and those that say next to nothing beyond newer ones are left out of `steps`.
 VectorXd combine(std::deque<Step>& steps, const VectorXd& residual, const VectorXd& scale) {
-  constexpr double new_part = 0.05;
+  constexpr double new_part = 0.02;
   MatrixXd basis(residual.size(), std::ssize(steps));
   MatrixXd parts = MatrixXd::Zero(std::ssize(steps), std::ssize(steps));
   Eigen::Index used = 0;

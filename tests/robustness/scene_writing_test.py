@@ -155,7 +155,7 @@ class Schema(unittest.TestCase):
         self.assertIn("Range: (0, 1).", porosity["description"])
         self.assertEqual(porosity["anyOf"][0], {"type": "number", "exclusiveMinimum": 0.0, "exclusiveMaximum": 1.0})
         self.assertIn("Unit: m^2.", flow["properties"]["permeability"]["description"])
-        self.assertEqual(self.schema["properties"]["coupling"]["properties"]["acceleration"]["default"], "anderson")
+        self.assertEqual(self.schema["properties"]["coupling"]["properties"]["acceleration"]["default"], "quasi_newton")
         self.assertEqual(sorted(self.schema["required"]), ["dimension", "time"])
 
 

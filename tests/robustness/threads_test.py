@@ -13,7 +13,7 @@ SCHEMES = {"explicit": {"pore_flow.integrator.type": "explicit"},
            "cvode, krylov": {"pore_flow.integrator.linear_solver": "krylov"},
            "stabilised": {"pore_flow.undrained_stabilisation": "0.25"},
            "cvode, direct, iterated": {"coupling.iterations.max": "20", "coupling.iterations.tolerance": "1e-3",
-                        "coupling.acceleration": "anderson"}}
+                        "coupling.acceleration": "quasi_newton"}}
 
 # More than 8000 fluid points, of which some are split, made and removed in a few steps.
 FINE_FLUIDS = {
