@@ -30,6 +30,13 @@ class CholeskyBackend {
   /// As SparseCholesky::solve_part().
   virtual void solve_part(std::span<const int> rows, const Eigen::Ref<const Eigen::MatrixXd>& b,
                           std::span<const int> wanted, Eigen::Ref<Eigen::MatrixXd> x) = 0;
+
+  /// As SparseCholesky's.
+  virtual void begin(const Eigen::VectorXd& b, Eigen::VectorXd& begun) = 0;
+  virtual void part(const Eigen::VectorXd& begun, std::span<const int> wanted,
+                    Eigen::VectorXd& x) = 0;
+  virtual void finish(const Eigen::VectorXd& begun, std::span<const int> rows,
+                      const Eigen::VectorXd& c, Eigen::VectorXd& x) = 0;
 };
 
 }  // namespace perifrac

@@ -119,12 +119,29 @@ class CholmodBackend final : public CholeskyBackend {
 
   void solve_part(std::span<const int> rows, const Eigen::Ref<const Eigen::MatrixXd>& b,
                   std::span<const int> wanted, Eigen::Ref<Eigen::MatrixXd> x) override {
-    assert(factor_ && factor_->minor == factor_->n && factor_->is_super);
-    if (!part_) part_.emplace(supernodes());
-    part_->solve(static_cast<const double*>(factor_->x), rows, b, wanted, x);
+    part().solve(values(), rows, b, wanted, x);
+  }
+
+  void begin(const Eigen::VectorXd& b, Eigen::VectorXd& begun) override {
+    part().begin(values(), b, begun);
+  }
+  void part(const Eigen::VectorXd& begun, std::span<const int> wanted,
+            Eigen::VectorXd& x) override {
+    part().part(values(), begun, wanted, x);
+  }
+  void finish(const Eigen::VectorXd& begun, std::span<const int> rows, const Eigen::VectorXd& c,
+              Eigen::VectorXd& x) override {
+    part().finish(values(), begun, rows, c, x);
   }
 
  private:
+  const double* values() const { return static_cast<const double*>(factor_->x); }
+  SupernodalPart& part() {
+    assert(factor_ && factor_->minor == factor_->n && factor_->is_super);
+    if (!part_) part_.emplace(supernodes());
+    return *part_;
+  }
+
   Supernodes supernodes() const {
     const auto span_of = [](const void* data, std::size_t count) {
       return std::span(static_cast<const int*>(data), count);

@@ -34,6 +34,21 @@ class EigenBackend final : public CholeskyBackend {
     for (std::size_t k = 0; k < wanted.size(); ++k) x.row(k) = all.row(wanted[k]);
   }
 
+  /// No way through a part of it: all waits for what comes later.
+  void begin(const Eigen::VectorXd& b, Eigen::VectorXd& begun) override { begun = b; }
+  void part(const Eigen::VectorXd& begun, std::span<const int> wanted,
+            Eigen::VectorXd& x) override {
+    const Eigen::VectorXd all = ldlt_.solve(begun);
+    x.resize(std::ssize(wanted));
+    for (std::size_t k = 0; k < wanted.size(); ++k) x[k] = all[wanted[k]];
+  }
+  void finish(const Eigen::VectorXd& begun, std::span<const int> rows, const Eigen::VectorXd& c,
+              Eigen::VectorXd& x) override {
+    Eigen::VectorXd all = begun;
+    for (std::size_t k = 0; k < rows.size(); ++k) all[rows[k]] += c[k];
+    x = ldlt_.solve(all);
+  }
+
  private:
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt_;
 };

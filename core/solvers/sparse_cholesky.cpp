@@ -62,6 +62,31 @@ void SparseCholesky::solve_part(std::span<const int> rows,
   backend_->solve_part(rows, b, wanted, x);
 }
 
+Eigen::VectorXd SparseCholesky::begin(const Eigen::VectorXd& b) const {
+  const ProfileScope profiled("solves");
+  solves.fetch_add(1, std::memory_order_relaxed);
+  Eigen::VectorXd begun;
+  backend_->begin(b, begun);
+  return begun;
+}
+
+Eigen::VectorXd SparseCholesky::part(const Eigen::VectorXd& begun,
+                                     std::span<const int> wanted) const {
+  const ProfileScope profiled("solves");
+  Eigen::VectorXd x;
+  backend_->part(begun, wanted, x);
+  return x;
+}
+
+Eigen::VectorXd SparseCholesky::finish(const Eigen::VectorXd& begun, std::span<const int> rows,
+                                       const Eigen::VectorXd& c) const {
+  assert(c.size() == std::ssize(rows));
+  const ProfileScope profiled("solves");
+  Eigen::VectorXd x;
+  backend_->finish(begun, rows, c, x);
+  return x;
+}
+
 CholeskyWork SparseCholesky::work() { return {factorisations, solves}; }
 
 const char* SparseCholesky::backend() { return CholeskyBackend::name(); }

@@ -54,6 +54,14 @@ class SparseCholesky {
   void solve_part(std::span<const int> rows, const Eigen::Ref<const Eigen::MatrixXd>& b,
                   std::span<const int> wanted, Eigen::Ref<Eigen::MatrixXd> x) const;
 
+  /// Where c, zero but in a few rows, follows from A^-1 b in some rows: A^-1 (b + c) at the cost of
+  /// one solution. begin() goes through the factor once, part() finds rows of A^-1 b, finish()
+  /// takes c at `rows` (each once) and goes back.
+  Eigen::VectorXd begin(const Eigen::VectorXd& b) const;
+  Eigen::VectorXd part(const Eigen::VectorXd& begun, std::span<const int> wanted) const;
+  Eigen::VectorXd finish(const Eigen::VectorXd& begun, std::span<const int> rows = {},
+                         const Eigen::VectorXd& c = {}) const;
+
   static CholeskyWork work();
 
   /// Which library factors: the licence of a binary depends on it.

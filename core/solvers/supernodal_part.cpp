@@ -77,19 +77,57 @@ void SupernodalPart::backward(const double* values, int s, Columns columns) {
   own.transpose().triangularView<Eigen::Upper>().solveInPlace(solved);
 }
 
+void SupernodalPart::make_room(Eigen::Index columns) {
+  if (work_.cols() >= columns) return;
+  std::ptrdiff_t most = 0;
+  for (int s = 0; s < count(); ++s) most = std::max(most, std::ssize(below(s)));
+  work_.setZero(std::ssize(place_), columns);
+  gathered_.resize(most, columns);
+}
+
+void SupernodalPart::begin(const double* values, const Eigen::VectorXd& b, Eigen::VectorXd& begun) {
+  make_room(1);
+  for (Eigen::Index k = 0; k < b.size(); ++k) work_(place_[k], 0) = b[k];
+  for (int s = 0; s < count(); ++s) forward(values, s, Eigen::fix<1>());
+  begun = work_.col(0);
+  work_.col(0).setZero();
+}
+
+void SupernodalPart::part(const double* values, const Eigen::VectorXd& begun,
+                          std::span<const int> wanted, Eigen::VectorXd& x) {
+  make_room(1);
+  find_paths(wanted, down_);
+  const auto own = [this](auto& vector, int s) {
+    return vector.middleRows(factor_.columns[s], width(s));
+  };
+  for (const int s : down_) own(work_, s).col(0) = own(begun, s);
+  for (auto s = down_.rbegin(); s != down_.rend(); ++s) backward(values, *s, Eigen::fix<1>());
+  x.resize(std::ssize(wanted));
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = work_(place_[wanted[k]], 0);
+  for (const int s : down_) own(work_, s).col(0).setZero();
+}
+
+void SupernodalPart::finish(const double* values, const Eigen::VectorXd& begun,
+                            std::span<const int> rows, const Eigen::VectorXd& c,
+                            Eigen::VectorXd& x) {
+  make_room(1);
+  find_paths(rows, up_);
+  for (Eigen::Index k = 0; k < c.size(); ++k) work_(place_[rows[k]], 0) = c[k];
+  for (const int s : up_) forward(values, s, Eigen::fix<1>());
+  work_.col(0) += begun;
+  for (int s = count() - 1; s >= 0; --s) backward(values, s, Eigen::fix<1>());
+  x.resize(begun.size());
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = work_(place_[k], 0);
+  work_.col(0).setZero();
+}
+
 void SupernodalPart::solve(const double* values, std::span<const int> rows,
                            const Eigen::Ref<const Eigen::MatrixXd>& b, std::span<const int> wanted,
                            Eigen::Ref<Eigen::MatrixXd> x) {
   const Eigen::Index columns = b.cols();
   find_paths(rows, up_);
   find_paths(wanted, down_);
-  std::ptrdiff_t most = 0;
-  for (const int s : up_) most = std::max(most, std::ssize(below(s)));
-  for (const int s : down_) most = std::max(most, std::ssize(below(s)));
-  if (work_.cols() < columns) work_.setZero(std::ssize(place_), columns);
-  if (gathered_.rows() < most || gathered_.cols() < columns) {
-    gathered_.resize(std::max<Eigen::Index>(most, gathered_.rows()), work_.cols());
-  }
+  make_room(columns);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     work_.row(place_[rows[k]]).head(columns) = b.row(static_cast<Eigen::Index>(k));
   }

@@ -32,12 +32,21 @@ class SupernodalPart {
              const Eigen::Ref<const Eigen::MatrixXd>& b, std::span<const int> wanted,
              Eigen::Ref<Eigen::MatrixXd> x);
 
+  /// As SparseCholesky::begin(), part() and finish(); what is begun is in the rows of P A P^T.
+  void begin(const double* values, const Eigen::VectorXd& b, Eigen::VectorXd& begun);
+  void part(const double* values, const Eigen::VectorXd& begun, std::span<const int> wanted,
+            Eigen::VectorXd& x);
+  void finish(const double* values, const Eigen::VectorXd& begun, std::span<const int> rows,
+              const Eigen::VectorXd& c, Eigen::VectorXd& x);
+
  private:
   int width(int s) const { return factor_.columns[s + 1] - factor_.columns[s]; }
   int height(int s) const { return factor_.rows_begin[s + 1] - factor_.rows_begin[s]; }
   std::span<const int> below(int s) const {
     return factor_.rows.subspan(factor_.rows_begin[s] + width(s), height(s) - width(s));
   }
+  int count() const { return static_cast<int>(std::ssize(is_on_path_)); }
+  void make_room(Eigen::Index columns);
   void find_paths(std::span<const int> rows, std::vector<int>& path);
   template <class Columns>
   void forward(const double* values, int s, Columns columns);

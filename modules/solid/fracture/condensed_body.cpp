@@ -61,7 +61,7 @@ void CondensedBody<D>::start() {
   partial_ = {};
   for (const CrackFacet<D>& seed : seeds_)
     add_mode(face_jump<D>(seed, intact_, spacing_, longest_));
-  intact_move_.resize(0);
+  begun_.resize(0);
   set_load(load_);
   find_compliance();
 }
@@ -220,10 +220,10 @@ Eigen::MatrixXd CondensedBody<D>::whole_compliance(int jump, int traction) const
 template <int D>
 void CondensedBody<D>::set_load(const Eigen::VectorXd& load) {
   require(load.size() == free_unknowns_.cols(), "a load on other unknowns than the body has");
-  if (intact_move_.size() == load.size() && load == load_) return;
+  if (begun_.size() == load.size() && load == load_) return;
   load_ = load;
-  intact_move_.resize(load.size());
-  factor_.solve(load_, intact_move_);
+  begun_ = factor_.begin(load_);
+  intact_move_.resize(0);
   find_opening();
 }
 
@@ -271,11 +271,7 @@ void CondensedBody<D>::find_opening() {
 
 template <int D>
 void CondensedBody<D>::find_cut_loaded() {
-  Eigen::VectorXd moved(inverse_->block().rows());
-  for (Eigen::Index k = 0; k < moved.size(); ++k) {
-    moved[k] = intact_move_[inverse_->unknowns()[k]];
-  }
-  cut_loaded_ = inverse_->correct_block(moved);
+  cut_loaded_ = inverse_->correct_block(factor_.part(begun_, inverse_->unknowns()));
 }
 
 template <int D>
@@ -357,13 +353,11 @@ Eigen::VectorXd CondensedBody<D>::block_force_on_first_body(const Eigen::VectorX
   return own - partial_.force(block);
 }
 
+/// Loads that stay are asked for again and again, those that do not for all that moves only.
 template <int D>
-Eigen::VectorXd CondensedBody<D>::force_on_first_body(const Eigen::VectorXd& force,
-                                                      const Eigen::VectorXd& block) const {
-  const Eigen::VectorXd own = block_force_on_first_body(force, block);
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(free_unknowns_.cols());
-  for (Eigen::Index k = 0; k < own.size(); ++k) all[inverse_->unknowns()[k]] = own[k];
-  return all;
+const Eigen::VectorXd& CondensedBody<D>::intact_move() {
+  if (intact_move_.size() == 0) intact_move_ = factor_.finish(begun_);
+  return intact_move_;
 }
 
 template <int D>
@@ -371,10 +365,8 @@ Eigen::VectorXd CondensedBody<D>::unknowns(const Eigen::VectorXd& pressure,
                                            std::span<const double> shear) {
   const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + moved_by(force);
-  const Eigen::VectorXd all = force_on_first_body(force, block);
-  Eigen::VectorXd moved(all.size());
-  factor_.solve(all, moved);
-  return free_unknowns_ * (intact_move_ + moved);
+  return free_unknowns_ *
+         factor_.finish(begun_, inverse_->unknowns(), block_force_on_first_body(force, block));
 }
 
 template <int D>
@@ -386,7 +378,7 @@ void CondensedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<
   Eigen::Index next = 0;
   for (const Index unknown : named) {
     const auto [free, by] = free_of_[unknown];
-    all[unknown] = free < 0 ? 0.0 : by * (intact_move_[free] + moved[next++]);
+    all[unknown] = free < 0 ? 0.0 : by * (intact_move()[free] + moved[next++]);
   }
 }
 
@@ -421,7 +413,11 @@ typename CrackedBody<D>::Energies CondensedBody<D>::energies(const Eigen::Vector
   const Eigen::VectorXd block = loaded_ + moved_by(force);
   Energies energies{};
   // The factor's inverse is symmetric, so that load times displacement needs no displacement.
-  energies.load = intact_move_.dot(load_ + force_on_first_body(force, block));
+  const Eigen::VectorXd by_cuts = block_force_on_first_body(force, block);
+  energies.load = intact_move().dot(load_);
+  for (Eigen::Index k = 0; k < by_cuts.size(); ++k) {
+    energies.load += intact_move()[inverse_->unknowns()[k]] * by_cuts[k];
+  }
   energies.elastic = 0.5 * (energies.load + force.dot(block));
   for (std::size_t f = 0; f < modes_.size(); ++f) {
     const Vector<D> load = this->relief(static_cast<Index>(f));

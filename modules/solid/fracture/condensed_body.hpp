@@ -116,8 +116,7 @@ class CondensedBody final : public CrackedBody<D> {
                               std::span<const Index> named) const;
   Eigen::VectorXd block_force_on_first_body(const Eigen::VectorXd& force,
                                             const Eigen::VectorXd& block) const;
-  Eigen::VectorXd force_on_first_body(const Eigen::VectorXd& force,
-                                      const Eigen::VectorXd& block) const;
+  const Eigen::VectorXd& intact_move();
 
   std::string why_;
   std::vector<std::pair<int, double>> free_of_;  ///< by unknown: what moves it (-1: nothing)
@@ -133,7 +132,8 @@ class CondensedBody final : public CrackedBody<D> {
   Eigen::MatrixXd whole_compliance_;  ///< of openings, were partial cuts whole
 
   Eigen::VectorXd load_;         ///< of those solved for
-  Eigen::VectorXd intact_move_;  ///< what it does to the body with its first cracks
+  Eigen::VectorXd begun_;        ///< half of the way to what it does
+  Eigen::VectorXd intact_move_;  ///< that, to the body with its first cracks; empty: not asked for
   Eigen::VectorXd cut_loaded_;   ///< what it does to the cut body, on the condensed unknowns
   Eigen::VectorXd loaded_;       ///< what it does now, likewise
   Eigen::VectorXd opening_;      ///< by load and relief, without pressure

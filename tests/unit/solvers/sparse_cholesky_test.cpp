@@ -109,6 +109,27 @@ TEST(SparseCholesky, SolvesForAPartAsForAll) {
   }
 }
 
+/// A load in some rows that follows from what another one does there.
+TEST(SparseCholesky, GoesOnWithWhatFollowsFromAPart) {
+  const std::vector<int> rows = {7, 3, 211};
+  SparseCholesky cholesky;
+  for (const Matrix& a : {grid_laplacian(30, 2, 0.1), grid_laplacian(12, 3, 0.1)}) {
+    cholesky.factor(a);
+    Eigen::VectorXd b = right_hand_sides(a.rows(), 1), x(a.rows());
+    cholesky.solve(b, x);
+    const Eigen::VectorXd begun = cholesky.begin(b);
+    const Eigen::VectorXd part = cholesky.part(begun, rows);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(part[k], x[rows[k]], 1e-13 * x.norm());
+    EXPECT_LT(relative_difference(cholesky.finish(begun), x), 1e-13);
+    const Eigen::VectorXd follows = part.array().square();
+    const Eigen::VectorXd found = cholesky.finish(begun, rows, follows);
+    for (int k = 0; k < 3; ++k) b[rows[k]] += follows[k];
+    cholesky.solve(b, x);
+    EXPECT_LT(relative_difference(found, x), 1e-13);
+    EXPECT_EQ(cholesky.part(begun, rows), part);
+  }
+}
+
 TEST(SparseCholesky, ReadsTheLowerHalfOnly) {
   const Matrix a = grid_laplacian(8, 2, 1.0);
   const Matrix lower = a.triangularView<Eigen::Lower>();
