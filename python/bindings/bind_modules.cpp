@@ -36,39 +36,50 @@ struct BodyView {
 };
 
 void bind_body(py::module_& module) {
-  py::class_<BodyView>(module, "Body")
-      .def_property_readonly("dimension", [](const BodyView& view) { return view.any.index() + 2; })
-      .def_property_readonly("spacing",
-                             [](const BodyView& view) {
-                               return view.ask([](const auto& body) { return body.spacing(); });
-                             })
-      .def_property_readonly("horizon",
-                             [](const BodyView& view) {
-                               return view.ask([](const auto& body) { return body.horizon(); });
-                             })
-      .def_property_readonly("positions",
-                             [](const BodyView& view) {
-                               return view.ask([](const auto& body) {
-                                 const PointSet& set = body.point_set();
-                                 return rows_of(std::span(set.position).first(set.dimension),
-                                                set.count);
-                               });
-                             })
-      .def_property_readonly("volumes",
-                             [](const py::object& self) {
-                               return self.cast<const BodyView&>().ask([&](const auto& body) {
-                                 return view_of(body.points().volume, 1, self, false);
-                               });
-                             })
-      .def_property_readonly("faces", [](const BodyView& view) {
-        return view.ask([](const auto& body) {
-          py::dict faces;
-          for (const Face& face : body.faces()) {
-            faces[py::str(face.name)] = py::make_tuple(face.axis, face.direction, face.coordinate);
-          }
-          return faces;
-        });
-      });
+  py::class_<BodyView>(module, "Body", "The rock that modules share, which none of them changes.")
+      .def_property_readonly(
+          "dimension", [](const BodyView& view) { return view.any.index() + 2; }, "2 or 3.")
+      .def_property_readonly(
+          "spacing",
+          [](const BodyView& view) {
+            return view.ask([](const auto& body) { return body.spacing(); });
+          },
+          "Between points [m].")
+      .def_property_readonly(
+          "horizon",
+          [](const BodyView& view) {
+            return view.ask([](const auto& body) { return body.horizon(); });
+          },
+          "How far points act on each other [m].")
+      .def_property_readonly(
+          "positions",
+          [](const BodyView& view) {
+            return view.ask([](const auto& body) {
+              const PointSet& set = body.point_set();
+              return rows_of(std::span(set.position).first(set.dimension), set.count);
+            });
+          },
+          "A row a point [m]; a copy.")
+      .def_property_readonly(
+          "volumes",
+          [](const py::object& self) {
+            return self.cast<const BodyView&>().ask(
+                [&](const auto& body) { return view_of(body.points().volume, 1, self, false); });
+          },
+          "By point [m^3], in 2D [m^2]; a view.")
+      .def_property_readonly(
+          "faces",
+          [](const BodyView& view) {
+            return view.ask([](const auto& body) {
+              py::dict faces;
+              for (const Face& face : body.faces()) {
+                faces[py::str(face.name)] =
+                    py::make_tuple(face.axis, face.direction, face.coordinate);
+              }
+              return faces;
+            });
+          },
+          "By name: axis, direction of the outward normal along it, coordinate [m].");
 }
 
 /// Of Python, by `section.name`. Never taken away: types last as long as the process.
@@ -114,7 +125,12 @@ void add_python_type(const std::string& section, const std::string& name, const 
 }
 
 void bind_ports(py::module_& module) {
-  py::class_<Port>(module, "Port")
+  py::class_<Port>(
+      module, "Port",
+      "The fixed part of a port. direction: in or out. kind: intensive, a value at a point, or "
+      "extensive, a total over the window. role: field, property (for links alone), mass_stored, "
+      "mass_gained [kg], energy_stored, energy_gained, energy_dissipated [J], ... Two values that "
+      "differ by less than `negligible` agree.")
       .def(py::init([](std::string name, std::string unit, const std::string& direction,
                        const std::string& kind, const std::string& role, int components,
                        double negligible) {
@@ -129,24 +145,34 @@ void bind_ports(py::module_& module) {
            py::arg("name"), py::arg("unit"), py::arg("direction") = "out",
            py::arg("kind") = "intensive", py::arg("role") = "field", py::arg("components") = 1,
            py::arg("negligible") = 0.0)
-      .def_readonly("name", &Port::name)
-      .def_readonly("unit", &Port::unit)
-      .def_readonly("components", &Port::components)
-      .def_readonly("negligible", &Port::negligible)
-      .def_property_readonly("direction",
-                             [](const Port& port) { return word_of(directions, port.direction); })
-      .def_property_readonly("kind", [](const Port& port) { return word_of(kinds, port.kind); })
-      .def_property_readonly("role", [](const Port& port) { return word_of(roles, port.role); });
-  py::class_<PythonPoints>(module, "PointSet")
+      .def_readonly("name", &Port::name, "Links are made between ports of one name.")
+      .def_readonly("unit", &Port::unit, "SI.")
+      .def_readonly("components", &Port::components, "Values a point.")
+      .def_readonly("negligible", &Port::negligible, "A value as good as none, in its unit.")
+      .def_property_readonly(
+          "direction", [](const Port& port) { return word_of(directions, port.direction); },
+          "in or out.")
+      .def_property_readonly(
+          "kind", [](const Port& port) { return word_of(kinds, port.kind); },
+          "intensive or extensive.")
+      .def_property_readonly(
+          "role", [](const Port& port) { return word_of(roles, port.role); },
+          "field, property, mass_stored, ...");
+  py::class_<PythonPoints>(module, "PointSet", "Points of a module's own: a row a point [m].")
       .def(py::init<const std::string&, const PythonPoints::Positions&>(), py::arg("name"),
            py::arg("positions"))
-      .def("move", &PythonPoints::move, py::arg("positions"));
-  py::class_<StateAccess>(module, "State")
-      .def("visit", &StateAccess::visit, py::arg("name"), py::arg("value"));
+      .def("move", &PythonPoints::move, py::arg("positions"),
+           "They move, come or go [m]: mappings to other points are made anew.");
+  py::class_<StateAccess>(module, "State", "How a module shows what evolves.")
+      .def("visit", &StateAccess::visit, py::arg("name"), py::arg("value"),
+           "Returns what the field is from now on: self.x = state.visit(\"x\", self.x).");
 }
 
 void bind_keys(py::module_& module) {
-  py::class_<Key>(module, "Key")
+  py::class_<Key>(
+      module, "Key",
+      "A key that a module reads of its section, relative to it. `unit` is SI, `range` as in "
+      "(0, inf), `default` as it would stand in a scene.")
       .def(py::init([](std::string path, const std::string& type, std::string unit,
                        std::string range, std::string fallback, bool required,
                        std::vector<std::string> words, std::string when, std::string meaning) {
@@ -164,7 +190,7 @@ void bind_keys(py::module_& module) {
            py::arg("default") = "", py::arg("required") = false,
            py::arg("words") = std::vector<std::string>{}, py::arg("when") = "",
            py::arg("meaning") = "")
-      .def_readonly("path", &Key::path);
+      .def_readonly("path", &Key::path, "Relative to the section.");
 }
 
 }  // namespace
@@ -174,7 +200,8 @@ void bind_modules(py::module_& module) {
   bind_body(module);
   bind_keys(module);
   module.def("add_module_type", add_python_type, py::arg("section"), py::arg("name"),
-             py::arg("type"));
+             py::arg("type"),
+             "From now on `section: {type: name}` of a scene is this class, derived from Module.");
 }
 
 }  // namespace perifrac

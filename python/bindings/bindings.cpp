@@ -29,14 +29,15 @@ void bind_all(py::module_& module) {
         const py::gil_scoped_release others_may_run;
         return make_report(folder, true) == 0;
       },
-      py::arg("folder"));
+      py::arg("folder"),
+      "Makes report.png and report.html of a run's folder; False where that fails.");
   module.def(
       "set_threads",
       [](int count) {
         if (count < 1) throw py::value_error("set_threads: expected a number of threads from 1");
         omp_set_num_threads(count);
       },
-      py::arg("count"));
+      py::arg("count"), "Threads of runs from now on; results do not depend on it.");
 }
 
 }  // namespace perifrac

@@ -213,36 +213,48 @@ std::string PythonScene::yaml() const {
 }
 
 void bind_scene(py::module_& module) {
-  py::class_<Section>(module, "Section")
-      .def("has", &Section::has, py::arg("path"))
-      .def("number", &Section::number, py::arg("path"))
-      .def("integer", &Section::integer, py::arg("path"))
-      .def("boolean", &Section::boolean, py::arg("path"))
-      .def("word", &Section::word, py::arg("path"))
-      .def("text", &Section::text, py::arg("path"))
-      .def("file", &Section::file, py::arg("path"))
-      .def("numbers", &Section::numbers, py::arg("path"))
-      .def("names", &Section::names, py::arg("path") = "")
-      .def("count", &Section::count, py::arg("path"))
-      .def("at", &Section::at, py::arg("path"))
-      .def("scene", &Section::scene)
-      .def("fail", &Section::fail, py::arg("path"), py::arg("problem"), py::arg("expected"));
-  py::class_<PythonScene>(module, "Scene")
+  py::class_<Section>(module, "Section",
+                      "What a part of a scene says once checked: SI, defaults filled in. Paths are "
+                      "relative to it.")
+      .def("has", &Section::has, py::arg("path"), "It is written, or has a default.")
+      .def("number", &Section::number, py::arg("path"), "A quantity, in SI.")
+      .def("integer", &Section::integer, py::arg("path"), "A whole number.")
+      .def("boolean", &Section::boolean, py::arg("path"), "True or False.")
+      .def("word", &Section::word, py::arg("path"), "One of the words that the key takes.")
+      .def("text", &Section::text, py::arg("path"), "Free text.")
+      .def("file", &Section::file, py::arg("path"),
+           "A text that names a file, seen from the scene's folder.")
+      .def("numbers", &Section::numbers, py::arg("path"), "A vector or list of quantities, in SI.")
+      .def("names", &Section::names, py::arg("path") = "", "Keys that are written there.")
+      .def("count", &Section::count, py::arg("path"), "Items of a list; 0 where there is none.")
+      .def("at", &Section::at, py::arg("path"), "A part of it.")
+      .def("scene", &Section::scene, "The whole scene.")
+      .def("fail", &Section::fail, py::arg("path"), py::arg("problem"), py::arg("expected"),
+           "Raises SceneError, placed where the key stands.");
+  py::class_<PythonScene>(module, "Scene",
+                          "A scene as an object: scene[\"crack_fluid.inlets[0].rate\"] = \"2e-4 "
+                          "m^2/s\". Quantities are "
+                          "texts with their units, or numbers in SI. The program's catalogue "
+                          "checks each key that is set: "
+                          "what is wrong raises SceneError with the line of the program, and "
+                          "leaves the scene as it is.")
       .def(py::init(&PythonScene::from_values), py::arg("values") = py::dict())
-      .def_static("from_file", &PythonScene::from_file, py::arg("path"))
+      .def_static("from_file", &PythonScene::from_file, py::arg("path"), "Reads and checks a file.")
       .def_static(
           "example",
           [](const std::string& name) { return PythonScene::from_file(example_scene(name)); },
-          py::arg("name"))
+          py::arg("name"), "A scene that comes with the program, as `mandel`.")
       .def("__setitem__", &PythonScene::set)
       .def("__getitem__", &PythonScene::get)
       .def("__delitem__", &PythonScene::remove)
       .def("__contains__", &PythonScene::has)
-      .def("section", &PythonScene::section)
+      .def("section", &PythonScene::section,
+           "Checks it whole, and gives what the program reads: SI.")
       .def("__copy__", [](const PythonScene& scene) { return scene; })
-      .def("copy", [](const PythonScene& scene) { return scene; })
-      .def("yaml", &PythonScene::yaml)
-      .def_property_readonly("name", &PythonScene::name)
+      .def(
+          "copy", [](const PythonScene& scene) { return scene; }, "Another one with the same keys.")
+      .def("yaml", &PythonScene::yaml, "As a file of the program.")
+      .def_property_readonly("name", &PythonScene::name, "Its file; `scene` where there is none.")
       .def("__repr__", [](const PythonScene& scene) { return "<Scene " + scene.name() + ">"; });
 }
 

@@ -254,10 +254,10 @@ void bind_simulation(py::module_& module) {
           py::arg("overwrite"), py::arg("report"))
       .def("_advance", &PythonSimulation::advance, py::arg("stop") = py::none())
       .def("_close", &PythonSimulation::close, py::arg("error") = "")
-      .def_property_readonly("time", &PythonSimulation::time)
-      .def_property_readonly("end", &PythonSimulation::end)
-      .def_property_readonly("step", &PythonSimulation::step)
-      .def_property_readonly("done", &PythonSimulation::is_done)
+      .def_property_readonly("time", &PythonSimulation::time, "[s]")
+      .def_property_readonly("end", &PythonSimulation::end, "Of the scene [s].")
+      .def_property_readonly("step", &PythonSimulation::step, "Windows since the start.")
+      .def_property_readonly("done", &PythonSimulation::is_done, "The end is reached.")
       .def("_ports", &PythonSimulation::ports)
       .def(
           "_port",
@@ -265,14 +265,15 @@ void bind_simulation(py::module_& module) {
             return self.cast<PythonSimulation&>().port(name, part, self);
           },
           py::arg("name"), py::arg("part"))
-      .def("points", &PythonSimulation::points, py::arg("name"))
+      .def("points", &PythonSimulation::points, py::arg("name"),
+           "Where the values of a port lie, a row a point [m]; a copy.")
       .def("_input",
            [](py::object self, const std::string& name) {
              return self.cast<PythonSimulation&>().input(name, self);
            })
       .def("_set_load", &PythonSimulation::set_load)
       .def("_load", &PythonSimulation::load)
-      .def("summary", &PythonSimulation::summary);
+      .def("summary", &PythonSimulation::summary, "What summary.json holds, as it stands.");
 }
 
 }  // namespace perifrac

@@ -1,8 +1,14 @@
 """Peridynamic simulation of porous rock and the fluid in it: scenes as objects, runs in the process, results as
 arrays, and modules of one's own. docs/python.md begins with examples."""
 
-from perifrac.errors import Error, ModuleError, NumericalError, OutputError, SceneError  # isort: skip
-from perifrac import _perifrac  # isort: skip
+from pathlib import Path as _Path
+
+from perifrac._instructions import folder_of_extension
+from perifrac.errors import Error, ModuleError, NumericalError, OutputError, SceneError
+
+__path__.append(str(folder_of_extension(_Path(__file__).parent)))
+
+from perifrac import _perifrac  # noqa: E402
 from perifrac._perifrac import Body, Key, PointSet, Port, Scene, Section, State, add_module_type, report, set_threads
 from perifrac.module import Module, View
 from perifrac.runs import Frame, History, Run, read_run
