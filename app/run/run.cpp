@@ -110,10 +110,6 @@ void refuse_other_results(const RunRequest& request, const std::filesystem::path
       folder.string(), request.restart));
 }
 
-void log_all(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) log_warning(warning);
-}
-
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
 int advance_to_end(const Simulation& simulation, SceneRun& run, ProgressFile& file) {
   const CouplingManager& manager = *simulation.manager;
@@ -211,7 +207,7 @@ int run_scene(const RunRequest& request) {
   const OutputFolder folder(folder_of(request), request.overwrite);
   if (!restart) replace_earlier_results(folder);
   if (!request.json) fmt::print("{}\n", fmt::join(what_was_read(scene, simulation), "\n"));
-  log_all(warnings);
+  for (const std::string& warning : warnings) log_warning(warning);
   std::optional<Watcher> watcher;
   if (request.watch) watcher.emplace(folder.path());
   std::optional<ProgressFile> progress;

@@ -22,8 +22,8 @@ inline pybind11::array_t<double> view_of(std::span<const double> values, int com
 }
 
 /// Positions, a row a point; a copy, for each coordinate lies apart.
-inline pybind11::array_t<double> rows_of(std::span<const std::span<const double>> coordinates,
-                                         std::size_t count) {
+inline pybind11::array_t<double> positions_of(std::span<const std::span<const double>> coordinates,
+                                              std::size_t count) {
   pybind11::array_t<double> rows(std::vector<pybind11::ssize_t>{
       static_cast<pybind11::ssize_t>(count), static_cast<pybind11::ssize_t>(coordinates.size())});
   auto at = rows.mutable_unchecked<2>();

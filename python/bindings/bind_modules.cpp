@@ -56,7 +56,7 @@ void bind_body(py::module_& module) {
           [](const BodyView& view) {
             return view.ask([](const auto& body) {
               const PointSet& set = body.point_set();
-              return rows_of(std::span(set.position).first(set.dimension), set.count);
+              return positions_of(std::span(set.position).first(set.dimension), set.count);
             });
           },
           "A row a point [m]; a copy.")

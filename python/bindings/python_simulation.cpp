@@ -202,7 +202,8 @@ py::array PythonSimulation::points(const std::string& name) {
   refuse_while_busy();
   const Found found = find(name);
   const PointSet& set = *found.module->port(found.id).points;
-  return rows_of(std::span(set.position).first(set.dimension), set.dimension == 0 ? 0 : set.count);
+  return positions_of(std::span(set.position).first(set.dimension),
+                      set.dimension == 0 ? 0 : set.count);
 }
 
 py::array PythonSimulation::input(const std::string& name, py::handle self) {

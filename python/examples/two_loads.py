@@ -23,8 +23,7 @@ while simulation.advance():
     if simulation.time >= 20:
         simulation.loads[TOP] = 2  # beside the 10 kN/m of the scene
 history = perifrac.read_run("runs/two_loads").history
-(pressure,) = [name for name in history if "middle" in name and "pressure" in name]
-plt.plot(history["time"], history[pressure])
+plt.plot(history["time"], history["pore_pressure at middle"] / 1e3)
 plt.xlabel("time [s]")
-plt.ylabel(f"pressure in the middle [{history.units[pressure]}]")
+plt.ylabel("pressure in the middle [kPa]")
 plt.savefig("runs/two_loads/pressure.png")

@@ -34,7 +34,8 @@ class Runs(unittest.TestCase):
         history = self.run_read.history
         with (self.folder / "history.csv").open(newline="") as stream:
             header, *rows = csv.reader(stream)
-        self.assertEqual([f"{name} [{history.units[name]}]" for name in history], [cell.strip() for cell in header])
+        said = [f"{name} [{unit}]" if unit else name for name, unit in history.units.items()]
+        self.assertEqual(said, header)
         np.testing.assert_array_equal(np.array(rows, dtype=float).T, np.array(list(history.values())))
         self.assertEqual(history.units["time"], "s")
 
