@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <pybind11/stl.h>
 
 #include "app/report/report.hpp"
 #include "app/run/memory.hpp"

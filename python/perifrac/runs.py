@@ -59,6 +59,7 @@ class Frame(Mapping):
 
     @property
     def units(self) -> dict[str, str]:
+        """The unit of each field."""
         return self._arrays[2]
 
     def __getitem__(self, name: str) -> np.ndarray:

@@ -47,7 +47,7 @@ class Scenes(unittest.TestCase):
         scene = perifrac.Scene.example("mandel")
         for key, value, rest in (
             ("pore_flow.porosty", "0.2", "porosity"),
-            ("pore_flow.porosity", "2", "in [0, 1)"),
+            ("pore_flow.porosity", "2", "in (0, 1)"),
             ("pore_flow.porosity", "3 Pa", ""),
             ("sollid.type", "rigid", "solid"),
             ("output.probes[9].name", "x", "no item"),
@@ -72,7 +72,7 @@ class Scenes(unittest.TestCase):
         for key, value in {
             "dimension": 2, "body.shape": "box", "body.size": [1, 1], "body.spacing": 0.25, "time.end": 1,
             "pore_flow.type": "darcy", "pore_flow.permeability": "1 mD", "pore_flow.porosity": 0.1,
-            "pore_flow.grain_bulk_modulus": "10 GPa", "pore_flow.biot_coefficient": 0,
+            "pore_flow.grain_bulk_modulus": "10 GPa", "pore_flow.biot_coefficient": 1,
             "pore_flow.fluid": {"bulk_modulus": "2 GPa", "viscosity": "1 cP", "density": 1000},
             "pore_flow.boundary.left": {"type": "pressure", "pressure": "1 MPa"},
         }.items():  # fmt: skip

@@ -219,8 +219,8 @@ class Simulations(unittest.TestCase):
             perifrac.Simulation(scene, output={str(self.folder)!r}).run(lambda s: print("window", flush=True))
         """)
         process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        while process.stdout.readline().strip() != "window":
-            pass
+        lines = iter(process.stdout.readline, "")
+        self.assertTrue(any(line.strip() == "window" for line in lines))
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=600)
         self.assertEqual(process.returncode, -signal.SIGINT, errors)

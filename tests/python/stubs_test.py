@@ -51,6 +51,7 @@ class Stubs(unittest.TestCase):
                 function = getattr(_perifrac, name) if not member else vars(getattr(_perifrac, name)).get(member)
                 if not inspect.isroutine(function):
                     continue  # a property
+                function = getattr(function, "__func__", function)  # of a static method
                 said = (function.__doc__ or "").split("->")[0]
                 for argument in [a.arg for a in node.args.args if a.arg != "self"]:
                     self.assertRegex(said, rf"\b{argument}: ", f"{name}.{member}")
