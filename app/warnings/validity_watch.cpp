@@ -139,7 +139,8 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
 
 void ValidityWatch::watch_density(const Section& scene, const Simulation& simulation) {
   const auto in_pores = find_field(simulation, "pore_pressure");
-  if (in_pores && scene.word("pore_flow.fluid.equation_of_state") == "linear") {
+  if (in_pores && scene.has("pore_flow.fluid.equation_of_state") &&
+      scene.word("pore_flow.fluid.equation_of_state") == "linear") {
     const double bulk_modulus = scene.number("pore_flow.fluid.bulk_modulus");
     limits_.push_back([=] {
       return density_warning(*in_pores, bulk_modulus,

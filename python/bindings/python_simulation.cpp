@@ -1,10 +1,10 @@
 #include "python/bindings/python_simulation.hpp"
 
 #include <algorithm>
+#include <pybind11/stl.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <pybind11/stl.h>
 
 #include "app/report/report.hpp"
 #include "app/run/memory.hpp"
@@ -138,10 +138,11 @@ void PythonSimulation::conclude(const RunEnd& end) {
   if (!folder_) return;
   const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin_;
   write_summary(folder_->path(), run_->summary(scene_name_, end, whole.count()));
-  if (!request_.report || end.outcome == RunOutcome::stopped) return;
-  if (make_report(folder_->path(), true) != 0) {
+  if (request_.report && end.outcome != RunOutcome::stopped &&
+      make_report(folder_->path(), true) != 0) {
     log_warning("no report was made of the results; `perifrac report` tries again");
   }
+  folder_.reset();  // others may write there now
 }
 
 void PythonSimulation::refuse_while_busy() const {

@@ -131,7 +131,7 @@ class Modules(unittest.TestCase):
         simulation = perifrac.Simulation(springs())
         simulation.run()
         self.assertEqual(tried[:3], [0.0, 0.5, 0.25])
-        self.assertGreaterEqual(simulation.summary()["coupling"]["cuts"], 1)
+        self.assertGreaterEqual(simulation.summary()["coupling"]["window_cuts"], 1)
 
     def test_ctrl_c_in_a_module_is_no_failure_of_it(self):
         def interrupt(self, begin, end):

@@ -46,7 +46,7 @@ class Stubs(unittest.TestCase):
     def test_arguments_have_their_names(self):
         for name, members in self.extension.items():
             for member, node in members.items() if isinstance(members, dict) else [("", members)]:
-                if node is None or member.startswith("__") and member != "__init__":
+                if node is None or member.startswith("_") and member != "__init__":
                     continue
                 function = getattr(_perifrac, name) if not member else vars(getattr(_perifrac, name)).get(member)
                 if not inspect.isroutine(function):
