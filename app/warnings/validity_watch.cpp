@@ -120,7 +120,9 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
   const bool scatters =
       writes(scene, "pore_flow.permeability_scatter") || writes(scene, "solid.material.scatter");
   if (!pressure || scatters || writes(scene, "cracks")) return;
+  const bool is_of_ours = scene.has("pore_flow.fluid.equation_of_state");
   const bool can_be_stabler =
+      is_of_ours &&
       std::visit([&](const auto& body) { return can_be_stabilised(scene.at("pore_flow"), *body); },
                  simulation.body);
   const char* const advice = can_be_stabler ? "raise pore_flow.undrained_stabilisation, or"
