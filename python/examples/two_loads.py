@@ -23,7 +23,7 @@ while simulation.advance():
     if simulation.time >= 20:
         simulation.loads[TOP] = 2  # beside the 10 kN/m of the scene
 history = perifrac.read_run("runs/two_loads").history
-plt.plot(history["time"], history["pore_pressure at middle"] / 1e3)
+plt.plot(history["time"], history["pore_pressure at middle"])
 plt.xlabel("time [s]")
-plt.ylabel("pressure in the middle [kPa]")
+plt.ylabel("pressure in the middle [Pa]")
 plt.savefig("runs/two_loads/pressure.png")

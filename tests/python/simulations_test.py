@@ -101,14 +101,14 @@ class Simulations(unittest.TestCase):
 
         later = np.array([4.02, 5.0, 8.0, 16.0])
         one, twice = pressures([4.0, *later])[1:], pressures([4.0, *later], change_at=4.0)[1:]
-        np.testing.assert_allclose(twice, one + pressures(later - 4.0), rtol=4e-3)
-        self.assertGreater(twice[0] / one[0], 1.8)
+        np.testing.assert_allclose(twice, one + pressures(later - 4.0), rtol=1.3e-4)
+        self.assertGreater(twice[0] / one[0], 1.9)
 
     def test_a_load_of_factor_one_changes_nothing(self):
         plain, given = perifrac.Simulation(mandel(time__end="4 s")), perifrac.Simulation(mandel(time__end="4 s"), loads=[TOP])
         plain.run()
         given.run(lambda s: s.loads.__setitem__(TOP, 1.0))
-        np.testing.assert_allclose(given.fields["pore_pressure"], plain.fields["pore_pressure"], rtol=1e-12)
+        np.testing.assert_allclose(given.fields["pore_pressure"], plain.fields["pore_pressure"], rtol=1e-14)
         self.assertEqual(given.step, plain.step)
 
     def test_inputs_that_the_scene_leaves_unlinked(self):
@@ -128,7 +128,7 @@ class Simulations(unittest.TestCase):
             given.inputs["solid.interface_impulse"][:, 1] = -1000 * 0.25**2 * 0.25  # N/m^3, volume, window
             given.advance()
         here, there = given.fields["displacement"], heavy.fields["displacement"]
-        np.testing.assert_allclose(here, there, atol=1e-12 * np.abs(there).max())
+        np.testing.assert_allclose(here, there, atol=1e-14 * np.abs(there).max())
         self.assertLess(here[:, 1].min(), -1e-6)
         with self.assertRaisesRegex(perifrac.SceneError, "expected one of: solid.pore_stress, solid.interface_impulse"):
             perifrac.Simulation(scene, inputs=["solid.interface_impulses"])
@@ -152,8 +152,8 @@ class Simulations(unittest.TestCase):
         held = simulation.port("crack_fluid.crack_fluid_mass").sum()
         simulation.loads[inlet] = 0.0
         simulation.run()
-        self.assertAlmostEqual(simulation.port("crack_fluid.crack_fluid_mass").sum() / held, 1.0, delta=1e-9)
-        self.assertLess(simulation.summary()["ledger"]["mass_error"], 1e-9)
+        self.assertAlmostEqual(simulation.port("crack_fluid.crack_fluid_mass").sum() / held, 1.0, delta=1e-14)
+        self.assertLess(simulation.summary()["ledger"]["mass_error"], 1e-14)
 
     def test_what_a_callback_raises_ends_the_run(self):
         simulation = perifrac.Simulation(mandel(time__end="4 s"), output=self.folder)
@@ -186,27 +186,24 @@ class Simulations(unittest.TestCase):
         simulation.close()
 
     def test_others_run_while_it_advances(self):
-        """The GIL is free: another thread counts on, and may not touch the simulation."""
-        simulation = perifrac.Simulation(mandel(body__spacing="0.5 m", time__end="4 s"))
-        counted, refused, done = [0], [], threading.Event()
+        """The GIL is free: another thread sees that the simulation advances, and may not touch it."""
+        simulation = perifrac.Simulation(mandel(body__spacing="1 m", time__end="40 s"))
+        refused, done = [], threading.Event()
 
-        def count():
+        def look():
             while not done.is_set():
-                counted[0] += 1
                 try:
                     simulation.fields["pore_pressure"]
                 except RuntimeError as error:
                     refused.append(str(error))
                 time.sleep(1e-4)
 
-        thread = threading.Thread(target=count)
+        thread = threading.Thread(target=look)
         thread.start()
-        before = counted[0]
-        simulation.advance()
-        simulation.advance()
+        while not refused and simulation.advance():
+            pass
         done.set()
         thread.join()
-        self.assertGreater(counted[0], before + 2)
         self.assertTrue(any("one thread at a time" in line for line in refused))
 
     def test_ctrl_c_stops_a_run(self):
@@ -242,7 +239,7 @@ class Simulations(unittest.TestCase):
         history = perifrac.read_run(self.folder / "runs/two_loads").history
         pressure = history["pore_pressure at middle"]
         jump = np.diff(pressure)[np.searchsorted(history["time"], 20.0) :][:2].max()
-        self.assertAlmostEqual(jump / pressure[0], 1.0, delta=0.05)  # as the first load's, at once
+        self.assertAlmostEqual(jump / pressure[0], 1.0, delta=3.3e-4)  # as the first load's, at once
 
 
 if __name__ == "__main__":
