@@ -5,6 +5,7 @@ tested by contract_python_test.cpp.
 Usage: modules_test.py PROGRAM BUILD [unittest's arguments]
 """
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -53,6 +54,40 @@ class Spring(perifrac.Module):
 
 
 perifrac.add_module_type("solid", "springs", Spring)
+
+
+class Drops(perifrac.Module):
+    """Points of its own that move, one of which goes in each window; needs no body."""
+
+    needs_body = False
+
+    def __init__(self, section, body):
+        self.ports = [perifrac.Port("height", "m"), perifrac.Port("drops", "1", kind="extensive", role="work")]
+
+    def port(self, name):
+        return float(len(self.height)) if name == "drops" else perifrac.View(self.height, points=self.points)
+
+    def initialize(self, t):
+        self.height = np.arange(5.0)
+        self.points = perifrac.PointSet("drops", self.positions())
+
+    def positions(self):
+        return np.column_stack((np.zeros(len(self.height)), self.height))
+
+    def advance(self, begin, end):
+        if end > begin:
+            self.height = self.height[1:] - 0.5
+            self.points.move(self.positions())
+        return end
+
+    def visit_state(self, state):
+        self.height = state.visit("height", self.height)
+
+    def on_restored(self, t):
+        self.points.move(self.positions())
+
+
+perifrac.add_module_type("drops", "falling", Drops)
 
 
 def springs(**keys):
@@ -132,6 +167,18 @@ class Modules(unittest.TestCase):
         simulation.run()
         self.assertEqual(tried[:3], [0.0, 0.5, 0.25])
         self.assertGreaterEqual(simulation.summary()["coupling"]["window_cuts"], 1)
+
+    def test_points_of_its_own_that_come_and_go(self):
+        with tempfile.TemporaryDirectory() as folder:
+            window = {"first": "0.5 s", "growth": 1, "largest": "0.5 s"}
+            scene = {"dimension": 2, "time": {"end": "1 s"}, "coupling": {"window": window}, "drops": {"type": "falling"}}
+            simulation = perifrac.Simulation(scene, output=folder)
+            self.assertEqual(simulation.points("height").shape, (5, 2))
+            simulation.run()
+            np.testing.assert_array_equal(simulation.fields["height"], [1.0, 2.0, 3.0])
+            np.testing.assert_array_equal(simulation.points("height")[:, 1], [1.0, 2.0, 3.0])
+            frames = perifrac.read_run(folder).frames["drops"]
+            self.assertEqual([len(frame["height"]) for frame in frames], [5, 3])
 
     def test_ctrl_c_in_a_module_is_no_failure_of_it(self):
         def interrupt(self, begin, end):
