@@ -68,7 +68,7 @@ class Runs(unittest.TestCase):
     def test_xarray(self):
         data = self.run_read.to_xarray()
         self.assertEqual(data["time"].attrs["units"], "s")
-        np.testing.assert_array_equal(data["fluid_mass"], self.run_read.history["fluid_mass"])
+        np.testing.assert_array_equal(data["top_plate_displacement"], self.run_read.history["top_plate_displacement"])
         fields = self.run_read.fields_to_xarray("body")
         self.assertEqual(fields["displacement"].dims, ("time", "point", "displacement_component"))
         self.assertEqual(fields["pore_pressure"].attrs["units"], "Pa")
