@@ -40,13 +40,19 @@ foreach(set ${PERIFRAC_SETS})
     PREFIX ${CMAKE_BINARY_DIR}/sets/${set}
     CMAKE_ARGS -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DPERIFRAC_NATIVE=OFF
                -DPERIFRAC_INSTRUCTIONS=${set} -DPERIFRAC_CHOLMOD=${PERIFRAC_CHOLMOD}
-               -DPERIFRAC_TESTS=OFF -DCMAKE_INSTALL_PREFIX=${CMAKE_INSTALL_PREFIX}
+               -DPERIFRAC_TESTS=OFF -DPERIFRAC_PYTHON=${PERIFRAC_PYTHON} -DCMAKE_INSTALL_PREFIX=${CMAKE_INSTALL_PREFIX}
                -DCMAKE_DISABLE_PRECOMPILE_HEADERS=${CMAKE_DISABLE_PRECOMPILE_HEADERS}
-    BUILD_COMMAND ${CMAKE_COMMAND} --build ${tree} --target perifrac
+    BUILD_COMMAND ${CMAKE_COMMAND} --build ${tree} --target perifrac $<$<BOOL:${PERIFRAC_PYTHON}>:_perifrac>
     INSTALL_COMMAND "" BUILD_ALWAYS ON)
-  install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" --install \"${tree}\" --component set
-                                        --prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\" \${perifrac_strip}
-                                COMMAND_ERROR_IS_FATAL ANY)" COMPONENT set)
+  foreach(component set python python_folder)
+    set(only_by_name)
+    if(component STREQUAL python_folder)
+      set(only_by_name EXCLUDE_FROM_ALL)
+    endif()
+    install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" --install \"${tree}\" --component ${component}
+                                          --prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\" \${perifrac_strip}
+                                  COMMAND_ERROR_IS_FATAL ANY)" COMPONENT ${component} ${only_by_name})
+  endforeach()
 endforeach()
 
 # --- What the program reads, and what its users read -----------------------------------------------
@@ -113,4 +119,7 @@ install(CODE "set(own_libraries \"${perifrac_own_libraries}\")
   set(program \"$<TARGET_FILE:perifrac>\")" COMPONENT libraries)
 install(SCRIPT cmake/bring_libraries.cmake COMPONENT libraries)
 
+if(PERIFRAC_PYTHON)
+  include(cmake/install_python.cmake)
+endif()
 include(cmake/package.cmake)

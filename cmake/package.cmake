@@ -19,6 +19,12 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_MONOLITHIC_INSTALL OFF)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_COMPONENTS_ALL program set development)
+if(PERIFRAC_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  # Of this version of Python alone.
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(python ", python3-numpy, python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next})")
+endif()
 set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENT_INCLUDE_TOPLEVEL_DIRECTORY ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -30,10 +36,10 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_NAME ${CPACK_PACKAGE_NAME})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3-matplotlib, python3-h5py, libudunits2-data${blas}")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3-matplotlib, python3-h5py, libudunits2-data${blas}${python}")
 # What modules outside the tree are built with.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "cmake, g++, pkgconf, libeigen3-dev, libyaml-cpp-dev, libhdf5-dev, libsundials-dev, libsuitesparse-dev, libopenblas-openmp-dev, libudunits2-dev, libcli11-dev, voro++-dev, libspdlog-dev, libfmt-dev, nlohmann-json3-dev, paraview")
+  "cmake, g++, pkgconf, libeigen3-dev, libyaml-cpp-dev, libhdf5-dev, libsundials-dev, libsuitesparse-dev, libopenblas-openmp-dev, libudunits2-dev, libcli11-dev, voro++-dev, libspdlog-dev, libfmt-dev, nlohmann-json3-dev, paraview, python3-xarray")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "Points that act on each other over a horizon model porous rock, the fluid in
  its pores, free fluid, and fluid in cracks, as modules coupled through ports.

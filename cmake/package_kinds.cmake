@@ -2,5 +2,8 @@
 # nobody who compiles.
 if(CPACK_GENERATOR STREQUAL TGZ)
   set(CPACK_PACKAGING_INSTALL_PREFIX "/")
-  set(CPACK_COMPONENTS_ALL program set libraries)
+  if(python IN_LIST CPACK_COMPONENTS_ALL)
+    set(folder python_folder)
+  endif()
+  set(CPACK_COMPONENTS_ALL program set libraries ${folder})
 endif()

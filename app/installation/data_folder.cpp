@@ -1,6 +1,7 @@
 #include "app/installation/data_folder.hpp"
 
 #include <cstdlib>
+#include <dlfcn.h>
 #include <optional>
 
 namespace perifrac {
@@ -9,8 +10,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// PREFIX/share/perifrac of PREFIX/bin/perifrac or PREFIX/libexec/perifrac/SET/perifrac.
+/// Of the file that this code is in, where that is the extension of Python.
+std::optional<fs::path> extension_file() {
+  Dl_info info{};
+  std::error_code error;
+  const auto* const here = reinterpret_cast<const void*>(&data_folder);
+  if (::dladdr(here, &info) == 0 || fs::path(info.dli_fname).extension() != ".so") return {};
+  return fs::canonical(info.dli_fname, error);
+}
+
+bool holds_data(const fs::path& share) {
+  std::error_code error;
+  return fs::is_directory(share / "configs", error);
+}
+
+/// PREFIX/share/perifrac of PREFIX/bin/perifrac, PREFIX/libexec/perifrac/SET/perifrac, or an
+/// extension anywhere in PREFIX.
 std::optional<fs::path> installed_folder() {
+  if (const auto extension = extension_file()) {
+    for (fs::path folder = extension->parent_path(); folder.has_relative_path();
+         folder = folder.parent_path()) {
+      if (holds_data(folder / "share" / "perifrac")) return folder / "share" / "perifrac";
+    }
+    return {};
+  }
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   const fs::path sets = folder.parent_path();
@@ -19,9 +42,8 @@ std::optional<fs::path> installed_folder() {
   if (sets.filename() == "perifrac" && sets.parent_path().filename() == "libexec") {
     prefix = sets.parent_path().parent_path();
   }
-  if (error || prefix.empty()) return {};
   const fs::path share = prefix / "share" / "perifrac";
-  if (!fs::is_directory(share / "configs", error)) return {};
+  if (error || prefix.empty() || !holds_data(share)) return {};
   return share;
 }
 

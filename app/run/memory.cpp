@@ -100,7 +100,8 @@ double solid_bytes(const Section& scene, double points) {
 
 double pore_flow_bytes(const Section& scene, double points) {
   const bool plane = scene.integer("dimension") == 2;
-  const bool factor = scene.word("pore_flow.integrator.type") == "cvode" &&
+  const bool factor = scene.has("pore_flow.integrator.type") &&
+                      scene.word("pore_flow.integrator.type") == "cvode" &&
                       scene.word("pore_flow.integrator.linear_solver") == "direct";
   if (!factor) return (plane ? 1.0 : 4.0) * kilobyte;
   return (plane ? 4.0 : 25.0 * fill(points)) * kilobyte;

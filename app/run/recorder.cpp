@@ -86,7 +86,7 @@ void Recorder::open(const OutputFolder& folder, const std::optional<Checkpoint>&
 
 void Recorder::record_window() {
   const double time = simulation_.manager->time();
-  if (time < next_row_) return;
+  if (!history_ || time < next_row_) return;
   const Stopwatch watch(seconds_);
   const ProfilePart profiled("history");
   // Rows keep to multiples of the interval, whatever the windows.
@@ -158,7 +158,7 @@ void Recorder::restart_point() {
 }
 
 void Recorder::write_checkpoint(bool if_due) {
-  if (!last_ || last_->step == step_on_disk_) return;
+  if (folder_.empty() || !last_ || last_->step == step_on_disk_) return;
   const double now = wall_clock();
   if (if_due && step_on_disk_ >= 0 && now - disk_time_ < checkpoint_interval_) return;
   const Stopwatch watch(seconds_);

@@ -21,7 +21,7 @@
 namespace perifrac {
 
 /// Everything that a run leaves behind while it runs: history rows, frames, checkpoints, and the
-/// comparison with a reference.
+/// comparison with a reference. Before open() it writes nothing.
 class Recorder {
  public:
   /// Reads what the scene asks for; writes nothing. The manager must be initialised. Throws

@@ -15,17 +15,14 @@
 #include "app/run/output_times.hpp"
 #include "app/run/profile_report.hpp"
 #include "app/run/progress_file.hpp"
-#include "app/run/recorder.hpp"
 #include "app/run/scene_echo.hpp"
 #include "app/run/scene_keys.hpp"
+#include "app/run/scene_run.hpp"
 #include "app/run/summary.hpp"
 #include "app/run/version.hpp"
 #include "app/simulation/outside_modules.hpp"
 #include "app/simulation/simulation.hpp"
-#include "app/warnings/energy_warnings.hpp"
-#include "app/warnings/resolution_warnings.hpp"
 #include "app/warnings/scene_warnings.hpp"
-#include "app/warnings/validity_watch.hpp"
 #include "core/base/errors.hpp"
 #include "core/config/mistakes.hpp"
 #include "core/config/scene.hpp"
@@ -38,12 +35,6 @@
 namespace perifrac {
 
 namespace {
-
-// So many windows after the last point to restart from is the next, so that a signal costs little
-// of a long run; an output is one after fewer. Not every output: CVODE begins anew there, and were
-// outputs close its result would follow them. Fixed numbers: they are part of what makes runs equal
-// bit for bit.
-constexpr std::int64_t windows_between_restart_points = 50, windows_before_an_output = 10;
 
 Section read(const RunRequest& request) {
   const ProfilePart profiled("scene");
@@ -119,75 +110,20 @@ void refuse_other_results(const RunRequest& request, const std::filesystem::path
       folder.string(), request.restart));
 }
 
-void log_all(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) log_warning(warning);
-}
-
-/// Ends a run whose windows were seen not to be stable once nothing is left of its answer.
-void require_balance(const CouplingManager& manager) {
-  if (!manager.is_unstable()) return;
-  constexpr double nonsense = 0.5;
-  const auto energy = manager.ledger().energy();
-  if (!energy || energy->relative_error < nonsense) return;
-  throw NumericalError("energy", "the ledger", manager.time(),
-                       fmt::format("windows of one pass are not stable: the balance is {:.0f} % "
-                                   "open",
-                                   100.0 * energy->relative_error));
-}
-
 /// Moves the simulation to its end, or until a signal comes; returns the signal or 0.
-int advance_to_end(Simulation& simulation, Recorder& recorder, ValidityWatch& watch,
-                   ProgressFile& file, std::span<const double> outputs) {
-  CouplingManager& manager = *simulation.manager;
+int advance_to_end(const Simulation& simulation, SceneRun& run, ProgressFile& file) {
+  const CouplingManager& manager = *simulation.manager;
   Progress progress(manager.time(), simulation.end);
   file.update(manager.time(), manager.step());
   const auto words = live_words(manager);
-  auto output = std::ranges::upper_bound(outputs, manager.time());
-  while (output != outputs.end()) {
+  while (!run.is_done()) {
     if (const int signal = received_signal()) return signal;
-    manager.advance(*output);
-    if (const auto warning = manager.new_warning()) log_warning(*warning);
-    recorder.check_finite();
-    recorder.record_window();
-    require_balance(manager);
-    const bool is_output = manager.time() == *output;
-    const bool is_restart_point =
-        recorder.windows_since_restart_point() >=
-        (is_output ? windows_before_an_output : windows_between_restart_points);
-    if (is_output || is_restart_point || ValidityWatch::is_due(manager.step())) {
-      log_all(watch.look());
-    }
-    if (is_output) {
-      recorder.record_output();
-      recorder.check_mass();
-      ++output;
-    }
-    if (is_restart_point) recorder.restart_point();
-    recorder.write_checkpoint(!checkpoint_requested());
+    run.advance();
+    run.write_checkpoint(!checkpoint_requested());
     progress.update(manager.time(), manager.step(), words);
     file.update(manager.time(), manager.step());
   }
   return 0;
-}
-
-void start(const Section& scene, Simulation& simulation, Recorder& recorder,
-           const OutputFolder& folder, const std::optional<Checkpoint>& restart) {
-  CouplingManager& manager = *simulation.manager;
-  log_all(manager.warnings());
-  if (restart) {
-    recorder.restore(*restart);
-    recorder.open(folder, restart);
-    return;
-  }
-  if (const auto warning = start_warning(scene, simulation, manager.settle())) {
-    log_warning(*warning);
-  }
-  recorder.check_finite();
-  recorder.open(folder, restart);
-  recorder.record_window();
-  recorder.record_output();
-  recorder.restart_point();
-  recorder.write_checkpoint(false);
 }
 
 void replace_earlier_results(const OutputFolder& folder) {
@@ -197,10 +133,9 @@ void replace_earlier_results(const OutputFolder& folder) {
       fmt::format("{}: {} files of an earlier run are replaced", folder.path().string(), files));
 }
 
-/// Runs `whole`, which returns the signal that stopped it or 0. Where that fails, the log says why,
-/// and what can still be written is: after any but a NumericalError the state is not sure any more.
+/// Runs `whole`, which returns the signal that stopped it or 0.
 template <class Whole>
-RunEnd go(Whole&& whole, Recorder& recorder, ValidityWatch& watch) {
+RunEnd go(Whole&& whole, SceneRun& run) {
   RunEnd end;
   try {
     if (whole() != 0) end.outcome = RunOutcome::stopped;
@@ -210,16 +145,8 @@ RunEnd go(Whole&& whole, Recorder& recorder, ValidityWatch& watch) {
   } catch (const OutputError&) {
     throw;  // the summary would fare no better
   } catch (const std::exception& error) {
-    end.failure = failure_of(error);
+    return run.fail(error);
   }
-  end.outcome = RunOutcome::failed;
-  log_error(describe(*end.failure));
-  if (end.failure->time) {
-    log_all(watch.look());  // what it had come to may say why
-    recorder.record_failure();
-    recorder.write_checkpoint(false);
-  }
-  return end;
 }
 
 /// How a run ended, since when it ran, and what it cost by part.
@@ -230,14 +157,11 @@ struct Ending {
 };
 
 /// Writes the summary, and says and draws what there is.
-void conclude(const RunRequest& request, const Section& scene, const std::string& text,
-              Simulation& simulation, const Recorder& recorder, const OutputFolder& folder,
-              const Ending& ending) {
+void conclude(const RunRequest& request, Simulation& simulation, const SceneRun& run,
+              const OutputFolder& folder, const Ending& ending) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - ending.begin).count();
-  nlohmann::json summary = summarize(scene, request.scene, text, simulation, recorder.reference(),
-                                     ending.end, {.whole = seconds, .output = recorder.seconds()});
-  summary["read"] = what_was_read(scene, simulation);
+  nlohmann::json summary = run.summary(request.scene, ending.end, seconds);
   if (ending.profile) summary["profile"] = profile_json(*ending.profile, simulation);
   write_summary(folder.path(), summary);
   if (request.json) {
@@ -245,7 +169,7 @@ void conclude(const RunRequest& request, const Section& scene, const std::string
   } else {
     const std::string crack = crack_size(*simulation.manager);
     fmt::print("{}{}", outcome_text(summary), crack.empty() ? "" : "  " + crack + "\n");
-    if (recorder.reference()) fmt::print("{}", recorder.reference()->table());
+    if (run.recorder().reference()) fmt::print("{}", run.recorder().reference()->table());
     fmt::print("{}", work_text(summary));
   }
   std::fflush(stdout);
@@ -277,41 +201,33 @@ int run_scene(const RunRequest& request) {
   mistakes.throw_if_any();
   const auto warnings = scene_warnings(scene, regime_of(scene, simulation));
   simulation.end = outputs.back();
-  Recorder recorder(scene, text, simulation);
+  SceneRun run(scene, text, simulation, outputs);
   const std::optional<Checkpoint> restart = read_restart(request, text, simulation.end);
   if (restart) refuse_other_results(request, folder_of(request));
   const OutputFolder folder(folder_of(request), request.overwrite);
   if (!restart) replace_earlier_results(folder);
   if (!request.json) fmt::print("{}\n", fmt::join(what_was_read(scene, simulation), "\n"));
-  log_all(warnings);
+  for (const std::string& warning : warnings) log_warning(warning);
   std::optional<Watcher> watcher;
   if (request.watch) watcher.emplace(folder.path());
   std::optional<ProgressFile> progress;
 
-  ValidityWatch watch(scene, simulation);
   int signal = 0;
   const RunEnd end = go(
       [&] {
-        start(scene, simulation, recorder, folder, restart);
+        run.start(&folder, restart);
         progress.emplace(folder.path(), simulation.manager->time(), simulation.end, [&] {
           return summarize(scene, request.scene, text, simulation, nullptr, {},
-                           {.whole = 0.0, .output = recorder.seconds()});
+                           {.whole = 0.0, .output = run.recorder().seconds()});
         });
-        signal = advance_to_end(simulation, recorder, watch, *progress, outputs);
-        if (const auto warning = balance_warning(scene, simulation)) log_warning(*warning);
-        if (const auto warning = filling_warning(scene, simulation)) log_warning(*warning);
-        const double reached = simulation.manager->time();
-        if (const auto warning = seepage_warning(scene, reached); warning && signal == 0) {
-          log_warning(*warning);
-        }
-        recorder.write_checkpoint(false);
-        recorder.check_kept();
+        signal = advance_to_end(simulation, run, *progress);
+        run.finish(signal != 0);
         return signal;
       },
-      recorder, watch);
+      run);
   // Of memory that ended, nothing that is left to do is sure; what the log said last stays true.
   try {
-    conclude(request, scene, text, simulation, recorder, folder, {end, begin, profile});
+    conclude(request, simulation, run, folder, {end, begin, profile});
   } catch (const std::bad_alloc&) {
     if (!end.failure) throw;
   }

@@ -117,7 +117,7 @@ const std::vector<Rule>& rules() {
 /// iterations cannot agree any better.
 void refuse_unreachable_tolerance(const Section& scene) {
   if (!scene.has("coupling.iterations.max") || scene.integer("coupling.iterations.max") == 1 ||
-      !scene.has("solid") || !scene.has("pore_flow") ||
+      !scene.has("solid") || !scene.has("pore_flow.integrator.type") ||
       scene.word("pore_flow.integrator.type") != "cvode") {
     return;
   }

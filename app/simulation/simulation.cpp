@@ -66,13 +66,12 @@ const PointSet& Simulation::points() const {
   return std::visit([](const auto& b) -> const PointSet& { return b->point_set(); }, body);
 }
 
-Simulation make_simulation(const Section& scene) {
+Simulation make_simulation(const Section& scene, std::vector<ModuleSlot> modules) {
   Simulation simulation;
   simulation.end = scene.number("time.end");
   Mistakes mistakes;
   const bool fits = check_sections_together(scene, mistakes);
   const bool has_body = mistakes.note([&] { simulation.body = make_body_if_any(scene); });
-  std::vector<ModuleSlot> modules;
   for (const std::string& physics : physics_of(scene)) {
     if (!fits || !has_body) break;
     mistakes.note([&] {

@@ -20,8 +20,9 @@ struct Simulation {
   const PointSet& points() const;  ///< of the body, which the scene must have
 };
 
-/// Builds all that the scene calls for and nothing else. Throws InputError.
-Simulation make_simulation(const Section& scene);
+/// Builds all that the scene calls for and nothing else, beside modules that are there already:
+/// those advance first. Throws InputError.
+Simulation make_simulation(const Section& scene, std::vector<ModuleSlot> modules = {});
 
 /// Makes it ready at t = 0. Throws InputError where no modules can use the scene's split, and
 /// NumericalError.

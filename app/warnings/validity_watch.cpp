@@ -120,7 +120,9 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
   const bool scatters =
       writes(scene, "pore_flow.permeability_scatter") || writes(scene, "solid.material.scatter");
   if (!pressure || scatters || writes(scene, "cracks")) return;
+  const bool is_of_ours = scene.has("pore_flow.fluid.equation_of_state");
   const bool can_be_stabler =
+      is_of_ours &&
       std::visit([&](const auto& body) { return can_be_stabilised(scene.at("pore_flow"), *body); },
                  simulation.body);
   const char* const advice = can_be_stabler ? "raise pore_flow.undrained_stabilisation, or"
@@ -139,7 +141,8 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
 
 void ValidityWatch::watch_density(const Section& scene, const Simulation& simulation) {
   const auto in_pores = find_field(simulation, "pore_pressure");
-  if (in_pores && scene.word("pore_flow.fluid.equation_of_state") == "linear") {
+  if (in_pores && scene.has("pore_flow.fluid.equation_of_state") &&
+      scene.word("pore_flow.fluid.equation_of_state") == "linear") {
     const double bulk_modulus = scene.number("pore_flow.fluid.bulk_modulus");
     limits_.push_back([=] {
       return density_warning(*in_pores, bulk_modulus,

@@ -6,6 +6,7 @@
 
 #include "core/config/key_tree.hpp"
 #include "core/config/key_value.hpp"
+#include "core/config/section.hpp"
 
 namespace perifrac {
 
@@ -20,6 +21,7 @@ struct SceneTree {
   KeyNode keys;
   std::string folder{};  ///< of the scene's file; files that it names are beside it
   std::map<std::string, Entry, std::less<>> entries{};  ///< by full path; the root's is empty
+  GivenFactors given{};                                 ///< none but where a scene is run by hand
 };
 
 }  // namespace perifrac

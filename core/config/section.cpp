@@ -73,6 +73,17 @@ std::size_t Section::count(std::string_view path) const {
 
 Section Section::at(std::string_view path) const { return {tree_, full_path(path)}; }
 
+Section Section::with_given(GivenFactors factors) const {
+  auto tree = std::make_shared<SceneTree>(*tree_);
+  tree->given = std::move(factors);
+  return {std::move(tree), prefix_};
+}
+
+std::shared_ptr<const double> Section::given(std::string_view path) const {
+  const auto factor = tree_->given.find(full_path(path));
+  return factor == tree_->given.end() ? nullptr : factor->second;
+}
+
 std::string Section::place(std::string path) const {
   for (;;) {
     const auto entry = tree_->entries.find(path);

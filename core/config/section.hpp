@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,6 +10,10 @@ namespace perifrac {
 
 struct SceneTree;
 struct YamlNode;
+
+/// Factors that somebody may change while a scene runs, by the path of the schedule that each
+/// multiplies (`solid.boundary.top.schedule`).
+using GivenFactors = std::map<std::string, std::shared_ptr<const double>, std::less<>>;
 
 /// A read-only view of a part of a validated scene: units are SI, defaults are filled in, ranges
 /// hold. Paths are relative to the section (`material.youngs_modulus`, `probes[0].at`). Asking for
@@ -33,6 +38,11 @@ class Section {
   std::size_t count(std::string_view path) const;               ///< items of a list; 0 if absent
   Section at(std::string_view path) const;
   Section scene() const { return {tree_, ""}; }  ///< the whole scene, for what all physics share
+
+  /// The same with factors that its schedules follow (core/time/schedule.hpp).
+  Section with_given(GivenFactors factors) const;
+  /// The one for the schedule at `path`, null where there is none.
+  std::shared_ptr<const double> given(std::string_view path) const;
 
   /// The scene is wrong in a way that only the reader of this key can know.
   /// Throws InputError `file:line:column: path: problem; expected <expected>`.

@@ -55,4 +55,6 @@ void log_error(std::string_view message) { log(spdlog::level::err, message); }
 
 const std::vector<std::string>& logged_warnings() { return warnings; }
 
+void forget_logged_warnings() { warnings.clear(); }
+
 }  // namespace perifrac

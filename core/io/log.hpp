@@ -14,5 +14,7 @@ void log_error(std::string_view message);
 
 /// The warnings so far, for what a run leaves; of very many the first.
 const std::vector<std::string>& logged_warnings();
+/// Another run begins in this process.
+void forget_logged_warnings();
 
 }  // namespace perifrac

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -20,7 +21,7 @@ struct ModuleType {
 
   /// Makes the module that the section describes; throws InputError. `body` is null in a scene
   /// without one.
-  std::unique_ptr<PhysicsModule> (*make)(const Section& section, const AnyBody& body);
+  std::function<std::unique_ptr<PhysicsModule>(const Section& section, const AnyBody& body)> make;
 
   bool needs_body = true;  ///< is refused in a scene without one
 };

@@ -22,6 +22,10 @@ Schedule Schedule::growth(double rate) {
 }
 
 double Schedule::factor(double t) const {
+  return given_ ? *given_ * written_factor(t) : written_factor(t);
+}
+
+double Schedule::written_factor(double t) const {
   if (times_.empty()) return 1.0;
   const double growth = rate_ * t;
   const auto later = std::ranges::upper_bound(times_, t);
@@ -61,11 +65,9 @@ KeyTable schedule_keys(const std::string& prefix) {
   };
 }
 
-Schedule read_schedule(const Section& section, const std::string& path) {
-  return read_schedule_at(section, path.empty() ? "schedule" : path + ".schedule");
-}
+namespace {
 
-Schedule read_schedule_at(const Section& section, const std::string& at) {
+Schedule read_written_schedule(const Section& section, const std::string& at) {
   if (!section.has(at)) return {};
   const bool ramp = section.has(at + ".ramp");
   const bool times = section.has(at + ".times");
@@ -87,6 +89,18 @@ Schedule read_schedule_at(const Section& section, const std::string& at) {
                  "times that rise");
   }
   return Schedule::table(std::move(t), std::move(f));
+}
+
+}  // namespace
+
+Schedule read_schedule(const Section& section, const std::string& path) {
+  return read_schedule_at(section, path.empty() ? "schedule" : path + ".schedule");
+}
+
+Schedule read_schedule_at(const Section& section, const std::string& at) {
+  Schedule schedule = read_written_schedule(section, at);
+  schedule.follow(section.given(at));
+  return schedule;
 }
 
 }  // namespace perifrac

@@ -37,6 +37,21 @@ TEST(Schedule, IsLinearBetweenTheTimesOfATableAndConstantBeyond) {
   EXPECT_EQ(table.factor(8.0), 0.0);
 }
 
+TEST(Schedule, FollowsAFactorThatIsGiven) {
+  const auto given = std::make_shared<double>(1.0);
+  Schedule schedule;
+  Schedule ramp = Schedule::ramp(4.0);
+  schedule.follow(given);
+  ramp.follow(given);
+  EXPECT_FALSE(schedule.is_constant());
+  ScheduledVector sum(1);
+  sum.add(schedule, Eigen::VectorXd::Ones(1));
+  sum.add(ramp, Eigen::VectorXd::Ones(1));
+  *given = 3.0;
+  EXPECT_EQ(sum.at(1.0)[0], 3.0 + 0.75);
+  EXPECT_EQ(ramp.integral(0.0, 4.0), 6.0);
+}
+
 TEST(Schedule, IntegratesAcrossItsBreaks) {
   EXPECT_EQ(Schedule().integral(1.0, 3.0), 2.0);
   EXPECT_EQ(Schedule::ramp(4.0).integral(2.0, 6.0), 1.5 + 2.0);

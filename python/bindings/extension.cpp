@@ -1,0 +1,3 @@
+#include "python/bindings/bindings.hpp"
+
+PYBIND11_MODULE(_perifrac, module) { perifrac::bind_all(module); }
