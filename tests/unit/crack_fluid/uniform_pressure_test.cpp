@@ -183,8 +183,9 @@ TEST(UniformPressure, ComesBackAsTheSameMassLeaves) {
 }
 
 TEST(UniformPressure, CarterTakesItsVolume) {
-  CrackRun run = uniform({pressure_inlet("in", {0.0, 0.0}, 1e6)}, {{box(-1.0, 1.0), 1e5}},
-                         std::make_unique<CarterLeakOff<2>>(1e-5, water.density));
+  CrackRun run =
+      uniform({pressure_inlet("in", {0.0, 0.0}, 1e6)}, {{box(-1.0, 1.0), 1e5}},
+              std::make_unique<CarterLeakOff<2>>(ByRegion<2, double>{1e-5}, water.density));
   run.add_line(straight_line({0.0, 0.0}, 0.0, dx, 10));
   run.open(w);
   run.advance(0.1, 3);
@@ -198,7 +199,8 @@ TEST(UniformPressure, CarterTakesItsVolume) {
 
 TEST(UniformPressure, CarterTakesNoMoreThanThereIs) {
   CrackRun run =
-      uniform({}, {{box(-1.0, 1.0), 1e5}}, std::make_unique<CarterLeakOff<2>>(1e-4, water.density));
+      uniform({}, {{box(-1.0, 1.0), 1e5}},
+              std::make_unique<CarterLeakOff<2>>(ByRegion<2, double>{1e-4}, water.density));
   run.add_line(straight_line({0.0, 0.0}, 0.0, dx, 10));
   run.open(w);
   run.advance(100.0 * std::pow(w / (4.0 * 1e-4), 2), 50);
