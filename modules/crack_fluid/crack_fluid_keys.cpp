@@ -1,10 +1,13 @@
 #include "modules/crack_fluid/crack_fluid_keys.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "core/config/mistakes.hpp"
 #include "modules/crack_fluid/carter_leak_off.hpp"
 #include "modules/crack_fluid/crack_fluid.hpp"
+#include "modules/crack_fluid/crack_inlet_keys.hpp"
 #include "modules/crack_fluid/crack_places.hpp"
 
 namespace perifrac {
@@ -97,21 +100,21 @@ std::unique_ptr<PhysicsModule> make_crack_fluid(const Section& section,
                                                 const CrackLiquid& liquid,
                                                 std::unique_ptr<CrackFlow> flow) {
   std::unique_ptr<LeakOff> leak_off;
-  std::vector<CrackInlet> inlets;
+  std::optional<CrackInlets> inlets;
   std::vector<CrackFilling<D>> fillings;
   std::unique_ptr<CrackOutlets<D>> outlets;
   Mistakes mistakes;
   mistakes.note([&] { check_crack_places(section, *body); });
   mistakes.note([&] { leak_off = read_leak_off(section, body, liquid); });
-  mistakes.note([&] { inlets = read_crack_inlets(section); });
+  mistakes.note([&] { inlets = read_crack_inlets(section, liquid); });
   mistakes.note([&] { fillings = read_fillings<D>(section, liquid); });
   mistakes.note([&] {
     outlets = std::make_unique<CrackOutlets<D>>(body, read_behind_faces<D>(section.scene(), *body));
   });
   mistakes.throw_if_any();
-  return std::make_unique<CrackFluid<D>>(
-      std::move(body), liquid, std::move(flow), CrackInlets(std::move(inlets), liquid),
-      std::move(fillings), std::move(leak_off), std::move(outlets));
+  return std::make_unique<CrackFluid<D>>(std::move(body), liquid, std::move(flow),
+                                         std::move(*inlets), std::move(fillings),
+                                         std::move(leak_off), std::move(outlets));
 }
 
 template std::unique_ptr<PhysicsModule> make_crack_fluid<2>(const Section&,
