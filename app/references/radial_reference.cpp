@@ -64,7 +64,7 @@ RadialProblem read_radial(const Section& scene) {
   require_absent(scene, radial_problem,
                  {"pore_flow", "solid.regions", "damage.regions", "gravity"});
   if (!writes(scene, "damage") || scene.count("crack_fluid.inlets") != 1 ||
-      !scene.has("crack_fluid.inlets[0].volume_rate")) {
+      scene.count("crack_fluid.wells") > 0 || !scene.has("crack_fluid.inlets[0].volume_rate")) {
     scene.fail("reference.type", "this scene is not " + radial_problem,
                "damage, and one inlet with a volume_rate");
   }

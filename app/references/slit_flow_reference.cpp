@@ -49,7 +49,8 @@ Slit read_slit(const Section& scene, const PointSet& facets) {
   require_word(scene, slit_flow_problem, "solid.type", {"rigid"});
   require_word(scene, slit_flow_problem, "crack_fluid.leak_off", {"none"});
   if (scene.count("cracks") != 1 || read_crack_corners(scene, 0).size() != 2 ||
-      scene.count("crack_fluid.inlets") != 2 || !scene.has("crack_fluid.inlets[0].pressure") ||
+      scene.count("crack_fluid.inlets") != 2 || scene.count("crack_fluid.wells") > 0 ||
+      !scene.has("crack_fluid.inlets[0].pressure") ||
       !scene.has("crack_fluid.inlets[1].pressure")) {
     scene.fail("reference.type", "this scene is not " + slit_flow_problem,
                "one crack of one leg, and an inlet with a pressure at each of its ends");

@@ -101,7 +101,7 @@ constexpr auto other_words = std::to_array<OtherWord>({
     {"wells", "inlets"},
     {"injection", "inlets"},
     {"injectors", "inlets"},
-    {"perforations", "inlets"},
+    {"perforations", "wells"},
     {"position", "at"},
     {"location", "at"},
     {"fracture", "cracks"},

@@ -22,6 +22,9 @@ template <int D>
 void CarterLeakOff<D>::match(const PointSet& facets, const CrackGraph& graph) {
   sealed_.match(facets);
   graph_ = &graph;
+  for (std::size_t f = by_facet_.size(); !coefficient_.inside.empty() && f < facets.count; ++f) {
+    by_facet_.push_back(coefficient_.at(vector_at<D>(facets.position, f)));
+  }
   for (auto* field : {&wet_share_, &wet_since_, &wet_until_}) field->resize(graph.facet_count());
 }
 

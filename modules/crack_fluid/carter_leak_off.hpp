@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/geometry/by_region.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/sealed_walls.hpp"
 
@@ -14,13 +15,15 @@ namespace perifrac {
 template <int D>
 class CarterLeakOff final : public LeakOff {
  public:
-  /// `coefficient` C_L [m/s^0.5], `density` at zero pressure [kg/m^3].
-  CarterLeakOff(double coefficient, double density, SealedWalls<D> sealed = SealedWalls<D>())
-      : coefficient_(coefficient), density_(density), sealed_(std::move(sealed)) {}
+  /// `coefficient` C_L where a facet has its middle [m/s^0.5], `density` at zero pressure [kg/m^3].
+  CarterLeakOff(ByRegion<D, double> coefficient, double density,
+                SealedWalls<D> sealed = SealedWalls<D>())
+      : coefficient_(std::move(coefficient)), density_(density), sealed_(std::move(sealed)) {}
 
   bool is_sink() const override { return true; }
   double coefficient(Index facet) const override {
-    return sealed_.contain(facet) ? 0.0 : coefficient_;
+    if (sealed_.contain(facet)) return 0.0;
+    return by_facet_.empty() ? coefficient_.elsewhere : by_facet_[facet];
   }
   void match(const PointSet& facets, const CrackGraph& graph) override;
   void begin(const TimeWindow& step, std::span<const double> fill) override;
@@ -32,9 +35,10 @@ class CarterLeakOff final : public LeakOff {
  private:
   void note_arrivals(std::span<const double> fill, double from, double to);
 
-  double coefficient_;
+  ByRegion<D, double> coefficient_;
   double density_;
   SealedWalls<D> sealed_;
+  std::vector<double> by_facet_;  ///< C_L; empty where it is the same everywhere
   const CrackGraph* graph_ = nullptr;
   TimeWindow step_{};
   std::vector<double> wet_share_;              ///< the most of a facet that was ever wet

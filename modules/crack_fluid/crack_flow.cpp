@@ -39,6 +39,7 @@ void CrackFlow::rest(const CrackStep& step, const Eigen::VectorXd& v,
   if (step.leak_off != nullptr) leak(*step.leak_off);
   outflow_.setZero();
   inflow_.setZero();
+  for (WellFlow& well : step.wells) take_from(well, step.time.length());
 }
 
 bool CrackFlow::is_beside_full(Index f) const {
@@ -96,6 +97,24 @@ void CrackFlow::leak(LeakOff& leak_off) {
   rounding_ += leaked_.mass.cwiseAbs();
   by_fill_ += leaked_.by_fill;
   by_pressure_.insert(by_pressure_.end(), leaked_.by_pressure.begin(), leaked_.by_pressure.end());
+}
+
+/// What comes in at every facet follows the pressures at all that the well feeds.
+void CrackFlow::take_from(WellFlow& well, double dt) {
+  well.follow(pressure_);
+  const auto& openings = well.openings();
+  const double mass = liquid_.density * dt;
+  for (std::size_t a = 0; a < openings.size(); ++a) {
+    const auto& [f, resistance, rate, slope, lost] = openings[a];
+    const double brought = mass * rate;
+    inflow_[f] += brought;
+    residual_[f] -= brought;
+    rounding_[f] +=
+        std::abs(brought) + mass * slope * (std::abs(well.pressure()) + std::abs(pressure_[f]));
+    for (std::size_t b = 0; b < openings.size(); ++b) {
+      by_pressure_.emplace_back(f, openings[b].facet, -mass * well.slope(a, b));
+    }
+  }
 }
 
 }  // namespace perifrac

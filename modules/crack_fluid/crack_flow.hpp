@@ -31,7 +31,7 @@ class CrackFlow {
   virtual void follow(CrackGraph graph);
   const CrackGraph& graph() const { return graph_; }
 
-  /// As if nothing flowed: residual = m(v) - m_before + leak.
+  /// As if nothing flowed in cracks: residual = m(v) - m_before + leak - inflow of wells.
   void rest(const CrackStep& step, const Eigen::VectorXd& v);
   /// Finds v, from where it is on, and the flows that belong to it. Throws NoContact.
   virtual FlowReport solve(const CrackStep& step, Eigen::VectorXd& v) = 0;
@@ -52,7 +52,7 @@ class CrackFlow {
   double contact(Index f) const { return face_pressure_[f] - pressure_[f]; }
   const Eigen::VectorXd& capacity() const { return capacity_; }   ///< rho_0 area aperture
   const Eigen::VectorXd& leaked() const { return leaked_.mass; }  ///< over the step [kg/m]
-  const Eigen::VectorXd& inflow() const { return inflow_; }       ///< by inlets [kg/m]
+  const Eigen::VectorXd& inflow() const { return inflow_; }       ///< by inlets and wells [kg/m]
   /// What flows to other facets over the step [kg/m].
   const Eigen::VectorXd& outflow() const { return outflow_; }
   bool is_full(Index f) const { return fill_[f] >= 1.0; }
@@ -80,6 +80,7 @@ class CrackFlow {
   void open(const CrackStep& step, const Eigen::VectorXd& response);
   void store(const CrackStep& step);
   void leak(LeakOff& leak_off);
+  void take_from(WellFlow& well, double dt);
 };
 
 }  // namespace perifrac

@@ -47,6 +47,7 @@ void CrackFluid<D>::initialize(double) {
   facets_.clear(liquid_);
   face_work_.clear();
   mouths_.clear();
+  inlets_.wells().clear();
   has_begun_ = 0;
   books_ = {};
   leak_off_rate_ = 0.0;
@@ -129,10 +130,12 @@ bool CrackFluid<D>::step(const TimeWindow& time, const TimeWindow& window) {
   const auto given = inlets_.inflows(time);
   std::vector<FacetInflow> inflows(given.begin(), given.end());
   if (outlets_) outlets_->append_to(inflows, time, liquid_.vapour_pressure);
+  std::erase_if(inflows, [&](const FacetInflow& at) { return inlets_.is_of_well(at.facet); });
   const CrackStep step{.time = time,
                        .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
                        .mass = facets_.mass,
                        .inflows = inflows,
+                       .wells = inlets_.well_flows(time),
                        .leak_off = leak_off_.get()};
   if (leak_off_) leak_off_->take_part(part_);
   if (leak_off_) leak_off_->begin(time, facets_.fill(liquid_));
@@ -146,6 +149,7 @@ bool CrackFluid<D>::step(const TimeWindow& time, const TimeWindow& window) {
   ++steps_;
   if (report.converged) {
     book(v);
+    inlets_.wells().accept();
     if (time.length() > 0.0) facets_.settled = facets_.unknown;
     return true;
   }
@@ -200,6 +204,7 @@ void CrackFluid<D>::visit_state(StateVisitor& visitor) {
   facets_.visit_state(visitor);
   face_work_.visit_state(visitor);
   mouths_.visit_state(visitor);
+  inlets_.wells().visit_state(visitor);
   visitor.visit("crack_has_begun", has_begun_);
   books_.visit_state(visitor);
   if (!leak_off_) return;

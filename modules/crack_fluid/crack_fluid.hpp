@@ -39,9 +39,10 @@ struct CrackFilling {
 /// end to its second, the properties `crack_viscosity` [Pa s] and, by Carter's law,
 /// `crack_leak_off` [m/s^0.5], 0 where less than half a facet is wet. On its own: `wetted_length`
 /// and `fluid_lag` [m], `crack_volume` [m^2], `mean_crack_pressure` [Pa] (crack_extent.hpp),
-/// `inlet_<name>_pressure` [Pa], `inlet_<name>_opening` [m], with leak-off `leak_off_volume` [m^2]
-/// at zero pressure, since the start, and `leak_off_rate` [m^2/s], the mean of the last window; for
-/// the ledger `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
+/// `inlet_<name>_pressure` [Pa], `inlet_<name>_opening` [m], of clusters of a well also
+/// `inlet_<name>_rate` [m^2/s], and `well_<name>_pressure` [Pa], with leak-off `leak_off_volume`
+/// [m^2] at zero pressure, since the start, and `leak_off_rate` [m^2/s], the mean of the last
+/// window; for the ledger `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
 /// `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
 /// `crack_fluid_work`, `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on
 /// the body's points: in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`,

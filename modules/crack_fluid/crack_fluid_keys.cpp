@@ -1,10 +1,13 @@
 #include "modules/crack_fluid/crack_fluid_keys.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "core/config/mistakes.hpp"
 #include "modules/crack_fluid/carter_leak_off.hpp"
 #include "modules/crack_fluid/crack_fluid.hpp"
+#include "modules/crack_fluid/crack_inlet_keys.hpp"
 #include "modules/crack_fluid/crack_places.hpp"
 
 namespace perifrac {
@@ -43,18 +46,36 @@ SealedWalls<D> read_sealed_walls(const Section& section) {
   return SealedWalls<D>(std::move(boxes));
 }
 
+/// Carter's, of the whole rock and of regions of the body.
+template <int D>
+ByRegion<D, double> read_leak_off_coefficient(const Section& section, const Body<D>& body) {
+  ByRegion<D, double> coefficient{section.number("leak_off_coefficient")};
+  if (!section.has("regions")) return coefficient;
+  region_of_points<D>(section, body.regions(), body.points());  // says which do not exist
+  for (const std::string& name : section.names("regions")) {
+    coefficient.inside.emplace_back(*std::ranges::find(body.regions(), name, &Region<D>::name),
+                                    section.number("regions." + name + ".leak_off_coefficient"));
+  }
+  return coefficient;
+}
+
 /// Null where the rock takes nothing.
 template <int D>
 std::unique_ptr<LeakOff> read_leak_off(const Section& section, std::shared_ptr<const Body<D>> body,
                                        const CrackLiquid& liquid) {
   const std::string word = section.word("leak_off");
   SealedWalls<D> sealed = read_sealed_walls<D>(section);
+  if (section.has("regions") && word != "carter") {
+    section.fail(
+        "regions", fmt::format("beside leak_off: {}", word),
+        word == "pores" ? "pore_flow.regions, which the crack leaks into" : "leak_off: carter");
+  }
   if (word == "none") return nullptr;
   if (word == "pores") {
     return std::make_unique<PoreLeakOff<D>>(std::move(body), liquid.density, liquid.vapour_pressure,
                                             std::move(sealed));
   }
-  return std::make_unique<CarterLeakOff<D>>(section.number("leak_off_coefficient"),
+  return std::make_unique<CarterLeakOff<D>>(read_leak_off_coefficient(section, *body),
                                             section.number("density"), std::move(sealed));
 }
 
@@ -79,21 +100,21 @@ std::unique_ptr<PhysicsModule> make_crack_fluid(const Section& section,
                                                 const CrackLiquid& liquid,
                                                 std::unique_ptr<CrackFlow> flow) {
   std::unique_ptr<LeakOff> leak_off;
-  std::vector<CrackInlet> inlets;
+  std::optional<CrackInlets> inlets;
   std::vector<CrackFilling<D>> fillings;
   std::unique_ptr<CrackOutlets<D>> outlets;
   Mistakes mistakes;
   mistakes.note([&] { check_crack_places(section, *body); });
   mistakes.note([&] { leak_off = read_leak_off(section, body, liquid); });
-  mistakes.note([&] { inlets = read_crack_inlets(section); });
+  mistakes.note([&] { inlets = read_crack_inlets(section, liquid); });
   mistakes.note([&] { fillings = read_fillings<D>(section, liquid); });
   mistakes.note([&] {
     outlets = std::make_unique<CrackOutlets<D>>(body, read_behind_faces<D>(section.scene(), *body));
   });
   mistakes.throw_if_any();
-  return std::make_unique<CrackFluid<D>>(
-      std::move(body), liquid, std::move(flow), CrackInlets(std::move(inlets), liquid),
-      std::move(fillings), std::move(leak_off), std::move(outlets));
+  return std::make_unique<CrackFluid<D>>(std::move(body), liquid, std::move(flow),
+                                         std::move(*inlets), std::move(fillings),
+                                         std::move(leak_off), std::move(outlets));
 }
 
 template std::unique_ptr<PhysicsModule> make_crack_fluid<2>(const Section&,
@@ -153,6 +174,12 @@ KeyTable crack_fluid_keys() {
        .required = true,
        .when = "leak_off=carter",
        .meaning = "Carter's coefficient of one side of a crack."},
+      {.path = "regions.*.leak_off_coefficient",
+       .unit = "m/s*sqrt(s)",
+       .range = "[0, inf)",
+       .required = true,
+       .meaning = "carter: the same in a region of the body (body.regions); a facet is where its "
+                  "middle is."},
       {.path = "sealed[].from",
        .type = KeyType::vector,
        .unit = "m",

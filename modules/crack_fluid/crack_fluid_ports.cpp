@@ -130,6 +130,15 @@ void CrackFluid<D>::make_inlet_ports() {
          [this](Index f) { return liquid_.pressure(facets_.unknown[f]); });
     mean(name + "_opening", "m", k, [this](Index f) { return facets_.aperture[f]; });
   }
+  for (std::size_t k = 0; k < inlets_.wells().all().size(); ++k) {
+    ports_.total({"well_" + inlets_.wells().all()[k].name + "_pressure", "Pa"}, whole_crack,
+                 [this, k] { return inlets_.wells().pressure(k); });
+  }
+  for (std::size_t c = 0; c < inlets_.wells().cluster_count(); ++c) {
+    const std::string& name = inlets_.all()[inlets_.inlet_of_cluster(c)].name;
+    ports_.total({"inlet_" + name + "_rate", std::string(volume_unit<D>) + "/s"}, whole_crack,
+                 [this, c] { return inlets_.wells().rate(c); });
+  }
 }
 
 template <int D>

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "core/bonds/bond_state.hpp"
-#include "core/config/key.hpp"
-#include "core/config/section.hpp"
 #include "core/time/schedule.hpp"
 #include "modules/crack_fluid/crack_liquid.hpp"
 #include "modules/crack_fluid/crack_step.hpp"
+#include "modules/crack_fluid/crack_wells.hpp"
 
 namespace perifrac {
 
@@ -23,13 +22,16 @@ struct CrackInlet {
                   ///< times the schedule
   Schedule schedule;
   bool from_fluid = false;  ///< at the pressure of the free fluid there (crack_mouths.hpp)
+  bool from_well = false;   ///< a cluster of a well, which says what it brings (crack_wells.hpp)
 };
 
-/// The inlets of a crack. One that takes fluid out by rate takes no more than comes to it once its
-/// facet is no longer under pressure.
+/// The inlets of a crack, the clusters of wells last. One that takes fluid out by rate takes no
+/// more than comes to it once its facet is no longer under pressure.
 class CrackInlets {
  public:
-  CrackInlets(std::vector<CrackInlet> inlets, const CrackLiquid& liquid);
+  /// As many inlets are clusters as the wells have.
+  CrackInlets(std::vector<CrackInlet> inlets, const CrackLiquid& liquid,
+              std::vector<CrackWell> wells = {});
 
   const std::vector<CrackInlet>& all() const { return inlets_; }
   /// Finds each inlet's facets: the nearest and what is as near.
@@ -48,19 +50,22 @@ class CrackInlets {
   /// serves two inlets.
   std::span<const FacetInflow> inflows(const TimeWindow& step);
 
+  CrackWells& wells() { return wells_; }
+  std::span<WellFlow> well_flows(const TimeWindow& step);
+  /// The inlet that a cluster is.
+  std::size_t inlet_of_cluster(std::size_t cluster) const {
+    return inlets_.size() - wells_.cluster_count() + cluster;
+  }
+  bool is_of_well(Index facet) const;
+
  private:
   std::vector<CrackInlet> inlets_;
   CrackLiquid liquid_;
+  CrackWells wells_;
   std::vector<Supply> supply_;              ///< by inlet, of those that free fluid feeds
   std::vector<std::vector<Index>> facets_;  ///< by inlet
   std::vector<std::vector<double>> share_;  ///< of each of them, by length
   std::vector<FacetInflow> inflows_;
 };
-
-/// The keys of `inlets` and `counts`.
-KeyTable crack_inlet_keys();
-
-/// Reads them. Throws InputError.
-std::vector<CrackInlet> read_crack_inlets(const Section& section);
 
 }  // namespace perifrac

@@ -9,6 +9,7 @@
 #include "core/base/small_vector.hpp"
 #include "core/body/crack_list.hpp"
 #include "core/config/mistakes.hpp"
+#include "modules/crack_fluid/crack_inlet_keys.hpp"
 
 namespace perifrac {
 
@@ -39,8 +40,9 @@ template <int D>
 void check_inlets(const Section& section, const std::vector<CrackFacet<D>>& facets, double spacing,
                   Mistakes& mistakes) {
   std::vector<std::vector<std::size_t>> fed;
-  for (std::size_t k = 0; k < section.count("inlets"); ++k) {
-    const std::string inlet = fmt::format("inlets[{}]", k), path = inlet + ".at";
+  const std::vector<std::string> inlets = crack_inlet_paths(section);
+  for (std::size_t k = 0; k < inlets.size(); ++k) {
+    const std::string path = inlets[k] + ".at";
     const auto x = read_place<D>(section, path);
     double nearest = std::numeric_limits<double>::infinity();
     for (const CrackFacet<D>& facet : facets) nearest = std::min(nearest, distance<D>(x, facet));
@@ -54,7 +56,7 @@ void check_inlets(const Section& section, const std::vector<CrackFacet<D>>& face
         if (std::ranges::find_first_of(fed[k], fed[other]) == fed[k].end()) continue;
         section.fail(path,
                      fmt::format("feeds the piece of crack that '{}' feeds",
-                                 section.text(fmt::format("inlets[{}].name", other))),
+                                 section.text(inlets[other] + ".name")),
                      fmt::format("inlets a spacing, {:g} m, or more apart", spacing));
       }
     });

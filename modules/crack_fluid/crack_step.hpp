@@ -6,6 +6,7 @@
 
 #include "core/module/time_window.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
+#include "modules/crack_fluid/well_flow.hpp"
 
 namespace perifrac {
 
@@ -47,6 +48,7 @@ struct CrackStep {
   CrackOpening opening;
   std::span<const double> mass;  ///< of the facets when it begins [kg/m]
   std::span<const FacetInflow> inflows{};
+  std::span<WellFlow> wells{};  ///< at facets of their own; they are solved with the fluid
   LeakOff* leak_off = nullptr;  ///< may be null
 };
 

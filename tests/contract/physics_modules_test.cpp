@@ -63,6 +63,10 @@ const std::string by_volumes = "pore_flow/finite_volume";
 const std::string inlet_3d =
     "crack_fluid.inlets=[{name: pump, at: [2 m, 2 m, 2 m], volume_rate: 5e-5 m^3/s}]";
 
+const std::string well =
+    "crack_fluid.wells=[{name: well, rate: 5e-5 m^2/s, height: 10 m, clusters: [{name: heel, at: "
+    "[3 m, 5 m], perforations: 12, diameter: 10 mm}, {name: toe, at: [8 m, 5 m]}]}]";
+
 struct Variant {
   std::string type;  ///< as registered, `physics/type`
   ModuleCase contract;
@@ -283,6 +287,12 @@ std::vector<Variant> make_variants() {
       variant("crack_network_carter", "crack_fluid/network", box_2d + crack_network,
               {"crack_fluid.leak_off=carter", "crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)",
                "crack_fluid.vapour_pressure=-50 kPa"}),
+      variant("crack_network_carter_by_region", "crack_fluid/network", box_2d + crack_network,
+              {"body.regions={right: {from: [6 m, 0 m]}}", "crack_fluid.leak_off=carter",
+               "crack_fluid.leak_off_coefficient=1e-5 m/s*sqrt(s)",
+               "crack_fluid.regions={right: {leak_off_coefficient: 4e-5 m/s*sqrt(s)}}"}),
+      variant("crack_network_of_a_well", "crack_fluid/network", box_2d + crack_network,
+              {well, "crack_fluid.inlets=[]"}),
       variant("crack_network_in_pores", "crack_fluid/network", box_2d + darcy + crack_network,
               {"crack_fluid.leak_off=pores"}),
       variant("crack_network_3d", "crack_fluid/network", box_3d + crack_network,
@@ -295,6 +305,8 @@ std::vector<Variant> make_variants() {
               {"crack_fluid.filled=[{from: [4 m, 4 m], to: [8 m, 8 m], pressure: 10 kPa}]",
                "crack_fluid.inlets=[{name: well, at: [8 m, 5 m], rate: -1e-3 m^2/s}, {name: tank, "
                "at: [3 m, 5 m], holds: pressure, pressure: 20 kPa, schedule: {ramp: 5 ms}}]"}),
+      variant("uniform_pressure_of_a_well", "crack_fluid/uniform_pressure",
+              box_2d + uniform_pressure, {well, "crack_fluid.inlets=[]"}),
       variant("uniform_pressure_from_fluid", "crack_fluid/uniform_pressure",
               box_2d + uniform_pressure + water_over_box_2d,
               {"crack_fluid.inlets=[{name: mouth, at: [3 m, 5 m], holds: fluid}]"}),

@@ -95,11 +95,12 @@ Eigen::VectorXd filled_from_neighbours(const CrackGraph& graph, const CrackLiqui
 FlowReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const CrackStep& step,
                  Eigen::VectorXd& v) {
   FlowReport report;
+  begin(step.wells);
   const Index count = lubrication.graph().facet_count();
   Eigen::VectorXd pressure_change(count);
   for (; report.iterations < most_iterations; ++report.iterations) {
     lubrication.evaluate(step, v);
-    report.converged = is_balanced(lubrication, report.worst);
+    report.converged = is_balanced(lubrication, report.worst) && are_settled(step.wells);
     if (report.converged) break;
     const Eigen::VectorXd change = solved(lubrication.jacobian(v, conductances(report.iterations)),
                                           lubrication.graph().order(), -lubrication.residual());

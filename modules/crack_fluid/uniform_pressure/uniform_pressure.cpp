@@ -113,10 +113,13 @@ bool UniformPressure::is_balanced(FlowReport& report) const {
 /// What has come in and what has leaked leaves each facet as full as all others of its crack. What
 /// is left of the balance stays in the facet that can take most of it, so that mass is exact.
 void UniformPressure::spread() {
+  outflow_ = -residual_;  // which has what wells bring
   for (const CrackInflow& inflow : inflows_) {
-    for (const auto& [facet, amount] : inflow.by_facet()) inflow_[facet] += amount;
+    for (const auto& [facet, amount] : inflow.by_facet()) {
+      inflow_[facet] += amount;
+      outflow_[facet] += amount;
+    }
   }
-  outflow_ = inflow_ - residual_;
   const Eigen::VectorXd left = by_crack(outflow_);
   std::vector<Index> widest = first_;
   for (Index f = 0; f < graph_.facet_count(); ++f) {
@@ -128,6 +131,7 @@ void UniformPressure::spread() {
 
 /// What stays while the unknowns are found.
 void UniformPressure::begin(const CrackStep& step) {
+  perifrac::begin(step.wells);
   const Index facets = graph_.facet_count();
   answer_.setZero(facets, crack_count());
   for (Index f = 0; f < facets; ++f) {
@@ -167,7 +171,7 @@ FlowReport UniformPressure::solve(const CrackStep& step, Eigen::VectorXd& v) {
   FlowReport report;
   for (; report.iterations < most_newton_steps; ++report.iterations) {
     evaluate(step, unknown);
-    report.converged = is_balanced(report);
+    report.converged = is_balanced(report) && are_settled(step.wells);
     if (report.converged) break;
     const Eigen::VectorXd by = change(step, unknown);
     if (!by.allFinite()) break;

@@ -210,7 +210,8 @@ TEST(CrackNetwork, AFacetServesOneInlet) {
 CrackRun leaking(double coefficient, std::vector<CrackInlet> inlets,
                  SealedWalls<2> sealed = SealedWalls<2>()) {
   CrackRun run(water, std::move(inlets), {{everywhere, 1e5}},
-               std::make_unique<CarterLeakOff<2>>(coefficient, water.density, std::move(sealed)));
+               std::make_unique<CarterLeakOff<2>>(ByRegion<2, double>{coefficient}, water.density,
+                                                  std::move(sealed)));
   run.add_line(straight_line({0.0, 0.0}, 0.0, dx, 10));
   run.open(w);
   return run;

@@ -34,18 +34,24 @@ inline CrackInlet pressure_inlet(const std::string& name, const Vector<2>& at, d
   return {name, {at[0], at[1]}, true, pressure, {}};
 }
 
+inline CrackInlet cluster(const std::string& name, const Vector<2>& at) {
+  CrackInlet inlet{name, {at[0], at[1]}, false, 0.0, {}};
+  inlet.from_well = true;
+  return inlet;
+}
+
 /// Fluid in a crack, a network where nothing else is given, whose facets are given and whose
 /// opening is value + slope p.
 class CrackRun {
  public:
   CrackRun(const CrackLiquid& liquid, std::vector<CrackInlet> inlets,
            std::vector<CrackFilling<2>> fillings = {}, std::unique_ptr<LeakOff> leak_off = nullptr,
-           std::unique_ptr<CrackFlow> flow = nullptr)
+           std::unique_ptr<CrackFlow> flow = nullptr, std::vector<CrackWell> wells = {})
       : body_(box_body<2>({3, 3}, 1.0)),
         bonds_(body_->claim_bond_state()),
         module_(std::make_unique<CrackFluid<2>>(
             body_, liquid, flow ? std::move(flow) : std::make_unique<Lubrication>(liquid),
-            CrackInlets(std::move(inlets), liquid), std::move(fillings), std::move(leak_off))) {
+            CrackInlets(std::move(inlets), liquid, std::move(wells)), std::move(fillings), std::move(leak_off))) {
     module_->initialize(0.0);
   }
 

@@ -66,6 +66,7 @@ struct RandomStep {
   Eigen::VectorXd closed_by, v;
   std::vector<double> value, rate, mass;
   std::vector<FacetInflow> inflows;
+  std::vector<WellFlow> wells;
 
   explicit RandomStep(unsigned seed) : random(seed) {}
 
@@ -74,11 +75,12 @@ struct RandomStep {
   }
   bool chance(double part) { return between(0.0, 1.0) < part; }
 
-  CrackStep step(double length) const {
+  CrackStep step(double length) {
     return {.time = {0.0, length},
             .opening = {value, rate, {slope.data(), std::size_t(slope.size())}, length},
             .mass = mass,
-            .inflows = inflows};
+            .inflows = inflows,
+            .wells = length > 0.0 ? std::span(wells) : std::span<WellFlow>()};
   }
 
   /// Stress up to 100 MPa, another one across the other line.
@@ -131,6 +133,52 @@ TEST(LubricationNewton, ConvergesFromStatesThatPhysicsAllows) {
   }
   EXPECT_LE(failed, 2);
   EXPECT_LT(iterations, 4.6 * states);  // 3.1
+}
+
+/// The same beside a well of three clusters, two in one line and one in the other, that is pumped,
+/// shut in, or flows back; their friction from none to a hundred megapascal, and Newton begins at
+/// no rates, or at any.
+TEST(LubricationNewton, ConvergesBesideAWell) {
+  constexpr int states = 4000;
+  int failed = 0, iterations = 0;
+  for (unsigned seed = 0; seed < states; ++seed) {
+    RandomStep random(seed);
+    random.begin(seed % 5 == 0 ? 0.0 : 1e8 * std::pow(random.between(0.0, 1.0), 2.0));
+    for (double& closed : random.closed_by) closed *= random.between(0.99, 1.01);
+    random.set_opening();
+    const double length = std::pow(10.0, random.between(-6.0, 1.5));
+    const double full = 5e-4, rate = full * std::array{1.0, 0.0, -1.0}[seed % 3];
+    std::vector<WellFlow::Opening> openings;
+    for (const Index facet : {2, 8, line_facets + 7}) {
+      const double most = random.chance(0.2) ? 0.0 : std::pow(10.0, random.between(2.0, 8.0));
+      const double begin = random.chance(0.5) ? 0.0 : random.between(-1.0, 1.0) * full;
+      openings.push_back({.facet = facet, .resistance = most / (full * full), .rate = begin});
+    }
+    const WellFlow::Law law{2.2 / full, 0.0, 2.2};
+    random.wells.emplace_back(openings, rate, law);
+    const FlowReport report = solve(random.lubrication, slickwater, random.step(length), random.v);
+    iterations += report.iterations;
+    if (!report.converged) {
+      ++failed;
+      continue;
+    }
+    double sum = 0.0, through = full;
+    const WellFlow& well = random.wells[0];
+    for (const auto& at : well.openings()) {
+      sum += at.rate;
+      through += std::abs(at.rate);
+      const double there = std::max(random.v[at.facet], 0.0);
+      const double lost = (at.resistance * std::abs(at.rate) + law.laminar) * at.rate;
+      EXPECT_NEAR(well.pressure() - there, lost, 2e-9 * (well.pressure() + there) + 1e-8) << seed;
+    }
+    if (well.pressure() > 0.0) {
+      EXPECT_NEAR(sum, rate, 1e-15 * through) << seed;
+    } else {
+      EXPECT_GE(sum, rate - 1e-15 * through) << seed;
+    }
+  }
+  EXPECT_LE(failed, 4);                // 3, for shorter steps
+  EXPECT_LT(iterations, 10 * states);  // 6.9
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ struct AnyStep {
   std::vector<double> value, rate, slope, mass;
   std::vector<FacetInflow> inflows{
       {0, -INFINITY, INFINITY, 3e5}, {8, 2e-4, 2e-4, 0.0}, {12, -3e-4, 0.0, -2e4}};
-  CarterLeakOff<2> leak_off{1e-4, 1000.0};
+  CarterLeakOff<2> leak_off{ByRegion<2, double>{1e-4, {}}, 1000.0};
   Eigen::VectorXd v{15};
 
   AnyStep() {

@@ -183,8 +183,9 @@ TEST(UniformPressure, ComesBackAsTheSameMassLeaves) {
 }
 
 TEST(UniformPressure, CarterTakesItsVolume) {
-  CrackRun run = uniform({pressure_inlet("in", {0.0, 0.0}, 1e6)}, {{box(-1.0, 1.0), 1e5}},
-                         std::make_unique<CarterLeakOff<2>>(1e-5, water.density));
+  CrackRun run =
+      uniform({pressure_inlet("in", {0.0, 0.0}, 1e6)}, {{box(-1.0, 1.0), 1e5}},
+              std::make_unique<CarterLeakOff<2>>(ByRegion<2, double>{1e-5}, water.density));
   run.add_line(straight_line({0.0, 0.0}, 0.0, dx, 10));
   run.open(w);
   run.advance(0.1, 3);
@@ -198,7 +199,8 @@ TEST(UniformPressure, CarterTakesItsVolume) {
 
 TEST(UniformPressure, CarterTakesNoMoreThanThereIs) {
   CrackRun run =
-      uniform({}, {{box(-1.0, 1.0), 1e5}}, std::make_unique<CarterLeakOff<2>>(1e-4, water.density));
+      uniform({}, {{box(-1.0, 1.0), 1e5}},
+              std::make_unique<CarterLeakOff<2>>(ByRegion<2, double>{1e-4}, water.density));
   run.add_line(straight_line({0.0, 0.0}, 0.0, dx, 10));
   run.open(w);
   run.advance(100.0 * std::pow(w / (4.0 * 1e-4), 2), 50);
@@ -281,6 +283,7 @@ struct RandomCracks {
   Eigen::Matrix<double, -1, -1, Eigen::RowMajor> slope{facets, facets};
   std::vector<double> value, rate, mass;
   std::vector<FacetInflow> inflows;
+  std::vector<WellFlow> wells;
 
   explicit RandomCracks(unsigned seed) : random(seed) {
     std::vector<CrackFacet<2>> lines;
@@ -316,7 +319,8 @@ struct RandomCracks {
     return flow.solve({.time = {0.0, 1.0},
                        .opening = {value, rate, {slope.data(), std::size_t(slope.size())}, 1.0},
                        .mass = mass,
-                       .inflows = inflows},
+                       .inflows = inflows,
+                       .wells = wells},
                       v);
   }
 };
@@ -340,6 +344,41 @@ TEST(UniformPressure, IsFoundFromAnywhere) {
   }
   EXPECT_LE(failed, 4);  // 3
   EXPECT_LT(iterations, 2000 * 9);
+}
+
+/// The same beside a well that feeds all three, with friction from none to ten megapascal, pumped,
+/// shut in or flowing back.
+TEST(UniformPressure, BesideAWellIsFoundFromAnywhere) {
+  int iterations = 0;
+  std::array<int, 3> failed{};
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    RandomCracks cracks(seed);
+    const double full = 1e-8, wanted = full * std::array{1.0, 0.0, -1.0}[seed % 3];
+    cracks.inflows.erase(cracks.inflows.begin() + 1, cracks.inflows.end());
+    std::vector<WellFlow::Opening> openings;
+    for (const Index facet : {4, 10, 17}) {
+      const double most =
+          cracks.between(0.0, 1.0) < 0.2 ? 0.0 : std::pow(10.0, cracks.between(2.0, 7.0));
+      openings.push_back({.facet = facet, .resistance = most / (full * full), .rate = 0.0});
+    }
+    cracks.wells.emplace_back(openings, wanted, WellFlow::Law{2.2 / full, 0.0, 2.2});
+    Eigen::VectorXd dry = Eigen::VectorXd::Constant(RandomCracks::facets, water.empty());
+    Eigen::VectorXd pressed = Eigen::VectorXd::Constant(RandomCracks::facets, 3e8);
+    const FlowReport one = cracks.solve(dry);
+    EXPECT_LT(std::abs(cracks.flow.outflow().sum()),
+              1e-14 * cracks.flow.outflow().cwiseAbs().sum() + 1e-30);
+    const FlowReport two = cracks.solve(pressed);
+    iterations += one.iterations + two.iterations;
+    if (!one.converged || !two.converged) {
+      ++failed[seed % 3];
+      continue;
+    }
+    const double scale = dry.cwiseAbs().maxCoeff() + water.bulk_modulus * 1e-3;
+    EXPECT_LT((dry - pressed).cwiseAbs().maxCoeff(), 1e-6 * scale) << seed;
+  }
+  EXPECT_EQ(failed[0] + failed[1], 0);
+  EXPECT_LE(failed[2], 15);          // 12, for shorter steps
+  EXPECT_LT(iterations, 2000 * 13);  // 9.4
 }
 
 }  // namespace
