@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <type_traits>
 
@@ -38,6 +39,7 @@ namespace {
 
 constexpr int usage_error = 2;
 constexpr int failure = 1;
+constexpr const char* named_by_scene = "SCENE.png";  ///< a picture without a name
 
 struct Request {
   RunRequest run;
@@ -48,7 +50,8 @@ struct Request {
   bool page = false;
   double trial = 4.0;  ///< [s]
   std::string key, kind, name, new_scene;
-  std::string example, file, shell;
+  std::string example, file, shell, picture;
+  bool arrays = false;
 };
 
 void add_allow_modules(CLI::App& verb) {
@@ -116,6 +119,12 @@ void add_check_options(CLI::App& verb, Request& request) {
                   "try the first windows for so long, to foretell the run's time; 0: do not")
       ->type_name("SECONDS")
       ->check(decimal(0.0, 1e6));
+  verb.add_flag("--arrays", request.arrays, "print links and every evolving array too");
+  verb.add_option("--picture", request.picture,
+                  "draw the set-up; a .png or .svg, SCENE.png where no name is given")
+      ->type_name("FILE")
+      ->expected(0, 1)
+      ->default_str(named_by_scene);
   verb.add_option("--threads", request.threads, "threads that the run will have")
       ->type_name("N")
       ->check(decimal(1, 1024));
@@ -205,6 +214,12 @@ int print(const std::string& text) {
   return 0;
 }
 
+/// Beside whoever asks for it, as the scene is called.
+std::string picture_file(const Request& request) {
+  if (request.picture != named_by_scene) return request.picture;
+  return std::filesystem::path(request.run.scene).stem().string() + ".png";
+}
+
 int dispatch(const CLI::App& app, const Request& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);
@@ -212,6 +227,8 @@ int dispatch(const CLI::App& app, const Request& request) {
     return check_scene({.scene = request.run.scene,
                         .overrides = request.run.overrides,
                         .json = request.run.json,
+                        .arrays = request.arrays,
+                        .picture = picture_file(request),
                         .trial_seconds = request.trial});
   }
   if (app.got_subcommand("study")) return run_study(request.study);
