@@ -19,6 +19,7 @@
 #include "app/installation/data_folder.hpp"
 #include "app/installation/examples.hpp"
 #include "app/list.hpp"
+#include "app/report/export.hpp"
 #include "app/report/report.hpp"
 #include "app/report/watch.hpp"
 #include "app/run/check.hpp"
@@ -47,6 +48,7 @@ struct Request {
   int threads = 0;
   std::vector<std::string> folders;
   WatchRequest watch;
+  ExportRequest exported;
   bool page = false;
   double trial = 4.0;  ///< [s]
   std::string key, kind, name, new_scene;
@@ -161,6 +163,19 @@ void add_watch_options(CLI::App& verb, WatchRequest& watch) {
       ->check(decimal(0, 65535));
 }
 
+void add_export_options(CLI::App& verb, ExportRequest& request) {
+  verb.add_option("folder", request.folder, "folder of a run")->required()->type_name("DIR");
+  verb.add_option("--frame", request.frame,
+                  "first, last, all, a number from 0, or the one nearest to a time, as in '5 ms'")
+      ->capture_default_str();
+  verb.add_option("--to", request.to,
+                  "vtu: cells, facets and a state for ParaView; csv: a row a point")
+      ->check(CLI::IsMember({"vtu", "csv"}))
+      ->capture_default_str();
+  verb.add_option("--output", request.output, "folder to write into; DIR/export")
+      ->type_name("FOLDER");
+}
+
 /// Of verbs that help to write a scene.
 void add_writing_verbs(CLI::App& app, Request& request) {
   CLI::App& fresh =
@@ -234,6 +249,7 @@ int dispatch(const CLI::App& app, const Request& request) {
   if (app.got_subcommand("study")) return run_study(request.study);
   if (app.got_subcommand("report")) return make_report(request.folders, false);
   if (app.got_subcommand("watch")) return watch(request.watch);
+  if (app.got_subcommand("export")) return export_frames(request.exported);
   if (app.got_subcommand("new")) return write_new(request.kind, request.name, request.new_scene);
   if (app.got_subcommand("explain")) return explain(request.key);
   if (app.got_subcommand("schema")) return print_json_schema();
@@ -257,6 +273,8 @@ int parse_and_dispatch(int argc, char** argv) {
   add_report_options(*app.add_subcommand("report", "make the picture and the page of a run"),
                      request.folders);
   add_watch_options(*app.add_subcommand("watch", "serve a page to watch a run on"), request.watch);
+  add_export_options(*app.add_subcommand("export", "write frames of a run as VTU or CSV"),
+                     request.exported);
   CLI::App& list = *app.add_subcommand("list", "modules and keys");
   list.add_flag("--json", request.run.json, "machine-readable output");
   list.add_flag("--page", request.page, "the reference page, in Markdown");
@@ -270,7 +288,8 @@ int parse_and_dispatch(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     throw InputError(
-        "perifrac: a verb is missing; expected run, check, study, report, watch, info, list, new, "
+        "perifrac: a verb is missing; expected run, check, study, report, export, watch, info, "
+        "list, new, "
         "explain, schema, completion or man");
   }
   find_scene(app, request);
