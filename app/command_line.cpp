@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <type_traits>
 
@@ -18,6 +19,7 @@
 #include "app/installation/data_folder.hpp"
 #include "app/installation/examples.hpp"
 #include "app/list.hpp"
+#include "app/report/export.hpp"
 #include "app/report/report.hpp"
 #include "app/report/watch.hpp"
 #include "app/run/check.hpp"
@@ -38,6 +40,7 @@ namespace {
 
 constexpr int usage_error = 2;
 constexpr int failure = 1;
+constexpr const char* named_by_scene = "SCENE.png";  ///< a picture without a name
 
 struct Request {
   RunRequest run;
@@ -45,10 +48,12 @@ struct Request {
   int threads = 0;
   std::vector<std::string> folders;
   WatchRequest watch;
+  ExportRequest exported;
   bool page = false;
   double trial = 4.0;  ///< [s]
   std::string key, kind, name, new_scene;
-  std::string example, file, shell;
+  std::string example, file, shell, picture;
+  bool arrays = false;
 };
 
 void add_allow_modules(CLI::App& verb) {
@@ -116,6 +121,12 @@ void add_check_options(CLI::App& verb, Request& request) {
                   "try the first windows for so long, to foretell the run's time; 0: do not")
       ->type_name("SECONDS")
       ->check(decimal(0.0, 1e6));
+  verb.add_flag("--arrays", request.arrays, "print links and every evolving array too");
+  verb.add_option("--picture", request.picture,
+                  "draw the set-up; a .png or .svg, SCENE.png where no name is given")
+      ->type_name("FILE")
+      ->expected(0, 1)
+      ->default_str(named_by_scene);
   verb.add_option("--threads", request.threads, "threads that the run will have")
       ->type_name("N")
       ->check(decimal(1, 1024));
@@ -150,6 +161,19 @@ void add_watch_options(CLI::App& verb, WatchRequest& watch) {
   verb.add_option("--port", watch.port, "of 127.0.0.1; 0: one that is free")
       ->type_name("N")
       ->check(decimal(0, 65535));
+}
+
+void add_export_options(CLI::App& verb, ExportRequest& request) {
+  verb.add_option("folder", request.folder, "folder of a run")->required()->type_name("DIR");
+  verb.add_option("--frame", request.frame,
+                  "first, last, all, a number from 0, or the one nearest to a time, as in '5 ms'")
+      ->capture_default_str();
+  verb.add_option("--to", request.to,
+                  "vtu: cells, facets and a state for ParaView; csv: a row a point")
+      ->check(CLI::IsMember({"vtu", "csv"}))
+      ->capture_default_str();
+  verb.add_option("--output", request.output, "folder to write into; DIR/export")
+      ->type_name("FOLDER");
 }
 
 /// Of verbs that help to write a scene.
@@ -205,6 +229,12 @@ int print(const std::string& text) {
   return 0;
 }
 
+/// Beside whoever asks for it, as the scene is called.
+std::string picture_file(const Request& request) {
+  if (request.picture != named_by_scene) return request.picture;
+  return std::filesystem::path(request.run.scene).stem().string() + ".png";
+}
+
 int dispatch(const CLI::App& app, const Request& request) {
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);
@@ -212,11 +242,14 @@ int dispatch(const CLI::App& app, const Request& request) {
     return check_scene({.scene = request.run.scene,
                         .overrides = request.run.overrides,
                         .json = request.run.json,
+                        .arrays = request.arrays,
+                        .picture = picture_file(request),
                         .trial_seconds = request.trial});
   }
   if (app.got_subcommand("study")) return run_study(request.study);
   if (app.got_subcommand("report")) return make_report(request.folders, false);
   if (app.got_subcommand("watch")) return watch(request.watch);
+  if (app.got_subcommand("export")) return export_frames(request.exported);
   if (app.got_subcommand("new")) return write_new(request.kind, request.name, request.new_scene);
   if (app.got_subcommand("explain")) return explain(request.key);
   if (app.got_subcommand("schema")) return print_json_schema();
@@ -240,6 +273,8 @@ int parse_and_dispatch(int argc, char** argv) {
   add_report_options(*app.add_subcommand("report", "make the picture and the page of a run"),
                      request.folders);
   add_watch_options(*app.add_subcommand("watch", "serve a page to watch a run on"), request.watch);
+  add_export_options(*app.add_subcommand("export", "write frames of a run as VTU or CSV"),
+                     request.exported);
   CLI::App& list = *app.add_subcommand("list", "modules and keys");
   list.add_flag("--json", request.run.json, "machine-readable output");
   list.add_flag("--page", request.page, "the reference page, in Markdown");
@@ -253,7 +288,8 @@ int parse_and_dispatch(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     throw InputError(
-        "perifrac: a verb is missing; expected run, check, study, report, watch, info, list, new, "
+        "perifrac: a verb is missing; expected run, check, study, report, export, watch, info, "
+        "list, new, "
         "explain, schema, completion or man");
   }
   find_scene(app, request);

@@ -10,13 +10,14 @@
 
 namespace perifrac {
 
-int draw(const std::string& script, const std::vector<std::string>& folders, bool quiet) {
+int draw(const std::string& script, const std::vector<std::string>& paths, bool quiet,
+         const std::string& input) {
   // Debian's own Python: another one first on the path may lack matplotlib and h5py.
   const char* const chosen = std::getenv("PERIFRAC_PYTHON");
   std::vector<std::string> words{chosen != nullptr ? chosen : "/usr/bin/python3", "-B", script};
-  words.insert(words.end(), folders.begin(), folders.end());
+  words.insert(words.end(), paths.begin(), paths.end());
   try {
-    const ProcessEnd end = Process({.words = words, .quiet = quiet}).wait();
+    const ProcessEnd end = Process({.words = words, .input = input, .quiet = quiet}).wait();
     if (end.signal == 0) return end.exit_code;
   } catch (const std::system_error&) {
   }

@@ -9,6 +9,7 @@
 
 #include "app/run/array_list.hpp"
 #include "app/run/build_info.hpp"
+#include "app/run/check_text.hpp"
 #include "app/run/coarse_twin.hpp"
 #include "app/run/forecast.hpp"
 #include "app/run/memory.hpp"
@@ -16,6 +17,7 @@
 #include "app/run/recorder.hpp"
 #include "app/run/scene_echo.hpp"
 #include "app/run/scene_keys.hpp"
+#include "app/run/setup_picture.hpp"
 #include "app/run/summary.hpp"
 #include "app/simulation/outside_modules.hpp"
 #include "app/simulation/simulation.hpp"
@@ -72,16 +74,6 @@ nlohmann::json regime_json(const SceneRegime& regime) {
           {"net_inlet_pressure", with_unit(crack.pressure, "Pa")}};
 }
 
-void print_regime(const nlohmann::json& regime) {
-  fmt::print("  regime: {}\n", regime["corner"].get<std::string>());
-  for (const auto& [name, entry] : regime.items()) {
-    if (entry.is_number()) fmt::print("    {:<24} {:>10.4g}\n", name, entry.get<double>());
-    if (!entry.is_object()) continue;
-    fmt::print("    {:<24} {:>10.4g} {}\n", name, entry["value"].get<double>(),
-               entry["unit"].get<std::string>());
-  }
-}
-
 /// Those of cracks from the start are part of them.
 std::optional<double> facets_at_end(const Simulation& simulation, std::optional<double> length) {
   if (!length) return {};
@@ -113,64 +105,6 @@ nlohmann::json forecast_json(const Forecast& forecast) {
   return result;
 }
 
-void print_forecast(const nlohmann::json& forecast) {
-  fmt::print("  run time: {:.3g} s, {} windows, {:.0f} MB, without writing results; most in {}\n",
-             forecast["seconds"].get<double>(), forecast["windows"].get<long>(),
-             forecast["peak_memory"].get<double>() / 1e6, forecast["most_in"].get<std::string>());
-  for (const auto& [part, seconds] : forecast["seconds_by_part"].items()) {
-    fmt::print("    {:<24} {:>10.3g} s\n", part, seconds.get<double>());
-  }
-  const auto& trial = forecast["trial"];
-  if (!trial["is_whole"].get<bool>()) {
-    fmt::print("    from a trial to t = {:.3g} s, {:.1f} s long\n", trial["time"].get<double>(),
-               trial["seconds"].get<double>());
-  }
-  if (forecast.contains("crack_length")) {
-    fmt::print("    for a crack that gets {:.3g} m long\n",
-               forecast["crack_length"]["value"].get<double>());
-  }
-  if (forecast.contains("failure")) {
-    fmt::print("  warning: a run stops: {}\n", forecast["failure"].get<std::string>());
-  }
-}
-
-void print(const nlohmann::json& result) {
-  const auto& counts = result["counts"];
-  fmt::print("{}: {}\n", result["scene"].get<std::string>(),
-             result.contains("links") ? "fine" : "its keys are fine; it was not built");
-  for (const auto& effect : result["effects"]) fmt::print("  {}\n", effect.get<std::string>());
-  for (const auto& line : result.value("read", nlohmann::json::array())) {
-    fmt::print("  {}\n", line.get<std::string>());
-  }
-  for (const auto& link : result.value("links", nlohmann::json::array())) {
-    fmt::print("  link {}\n", link.get<std::string>());
-  }
-  const auto loops = result.value("bond_loops", nlohmann::json::object());
-  for (const auto& [name, path] : loops.items()) {
-    fmt::print("  bonds of {}: {}\n", name, path.get<std::string>());
-  }
-  if (result.contains("instructions")) {
-    fmt::print("  instructions: {}\n", result["instructions"].get<std::string>());
-  }
-  if (result.contains("family_bytes")) {
-    fmt::print("  {} points, {} ghosts, {} bonds ({} kB)\n", counts["points"].get<long>(),
-               counts["ghosts"].get<long>(), counts["bonds"].get<long>(),
-               result["family_bytes"].get<long>() / 1000);
-  }
-  for (const auto& [name, count] : counts.items()) {
-    if (name.ends_with("_points")) fmt::print("  {} {}\n", count.get<long>(), name);
-  }
-  for (const auto& array : result.value("arrays", nlohmann::json::array())) {
-    fmt::print("  {:<48} {:>10} values {:>12} bytes\n", array["name"].get<std::string>(),
-               array["count"].get<long>(), array["bytes"].get<long>());
-  }
-  if (result.contains("regime")) print_regime(result["regime"]);
-  if (result.contains("forecast")) print_forecast(result["forecast"]);
-  for (const auto& warning : result["warnings"]) {
-    fmt::print("  warning: {}\n", warning.get<std::string>());
-  }
-}
-
 /// What is known of a scene without building it, where that takes more memory than there is.
 nlohmann::json unbuilt(const Section& scene, const MemoryEstimate& estimate) {
   return {{"effects", effects(scene)},
@@ -190,6 +124,7 @@ nlohmann::json built(const CheckRequest& request, const Section& scene) {
   mistakes.note([&] { outputs = read_output_times(scene.at("output"), scene.number("time.end")); });
   mistakes.throw_if_any();
   CouplingManager& manager = *simulation.manager;
+  if (!request.picture.empty()) draw_setup(scene, simulation, request.picture);
   const Recorder recorder(scene, "", simulation);
   ArrayList list;
   manager.visit_state(list);
@@ -235,6 +170,7 @@ nlohmann::json built_if_it_fits(const CheckRequest& request, const Section& scen
   const auto estimate = estimate_memory(scene);
   const auto warn = [&](nlohmann::json result, const std::string& what) {
     result["warnings"].push_back(what);
+    if (!request.picture.empty()) result["warnings"].push_back("no picture: nothing was built");
     return result;
   };
   if (estimate && estimate->bytes > available) {
@@ -255,17 +191,19 @@ nlohmann::json built_if_it_fits(const CheckRequest& request, const Section& scen
 }  // namespace
 
 int check_scene(const CheckRequest& request) {
+  if (!request.picture.empty()) check_picture_name(request.picture);
   load_outside_modules(request.scene, request.overrides);
   const Section scene = read_scene(request.scene, request.overrides, scene_catalogue());
   nlohmann::json result = built_if_it_fits(request, scene);
   result["scene"] = request.scene;
+  if (scene.has("title")) result["title"] = scene.text("title");
   if (const auto estimate = estimate_memory(scene)) {
     result["memory"] = {{"estimate", estimate->bytes}, {"available", available_memory()}};
   }
   if (request.json) {
     fmt::print("{}", json_text(result));
   } else {
-    print(result);
+    print_check(result, request.arrays);
   }
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/references/reference_types.hpp"
+#include "app/run/frame_geometry.hpp"
 #include "app/run/version.hpp"
 #include "core/profile/profile.hpp"
 #include "core/state/finite_check.hpp"
@@ -133,7 +134,7 @@ void Recorder::write_frames(double time) {
       points = &field.points();
       shown.push_back({field.port.name, field.port.unit, field.port.components, field.values()});
     }
-    series.write(time, *points, shown);
+    series.write(time, *points, shown, frame_geometry(simulation_.body, *points));
   }
 }
 

@@ -8,10 +8,9 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/rock.hpp"
-#include "app/run/scene_keys.hpp"
+#include "app/run/written_keys.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/body/crack_list.hpp"
-#include "core/config/key_tree.hpp"
 #include "modules/solid/fracture/damage_keys.hpp"
 #include "modules/solid/material/stress_at_rest.hpp"
 
@@ -35,32 +34,16 @@ std::string quantity(const Section& scene, const Key& key, const std::string& pa
   return fmt::format("({:.6g}) {}", fmt::join(scene.numbers(path), ", "), unit);
 }
 
-bool holds(const Section& scene, const Key& key, const std::string& parent) {
-  if (key.when.empty()) return true;
-  const KeyCondition condition = parse_condition(key.when);
-  const std::string deciding = join_path(parent, condition.name);
-  return scene.has(deciding) && std::ranges::count(condition.words, scene.word(deciding)) > 0;
-}
-
-/// What is written below a path and has a unit, places apart.
-void append_quantities(const Section& scene, const KeyNode& node, const std::string& path,
-                       std::size_t prefix, std::vector<std::string>& read) {
-  for (const std::string& name : scene.names(path)) {
-    const KeyNode* child = node.child(name);
-    const std::string below = join_path(path, name);
-    if (child->declarations.empty()) append_quantities(scene, *child, below, prefix, read);
-    for (const auto& [key, type] : child->declarations) {
-      const bool is_quantity = key.type == KeyType::number || key.type == KeyType::vector ||
-                               key.type == KeyType::numbers;
-      const bool of_type = type.empty() || type == scene.word(path.substr(0, prefix - 1) + ".type");
-      if (!is_quantity || key.unit.empty() || key.unit == "m" || key.unit == "s" || !of_type ||
-          !holds(scene, key, path)) {
-        continue;
-      }
-      read.push_back(below.substr(prefix) + " " + quantity(scene, key, below));
-      break;
-    }
-  }
+/// What is written in a section and has a unit, places apart.
+std::vector<std::string> quantities(const Section& scene, const std::string& section) {
+  std::vector<std::string> read;
+  for_each_written(scene, section, [&](const std::string& path, const Key& key) {
+    const bool is_quantity =
+        key.type == KeyType::number || key.type == KeyType::vector || key.type == KeyType::numbers;
+    if (!is_quantity || key.unit.empty() || key.unit == "m" || key.unit == "s") return;
+    read.push_back(path.substr(section.size() + 1) + " " + quantity(scene, key, path));
+  });
+  return read;
 }
 
 std::string in_megapascal(const std::vector<double>& stress) {
@@ -122,14 +105,12 @@ std::string describe_toughness(const Section& scene) {
 }  // namespace
 
 std::vector<std::string> what_was_read(const Section& scene, const Simulation& simulation) {
-  static const KeyNode keys = build_key_tree(scene_catalogue());
   std::vector<std::string> lines;
   for (const std::string section : sections) {
-    std::vector<std::string> read;
-    if (writes(scene, section)) {
-      append_quantities(scene, *keys.child(section), section, section.size() + 1, read);
+    if (!writes(scene, section)) continue;
+    if (const auto read = quantities(scene, section); !read.empty()) {
+      lines.push_back(fmt::format("read {}: {}", section, fmt::join(read, ", ")));
     }
-    if (!read.empty()) lines.push_back(fmt::format("read {}: {}", section, fmt::join(read, ", ")));
   }
   if (!has_elastic_rock(scene)) return lines;
   if (const auto stated = read_stated_stress(scene)) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
@@ -62,7 +63,28 @@ void write_field(Hdf5Writer& file, const FrameField& field, std::size_t count) {
   file.write_attribute(name, "units", field.unit);
 }
 
-std::string make_frame(double time, const PointSet& points, std::span<const FrameField> fields) {
+void write_what_points_are(Hdf5Writer& file, const PointSet& points,
+                           const FrameGeometry& geometry) {
+  file.create_group("geometry");
+  const std::array dimension{static_cast<std::int64_t>(points.dimension)};
+  file.write_attribute("geometry", "dimension", dimension);
+  if (!geometry.volume.empty()) {
+    file.write<double>("geometry/volume", geometry.volume);
+    file.write_attribute("geometry/volume", "units", points.dimension == 2 ? "m^2" : "m^3");
+  }
+  if (!geometry.region.empty()) {
+    file.write<std::uint8_t>("geometry/region", geometry.region);
+    file.write_attribute("geometry/region", "names",
+                         fmt::format("{}", fmt::join(geometry.regions, "\n")));
+  }
+  if (!geometry.corners.empty()) {
+    file.write<double>("geometry/corners", geometry.corners, 3 * geometry.corners_a_facet);
+    file.write_attribute("geometry/corners", "units", "m");
+  }
+}
+
+std::string make_frame(double time, const PointSet& points, std::span<const FrameField> fields,
+                       const FrameGeometry& geometry) {
   Hdf5Writer file;
   write_geometry(file, points);
   const std::array version{std::int64_t{1}, std::int64_t{0}};
@@ -73,6 +95,7 @@ std::string make_frame(double time, const PointSet& points, std::span<const Fram
   for (const FrameField& field : fields) {
     write_field(file, field, points.count);
   }
+  write_what_points_are(file, points, geometry);
   return file.bytes();
 }
 
@@ -108,9 +131,10 @@ void FrameSeries::cut_back(double restart_time) {
   }
 }
 
-void FrameSeries::write(double time, const PointSet& points, std::span<const FrameField> fields) {
+void FrameSeries::write(double time, const PointSet& points, std::span<const FrameField> fields,
+                        const FrameGeometry& geometry) {
   const std::string name = fmt::format("{}_{:06}.hdf", point_set_, frames_.size());
-  write_atomically(folder_ / name, make_frame(time, points, fields));
+  write_atomically(folder_ / name, make_frame(time, points, fields, geometry));
   frames_.push_back({name, time});
   write_series();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -18,6 +19,16 @@ struct FrameField {
   std::span<const double> values;
 };
 
+/// What points stand for. It lies beside VTK's own groups, in `geometry`, for who shows points as
+/// the cells and facets that they are.
+struct FrameGeometry {
+  std::vector<double> volume{};        ///< [m^D] of every point, or one of all; empty: unknown
+  std::vector<std::uint8_t> region{};  ///< of every point: 1 + place in `regions`; 0: in none
+  std::vector<std::string> regions{};  ///< names
+  std::vector<double> corners{};       ///< of every facet, going round [m], three coordinates
+  std::size_t corners_a_facet = 0;
+};
+
 /// The frames of one point set, one file a time (VTKHDF 1.0, an UnstructuredGrid of vertices), and
 /// the list of their times that ParaView opens: DIR/frames/NAME_000000.hdf, ... and
 /// DIR/frames/NAME.hdf.series. At any moment the list names whole files only.
@@ -31,7 +42,8 @@ class FrameSeries {
 
   /// Writes the frame of `time` [s]. In 2D the third coordinate, and the third component of a
   /// vector, is 0. The number of points may change between frames. Throws OutputError.
-  void write(double time, const PointSet& points, std::span<const FrameField> fields);
+  void write(double time, const PointSet& points, std::span<const FrameField> fields,
+             const FrameGeometry& geometry = {});
 
   /// Of the last frame [s]; nothing before the first.
   std::optional<double> last_time() const {

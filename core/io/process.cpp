@@ -1,8 +1,10 @@
 #include "core/io/process.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -22,16 +24,31 @@ void open_as(int descriptor, const char* path, int flags) {
   if (opened >= 0 && opened != descriptor) dup2(opened, descriptor);
 }
 
+/// A file of this text in memory, read from its begin; -1: none.
+int open_text(const std::string& text) {
+  if (text.empty()) return -1;
+  const int file = memfd_create("input", MFD_CLOEXEC);
+  for (std::size_t done = 0; file >= 0 && done < text.size();) {
+    const ssize_t count = write(file, text.data() + done, text.size() - done);
+    if (count < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category());
+    done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+  }
+  if (file < 0) throw std::system_error(errno, std::generic_category());
+  lseek(file, 0, SEEK_SET);
+  return file;
+}
+
 /// Turns this copy of ours into the program; tells `failure` what hinders it. Nothing in here takes
 /// memory or locks: other threads may have been in the middle of that.
-[[noreturn]] void become(const ProcessCommand& command, char* const* arguments, pid_t parent,
-                         int failure) {
+[[noreturn]] void become(const ProcessCommand& command, char* const* arguments, int input,
+                         pid_t parent, int failure) {
   if (command.own_group) setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   sigset_t none;  // of ours are held back, and would be of the program
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   if (getppid() != parent) _exit(1);  // it ended before it could matter
+  if (input >= 0) dup2(input, STDIN_FILENO);
   if (command.quiet) open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
   if (!command.log.empty()) {
     open_as(STDERR_FILENO, command.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
@@ -49,14 +66,16 @@ Process::Process(const ProcessCommand& command) : own_group_(command.own_group) 
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  const int input = open_text(command.input);
   // Closes by itself where the program takes over: what comes through is why it did not.
   int failure[2];
   if (pipe2(failure, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ == 0) become(command, arguments.data(), parent, failure[1]);
+  if (pid_ == 0) become(command, arguments.data(), input, parent, failure[1]);
   int error = pid_ < 0 ? errno : 0;
   close(failure[1]);
+  if (input >= 0) close(input);
   if (pid_ > 0 && read(failure[0], &error, sizeof error) == sizeof error) {
     waitpid(pid_, nullptr, 0);
   }

@@ -12,6 +12,7 @@ namespace perifrac {
 struct ProcessCommand {
   std::vector<std::string> words;
   std::filesystem::path log{};  ///< where standard errors go; empty: where ours go
+  std::string input{};          ///< its standard input; empty: ours
   bool quiet = false;           ///< standard output goes nowhere, else where ours goes
   /// The process leads a group of its own: a key on the terminal does not reach it, our signals
   /// reach whatever it started too.
