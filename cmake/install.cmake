@@ -59,7 +59,7 @@ endforeach()
 set(share ${CMAKE_INSTALL_DATADIR}/perifrac)
 install(DIRECTORY configs DESTINATION ${share} COMPONENT program)
 install(DIRECTORY app/writing/templates DESTINATION ${share}/app/writing COMPONENT program)
-install(DIRECTORY docs/example_module docs/example_material DESTINATION ${share}/docs COMPONENT program)
+install(DIRECTORY docs/example_module docs/example_material docs/mesh_to_points DESTINATION ${share}/docs COMPONENT program)
 install(DIRECTORY app/report DESTINATION ${share}/app COMPONENT program
         PATTERN "*.?pp" EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN README.md EXCLUDE)
 install(DIRECTORY app/study/drawing DESTINATION ${share}/app/study COMPONENT program

@@ -58,13 +58,14 @@ std::optional<FileFacts> frame_facts(const std::filesystem::path& file) {
     fields[name] = {{"components", points > 0 ? count / points : 0},
                     {"unit", reader.read_text_attribute(path, "units")}};
   }
-  return FileFacts{.what = "frame",
-                   .facts = {{"time",
-                              {{"value", reader.read<double>("VTKHDF/FieldData/TimeValue").at(0)},
-                               {"unit", "s"}}},
-                             {"points", points},
-                             {"fields", fields},
-                             {"use", "ParaView 5.11 or later opens the .hdf.series beside it"}}};
+  return FileFacts{
+      .what = "frame",
+      .facts = {
+          {"time",
+           {{"value", reader.read<double>("VTKHDF/FieldData/TimeValue").at(0)}, {"unit", "s"}}},
+          {"points", points},
+          {"fields", fields},
+          {"use", "perifrac export; ParaView 5.11 or later opens the .hdf.series beside it"}}};
 }
 
 }  // namespace perifrac

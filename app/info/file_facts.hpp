@@ -20,6 +20,7 @@ std::optional<FileFacts> checkpoint_facts(const std::filesystem::path& file);
 std::optional<FileFacts> frame_facts(const std::filesystem::path& file);
 std::optional<FileFacts> frame_list_facts(const std::filesystem::path& file);
 std::optional<FileFacts> history_facts(const std::filesystem::path& file);
+std::optional<FileFacts> exported_facts(const std::filesystem::path& file);
 std::optional<FileFacts> summary_facts(const std::filesystem::path& file);
 std::optional<FileFacts> study_facts(const std::filesystem::path& file);
 std::optional<FileFacts> drawing_facts(const std::filesystem::path& file);

@@ -46,15 +46,15 @@ fs::path file_of(const fs::path& path) {
 
 FileFacts facts_of(const fs::path& file) {
   using Kind = std::optional<FileFacts> (*)(const fs::path&);
-  constexpr std::array<Kind, 8> kinds = {checkpoint_facts, frame_facts,   frame_list_facts,
-                                         history_facts,    summary_facts, study_facts,
-                                         drawing_facts,    scene_facts};
+  constexpr std::array<Kind, 9> kinds = {checkpoint_facts, frame_facts,    frame_list_facts,
+                                         history_facts,    exported_facts, summary_facts,
+                                         study_facts,      drawing_facts,  scene_facts};
   for (const Kind kind : kinds) {
     if (auto facts = kind(file)) return std::move(*facts);
   }
   throw InputError(
       fmt::format("{}: not a file that perifrac wrote; expected a checkpoint_*.h5, frame .hdf, "
-                  ".hdf.series, history.csv, summary.json, scene, report or study",
+                  ".hdf.series, history.csv, summary.json, exported frame, scene, report or study",
                   printable(file.string())));
 }
 

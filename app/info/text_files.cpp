@@ -39,6 +39,27 @@ std::pair<std::string, std::string> name_and_unit(const std::string& cell) {
   return {cell.substr(0, open), cell.substr(open + 2, cell.size() - open - 3)};
 }
 
+/// Their names and units, by a table's first line.
+Json columns_of(const std::string& line) {
+  Json columns = Json::object();
+  for (const std::string& cell : cells_of(line)) {
+    const auto [name, unit] = name_and_unit(cell);
+    columns[name] = {{"unit", unit}};
+  }
+  return columns;
+}
+
+/// What stands in quotes behind every `key="` of a text of XML.
+std::vector<std::string> quoted(const std::string& text, const std::string& key) {
+  std::vector<std::string> found;
+  const std::string start = key + "=\"";
+  for (auto at = text.find(start); at != std::string::npos; at = text.find(start, at)) {
+    at += start.size();
+    found.push_back(text.substr(at, text.find('"', at) - at));
+  }
+  return found;
+}
+
 bool is_one_of(const std::string& name, std::span<const std::string_view> names) {
   return std::ranges::find(names, name) != names.end();
 }
@@ -50,11 +71,7 @@ std::optional<FileFacts> history_facts(const fs::path& file) {
   std::istringstream table(InputFile(file, "a history.csv of a run").read(std::string::npos));
   std::string line, first, last;
   std::getline(table, line);
-  Json columns = Json::object();
-  for (const std::string& cell : cells_of(line)) {
-    const auto [name, unit] = name_and_unit(cell);
-    columns[name] = {{"unit", unit}};
-  }
+  Json columns = columns_of(line);
   std::size_t rows = 0;
   while (std::getline(table, line) && !table.eof()) {  // one without an end was cut off
     if (rows++ == 0) first = line;
@@ -89,6 +106,37 @@ std::optional<FileFacts> frame_list_facts(const fs::path& file) {
   }
   Json facts = {{"frames", frames.size()}, {"missing", missing}, {"list", frames}};
   return FileFacts{.what = "list of frames", .facts = facts};
+}
+
+std::optional<FileFacts> exported_facts(const fs::path& file) {
+  const std::string extension = file.extension();
+  if (extension == ".csv" && beginning(file, 12) == "x [m],y [m],") {
+    std::istringstream table(InputFile(file, "a table of a frame").read(std::string::npos));
+    std::string line;
+    std::getline(table, line);
+    Json facts = {{"points", 0}, {"columns", columns_of(line)}};
+    while (std::getline(table, line)) facts["points"] = facts["points"].get<int>() + 1;
+    return FileFacts{.what = "frame as a table", .facts = facts};
+  }
+  if (extension != ".vtu" && extension != ".pvd") return {};
+  const std::string text = InputFile(file, "a file of VTK's XML").read(std::string::npos);
+  if (extension == ".pvd" && text.find("type=\"Collection\"") != std::string::npos) {
+    const auto files = quoted(text, "file");
+    return FileFacts{.what = "list of exported frames",
+                     .facts = {{"frames", files.size()}, {"list", files}, {"use", "ParaView"}}};
+  }
+  const auto points = quoted(text, "NumberOfPoints"), cells = quoted(text, "NumberOfCells");
+  const auto data = text.find("<CellData>");
+  if (points.size() != 1 || cells.size() != 1 || data == std::string::npos) return {};
+  Json fields = Json::object();
+  for (const std::string& name : quoted(text.substr(data), " Name")) {
+    fields[name_and_unit(name).first] = {{"unit", name_and_unit(name).second}};
+  }
+  return FileFacts{.what = "frame as cells",
+                   .facts = {{"corners", std::stoul(points[0])},
+                             {"cells", std::stoul(cells[0])},
+                             {"fields", fields},
+                             {"use", "ParaView, or whatever reads VTU"}}};
 }
 
 std::optional<FileFacts> summary_facts(const fs::path& file) {
@@ -145,7 +193,8 @@ std::optional<FileFacts> drawing_facts(const fs::path& file) {
   static constexpr std::array<std::string_view, 3> studies = {"study.png", "study.svg",
                                                               "study.html"};
   const bool is_page = file.extension() == ".html";
-  if (is_one_of(file.filename(), reports)) {
+  if (is_one_of(file.filename(), reports) ||
+      (is_page && file.filename().string().starts_with("compared_with_"))) {
     auto run = summary_facts(file.parent_path() / "summary.json");
     if (run) run->what = is_page ? "page about a run" : "picture of a run";
     return run;

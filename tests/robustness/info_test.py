@@ -44,6 +44,18 @@ class Info(RunTest):
         self.assertEqual(kinds["list of frames"]["missing"], 0)
         self.assertEqual(kinds["summary of a run"]["instructions"], summary["build"]["instructions"])
         self.assertEqual(self.info(run)["what"], "summary of a run")
+        self.assertEqual(perifrac("export", run, "--frame", "first").returncode, 0)
+        self.assertEqual(perifrac("export", run, "--frame", "first", "--to", "csv").returncode, 0)
+        for name, what in (("body.pvd", "list of exported frames"), ("body_000000.vtu", "frame as cells"),
+                           ("body_000000.csv", "frame as a table")):
+            self.assertEqual(self.info(run / "export" / name)["what"], what)
+        cells, table = (self.info(run / "export" / f"body_000000.{kind}") for kind in ("vtu", "csv"))
+        self.assertEqual((cells["cells"], table["points"]), (points, points))
+        self.assertEqual(cells["fields"]["pore_pressure"], {"unit": "Pa"})
+        self.assertEqual(table["columns"]["effective_stress xy"], {"unit": "Pa"})
+        self.assertEqual(cells["title"], summary["scene"]["title"])
+        self.assertEqual(perifrac("report", run, run).returncode, 0)
+        self.assertEqual(self.info(run / "compared_with_run.html")["what"], "page about a run")
         next((run / "frames").glob("*_000000.hdf")).unlink()
         self.assertEqual(self.info(run / "frames" / "body.hdf.series")["missing"], 1)
 
