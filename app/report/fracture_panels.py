@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D
 
 from crack_path import CrackPath, crack_path
 from frames import spacing
-from quantities import display_for, quantity
+from quantities import Display, display_for, quantity
 from run import Run
 
 INK, FAINT = "#1c2733", "#5b6875"
@@ -53,6 +53,11 @@ class Fracture:
     @property
     def pressure(self) -> np.ndarray | None:
         return self.crack.fields.get("crack_pressure")
+
+    @property
+    def length(self) -> Display:
+        """How places are shown: the window's largest coordinate decides."""
+        return display_for("m", float(np.abs(window(self)).max()))
 
     @property
     def is_open(self) -> np.ndarray:
@@ -110,15 +115,16 @@ def draw_rock(axes: Axes, fracture: Fracture, values: np.ndarray, factor: float,
     low, high = window(fracture)
     edge = spacing(fracture.rock.points)
     inside = np.all((fracture.rock.points > low - edge) & (fracture.rock.points < high + edge), axis=1)
-    tiles = 1e3 * (fracture.rock.points[inside, None, :] + edge * corners)
+    tiles = fracture.length.factor * (fracture.rock.points[inside, None, :] + edge * corners)
     squares = PolyCollection(list(tiles), array=factor * values[inside], cmap=colours, edgecolors="face",
                              linewidths=0.3, rasterized=True)  # fmt: skip
     squares.set_clim(*limits)
     axes.add_collection(squares)
-    axes.set(xlim=1e3 * np.array([low[0], high[0]]), ylim=1e3 * np.array([low[1], high[1]]))
+    shown = fracture.length
+    axes.set(xlim=shown.factor * np.array([low[0], high[0]]), ylim=shown.factor * np.array([low[1], high[1]]))
     axes.set_aspect("equal", anchor="NW")
     axes.grid(False)
-    axes.set(xlabel="x [mm]", ylabel="y [mm]")
+    axes.set(xlabel=f"x [{shown.unit}]", ylabel=f"y [{shown.unit}]")
     return squares
 
 
@@ -127,7 +133,7 @@ def draw_cracks(axes: Axes, fracture: Fracture, colour_of=None) -> None:
     pairs = fracture.path.pairs
     if len(pairs) == 0:
         return
-    lines = 1e3 * fracture.crack.points[pairs]
+    lines = fracture.length.factor * fracture.crack.points[pairs]
     is_open = fracture.is_open[pairs].all(axis=1)
     closed = LineCollection(list(lines[~is_open]), colors=INK, linewidths=THINNEST, linestyles=(0, (1, 1)), zorder=4)
     axes.add_collection(closed)
@@ -172,7 +178,7 @@ def pore_panel(fracture: Fracture) -> Panel:
 
         draw_cracks(axes, fracture, colours if inside else None)
         if free is not None:
-            axes.scatter(*(1e3 * fracture.fluid.points.T), c=fluid.factor * free, cmap=FLUID, norm=norm, s=9,
+            axes.scatter(*(fracture.length.factor * fracture.fluid.points.T), c=fluid.factor * free, cmap=FLUID, norm=norm, s=9,
                          edgecolors="white", linewidths=0.3, zorder=6)  # fmt: skip
         axes.set_title(f"Pressure in pores{', notch' if free is not None else ''} and crack at {time_of(fracture)}")
         draw_bar(axes, rock, 1.02, f"in the pores [{pore.unit}]")
@@ -211,10 +217,11 @@ def along_panel(fracture: Fracture) -> Panel:
     def draw(axes: Axes) -> None:
         known = np.isfinite(fracture.path.along) & fracture.is_open
         order = np.flatnonzero(known)[np.argsort(fracture.path.along[known])]
-        x = 1e3 * fracture.path.along[order]
+        length = display_for("m", float(fracture.path.along[order].max(initial=0.0)))
+        x = length.factor * fracture.path.along[order]
         width = display_for("m", float(fracture.opening.max()))
         axes.plot(x, width.factor * fracture.opening[order], color="#0072B2", marker="o", markersize=3, linewidth=1.2)
-        axes.set(title=f"Along the crack at {time_of(fracture)}", xlabel="from its mouth [mm]")
+        axes.set(title=f"Along the crack at {time_of(fracture)}", xlabel=f"from its mouth [{length.unit}]")
         axes.set_ylabel(f"opening [{width.unit}]", color="#0072B2")
         axes.set_ylim(bottom=0)
         if fracture.pressure is None:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,13 +30,31 @@ struct ListedKey {
   KeyReference key;
   std::string path;  ///< from the top level
   Segments segments;
+  std::vector<std::string> types;  ///< of its section, under which it holds; empty: under all
 };
+
+/// Keys of other types of a section that mean the same are one.
+bool says_the_same(const ListedKey& one, const ListedKey& other) {
+  const auto about = [](const KeyReference& key) {
+    return std::tie(key.meaning, key.kind, key.words, key.unit, key.range, key.fallback,
+                    key.required, key.when);
+  };
+  return one.path == other.path && about(one.key) == about(other.key);
+}
 
 std::vector<ListedKey> all_keys() {
   std::vector<ListedKey> keys;
   for (const KeyReference& key : list_keys(scene_catalogue())) {
     const std::string path = join_path(key.section, key.path);
-    keys.push_back({key, path, path_segments(path)});
+    ListedKey listed{key, path, path_segments(path), {}};
+    if (!key.type.empty()) listed.types.push_back(key.type);
+    const auto same = std::ranges::find_if(
+        keys, [&](const ListedKey& other) { return says_the_same(listed, other); });
+    if (same == keys.end()) {
+      keys.push_back(std::move(listed));
+    } else {
+      same->types.push_back(key.type);
+    }
   }
   return keys;
 }
@@ -69,11 +88,11 @@ bool writes(const YamlNode& node, std::span<const std::string> segments) {
   });
 }
 
-bool has_type(const YamlNode& scene, const KeyReference& key) {
-  if (key.type.empty()) return true;
-  const YamlNode* section = scene.child(key.section);
+bool has_type(const YamlNode& scene, const ListedKey& listed) {
+  if (listed.types.empty()) return true;
+  const YamlNode* section = scene.child(listed.key.section);
   const YamlNode* type = section != nullptr ? section->child("type") : nullptr;
-  return type != nullptr && type->text == key.type;
+  return type != nullptr && std::ranges::count(listed.types, type->text) > 0;
 }
 
 using Scenes = std::vector<std::pair<std::string, YamlNode>>;
@@ -94,7 +113,7 @@ Scenes shipped_scenes() {
 std::string used_in(const ListedKey& listed, const Scenes& scenes) {
   std::vector<std::string> names;
   for (const auto& [name, scene] : scenes) {
-    if (has_type(scene, listed.key) && writes(scene, listed.segments)) names.push_back(name);
+    if (has_type(scene, listed) && writes(scene, listed.segments)) names.push_back(name);
   }
   const std::size_t shown = std::min(names.size(), most_scenes);
   std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + shown, ", "));
@@ -117,7 +136,9 @@ void print(const ListedKey& listed, const Scenes& scenes) {
                                        key.unit.substr(key.unit.find('|') + 1)));
   print_line("range", key.range);
   print_line("default", key.required ? "none, it must be written" : key.fallback);
-  print_line("holds", key.type.empty() ? "" : fmt::format("{}.type={}", key.section, key.type));
+  print_line("holds", listed.types.empty()
+                          ? ""
+                          : fmt::format("{}.type={}", key.section, fmt::join(listed.types, "|")));
   print_line("only with", key.when);
   print_line("used by", used_in(listed, scenes));
 }

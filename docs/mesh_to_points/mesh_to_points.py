@@ -13,7 +13,7 @@ SIMPLICES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "tetra": [
              [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]]}
 D = 3 if {"tetra", "hexahedron"} & set(mesh.cells_dict) else 2  # plane cells beside those of a solid are its faces
 tags = mesh.cell_data_dict.get("gmsh:physical") or mesh.cell_data_dict.get("region", {})
-named = {int(tag): word for word, (tag, _) in mesh.field_data.items()}
+named = {int(about[0]): word for word, about in mesh.field_data.items() if len(about) == 2}
 rows, groups = [], {}
 for kind in ("triangle", "quad") if D == 2 else ("tetra", "hexahedron"):
     for place, cell in enumerate(mesh.cells_dict.get(kind, [])):

@@ -42,7 +42,8 @@ class MeshToPoints(unittest.TestCase):
 
     def scene(self, mesh, name, dimension=2, volumes="file", **how):
         """What the script prints, as a scene; and what check says of it."""
-        mesh.write(self.folder / name, **how)
+        if mesh is not None:
+            mesh.write(self.folder / name, **how)
         said = subprocess.run(["/usr/bin/python3", SCRIPT, name, "rock"], cwd=self.folder, check=True, text=True,
                               capture_output=True).stdout
         (self.folder / "scene.yaml").write_text(said + REST.format(dimension, HELD[dimension]))
@@ -83,6 +84,14 @@ class MeshToPoints(unittest.TestCase):
         self.assertIn("region_1: {from: [0.0, 0.5]", said)
         self.assertNotIn("cracks", said)
         self.assertIn("400 points", check)
+
+    def test_what_export_writes(self):
+        subprocess.run([PERIFRAC, "run", "--example", "layered_column", "--until", "1 s", "--no-report", "--output", "run"],
+                       cwd=self.folder, check=True, capture_output=True)
+        subprocess.run([PERIFRAC, "export", "run"], cwd=self.folder, check=True, capture_output=True)
+        said, check = self.scene(None, "run/export/body_000001.vtu")
+        self.assertIn("region_1: {from: [0.0, 30.0]", said)
+        self.assertIn("200 points", check)
 
     def test_solid(self):
         axis = np.arange(6)

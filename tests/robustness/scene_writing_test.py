@@ -80,6 +80,8 @@ class Explain(unittest.TestCase):
         said = self.said("crack_fluid.inlets[0].holds")
         self.assertIn("choices   rate, pressure, fluid", said)
         self.assertIn("default   rate", said)
+        self.assertIn("holds     crack_fluid.type=network|uniform_pressure", said)
+        self.assertEqual(said.count("crack_fluid.inlets[].holds\n"), 1, "what holds under two types is told once")
         self.assertIn("only with type=pressure", self.said("pore_flow.boundary.top.pressure"))
 
     def test_finds_a_key_by_its_end_and_lists_a_section(self):

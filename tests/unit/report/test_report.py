@@ -17,6 +17,7 @@ from pathlib import Path
 
 import h5py
 import matplotlib.image
+import matplotlib.pyplot as plt
 import numpy as np
 
 import fractured_run
@@ -28,6 +29,7 @@ sys.path.insert(0, str(REPORT))
 
 import charts  # noqa: E402
 import chunks  # noqa: E402
+import fracture_panels  # noqa: E402
 import page  # noqa: E402
 import quantities  # noqa: E402
 from crack_paths import crack_paths  # noqa: E402
@@ -340,6 +342,28 @@ class Sizes(ReportTest):
         damage = shown.numbers(shown.sets["body"]["frames"][-1]["values"]["damage"])
         self.assertTrue(((damage > 0.05) & (damage < 0.95)).any(), "means")
         self.assertEqual(damage.size, 20**3)
+
+
+class Fractures(ReportTest):
+    """Axes suit a specimen and a field alike."""
+
+    def labels(self, spacing: float) -> tuple[list[str], float]:
+        folder = self.folder / f"{spacing}"
+        fractured_run.write_run(folder, spacing=spacing)
+        figure, drawn = plt.subplots(1, 2)
+        for axes, panel in zip(drawn, fracture_panels.fracture_panels(read_run(folder))):
+            panel(axes)
+        found = [axes.get_xlabel() for axes in drawn], drawn[0].get_xlim()[1]
+        plt.close(figure)
+        return found
+
+    def test_lengths_are_in_the_unit_that_suits(self) -> None:
+        names, right = self.labels(5e-4)
+        self.assertEqual(names, ["x [mm]", "from its mouth [mm]"])
+        self.assertTrue(1 < right <= 10, right)
+        names, right = self.labels(4.0)
+        self.assertEqual(names, ["x [m]", "from its mouth [m]"])
+        self.assertTrue(10 < right <= 80, right)
 
 
 class Packed(unittest.TestCase):
