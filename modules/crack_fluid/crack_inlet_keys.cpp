@@ -32,7 +32,7 @@ KeyTable well_keys() {
       {.path = "wells[].thickness",
        .unit = "m",
        .range = "(0, inf)",
-       .meaning = "2D, beside perforations: of the rock that the section stands for. What "
+       .meaning = "2D, beside perforations: of how thick a slice of rock the rate is. What "
                   "goes through a cluster is its rate times this."},
       {.path = "wells[].clusters[].name",
        .type = KeyType::text,
@@ -55,7 +55,7 @@ KeyTable well_keys() {
       {.path = "wells[].clusters[].discharge_coefficient",
        .range = "(0, 1]",
        .fallback = "0.8",
-       .meaning = "C: some 0.6 of new perforations, 0.9 of eroded ones."}};
+       .meaning = "C of its perforations: some 0.6 when new, 0.9 when eroded."}};
   append(keys, schedule_keys("wells[]."));
   return keys;
 }

@@ -51,7 +51,8 @@ class CrackRun {
         bonds_(body_->claim_bond_state()),
         module_(std::make_unique<CrackFluid<2>>(
             body_, liquid, flow ? std::move(flow) : std::make_unique<Lubrication>(liquid),
-            CrackInlets(std::move(inlets), liquid, std::move(wells)), std::move(fillings), std::move(leak_off))) {
+            CrackInlets(std::move(inlets), liquid, std::move(wells)), std::move(fillings),
+            std::move(leak_off))) {
     module_->initialize(0.0);
   }
 
