@@ -23,9 +23,11 @@ KgdProblem read_kgd(const Section& scene) {
   require_word(scene, kgd_problem, "solid.boundary.left.type", {"roller"});
   require_word(scene, kgd_problem, "crack_fluid.leak_off", {"none"});
   require_word(scene, kgd_problem, "crack_fluid.counts", {"both"});
-  require_absent(scene, kgd_problem, {"pore_flow", "solid.regions", "damage.regions", "gravity"});
+  require_absent(
+      scene, kgd_problem,
+      {"pore_flow", "solid.regions", "damage.regions", "solid.stress_gradient", "gravity"});
   if (!writes(scene, "damage") || scene.count("crack_fluid.inlets") != 1 ||
-      !scene.has("crack_fluid.inlets[0].rate")) {
+      scene.count("crack_fluid.wells") > 0 || !scene.has("crack_fluid.inlets[0].rate")) {
     scene.fail("reference.type", "this scene is not " + kgd_problem,
                "damage, and one inlet with a rate");
   }

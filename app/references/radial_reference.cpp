@@ -61,8 +61,9 @@ RadialProblem read_radial(const Section& scene) {
   require_word(scene, radial_problem, "body.shape", {"box"});
   require_word(scene, radial_problem, "solid.type", {"quasi_static"});
   require_word(scene, radial_problem, "crack_fluid.leak_off", {"none"});
-  require_absent(scene, radial_problem,
-                 {"pore_flow", "solid.regions", "damage.regions", "gravity"});
+  require_absent(
+      scene, radial_problem,
+      {"pore_flow", "solid.regions", "damage.regions", "solid.stress_gradient", "gravity"});
   if (!writes(scene, "damage") || scene.count("crack_fluid.inlets") != 1 ||
       scene.count("crack_fluid.wells") > 0 || !scene.has("crack_fluid.inlets[0].volume_rate")) {
     scene.fail("reference.type", "this scene is not " + radial_problem,

@@ -52,7 +52,23 @@ std::string in_megapascal(const std::vector<double>& stress) {
   return fmt::format("({:.6g}) MPa", fmt::join(mega, ", "));
 }
 
-std::string describe(const StatedStress& stated) {
+/// By how much the stress grows with depth, and where it is as said.
+std::string growth_of(const StatedStress& stated) {
+  if (stated.gradient.empty()) return "";
+  std::vector<double> mega;
+  for (const double s : stated.gradient) mega.push_back(1e-6 * s);
+  return fmt::format("; at the height of {:.6g} m, and ({:.6g}) MPa more a metre below",
+                     stated.datum, fmt::join(mega, ", "));
+}
+
+std::string describe_at_datum(const StatedStress& stated) {
+  if (stated.pores_vary) {
+    const bool is_total = stated.key == "total_stress";
+    return fmt::format(
+        "stress at rest: {} {}, and a pore pressure that differs from place to place",
+        is_total ? "total" : "effective",
+        in_megapascal(is_total ? stated.total : stated.effective));
+  }
   const std::string pores = fmt::format("{:.6g} of {:.6g} MPa in the pores",
                                         stated.biot_coefficient, 1e-6 * stated.pore_pressure);
   if (stated.key == "total_stress") {
@@ -67,6 +83,10 @@ std::string describe(const StatedStress& stated) {
       "stress at rest: effective {}, with {} a total of {} where faces are held; "
       "solid.total_stress gives the total one",
       in_megapascal(stated.effective), pores, in_megapascal(stated.total));
+}
+
+std::string describe(const StatedStress& stated) {
+  return describe_at_datum(stated) + growth_of(stated);
 }
 
 /// The total stress across each crack.

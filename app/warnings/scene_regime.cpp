@@ -38,7 +38,7 @@ struct Mouth {
 bool drives_a_crack(const Section& scene) {
   return scene.integer("dimension") == 2 && writes(scene, "damage") &&
          scene.word("damage.type") == "energy_release" && writes(scene, "crack_fluid") &&
-         scene.count("crack_fluid.inlets") == 1 &&
+         scene.count("crack_fluid.inlets") == 1 && scene.count("crack_fluid.wells") == 0 &&
          scene.word("crack_fluid.inlets[0].holds") == "rate" &&
          scene.number("crack_fluid.inlets[0].rate") > 0.0;
 }
@@ -152,7 +152,7 @@ std::optional<SceneRegime> regime_of(const Section& scene, const Simulation& sim
   HydraulicFracture& fracture = regime.fracture;
   if (const auto stated = read_stated_stress(scene)) {
     for (int a = 0; a < 2; ++a) {
-      fracture.closing_stress += mouth.normal[a] * mouth.normal[a] * stated->total[a];
+      fracture.closing_stress += mouth.normal[a] * mouth.normal[a] * stated->total_at(a, inlet[1]);
     }
   }
   const std::string leak_off = scene.word("crack_fluid.leak_off");

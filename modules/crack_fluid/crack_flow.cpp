@@ -105,12 +105,12 @@ void CrackFlow::take_from(WellFlow& well, double dt) {
   const auto& openings = well.openings();
   const double mass = liquid_.density * dt;
   for (std::size_t a = 0; a < openings.size(); ++a) {
-    const auto& [f, resistance, rate, slope, lost] = openings[a];
-    const double brought = mass * rate;
+    const Index f = openings[a].facet;
+    const double brought = mass * openings[a].rate;
     inflow_[f] += brought;
     residual_[f] -= brought;
-    rounding_[f] +=
-        std::abs(brought) + mass * slope * (std::abs(well.pressure()) + std::abs(pressure_[f]));
+    rounding_[f] += std::abs(brought) +
+                    mass * openings[a].slope * (std::abs(well.pressure()) + std::abs(pressure_[f]));
     for (std::size_t b = 0; b < openings.size(); ++b) {
       by_pressure_.emplace_back(f, openings[b].facet, -mass * well.slope(a, b));
     }

@@ -29,10 +29,10 @@ KeyTable well_keys() {
       {.path = "wells[].volume_rate",
        .unit = "m^3/s",
        .meaning = "In 3D, in place of rate: the same."},
-      {.path = "wells[].height",
+      {.path = "wells[].thickness",
        .unit = "m",
        .range = "(0, inf)",
-       .meaning = "2D, beside perforations: height of the fractures that the section is of. What "
+       .meaning = "2D, beside perforations: of how thick a slice of rock the rate is. What "
                   "goes through a cluster is its rate times this."},
       {.path = "wells[].clusters[].name",
        .type = KeyType::text,
@@ -55,7 +55,7 @@ KeyTable well_keys() {
       {.path = "wells[].clusters[].discharge_coefficient",
        .range = "(0, 1]",
        .fallback = "0.8",
-       .meaning = "C: some 0.6 of new perforations, 0.9 of eroded ones."}};
+       .meaning = "C of its perforations: some 0.6 when new, 0.9 when eroded."}};
   append(keys, schedule_keys("wells[]."));
   return keys;
 }
@@ -150,11 +150,11 @@ double read_resistance(const Section& section, const std::string& well, const st
   }
   if (!has_count) return 0.0;
   const bool is_flat = section.scene().integer("dimension") == 2;
-  if (is_flat && !section.has(well + ".height")) {
-    section.fail(well, "missing key 'height'",
+  if (is_flat && !section.has(well + ".thickness")) {
+    section.fail(well, "missing key 'thickness'",
                  "a number in m: in 2D rates are per metre of it, and perforations take all");
   }
-  const double whole = (is_flat ? section.number(well + ".height") : 1.0) / part;
+  const double whole = (is_flat ? section.number(well + ".thickness") : 1.0) / part;
   return whole * whole *
          perforation_resistance(section.number("density"),
                                 section.number(cluster + ".perforations"),
@@ -173,8 +173,8 @@ CrackWell read_well(const Section& section, std::size_t k, double part,
   if (well.rate == 0.0) {
     section.fail(path, "a well of no rate", "another rate, which its schedule may take to 0");
   }
-  if (section.has(path + ".height") && section.scene().integer("dimension") == 3) {
-    section.fail(path + ".height", "in 3D", "it in 2D, where rates are per metre");
+  if (section.has(path + ".thickness") && section.scene().integer("dimension") == 3) {
+    section.fail(path + ".thickness", "in 3D", "it in 2D, where rates are per metre");
   }
   for (std::size_t c = 0; c < section.count(path + ".clusters"); ++c) {
     const std::string cluster = cluster_path(k, c);

@@ -48,8 +48,9 @@ std::span<WellFlow> CrackWells::flows(const TimeWindow& step,
       const double begin = flowed ? own[k] : rate * ease[k] / sum;
       for (std::size_t n = 0; n < facets.size(); ++n) {
         openings.push_back({.facet = facets[n],
-                            .resistance = well.resistance[k] / (share[n] * share[n]),
-                            .rate = begin * share[n]});
+                            .resistance = well.resistance[k],
+                            .rate = begin * share[n],
+                            .part = share[n]});
         cluster_of_.push_back(first + k);
       }
     }

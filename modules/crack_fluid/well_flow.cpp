@@ -21,13 +21,14 @@ void WellFlow::begin() {
 
 /// What the law asks for at an opening's rate [Pa].
 double WellFlow::loss(const Opening& opening) const {
-  return (opening.resistance * std::abs(opening.rate) + law_.laminar) * opening.rate;
+  const double of_all = opening.rate / opening.part;
+  return (opening.resistance * std::abs(of_all) + law_.laminar) * of_all;
 }
 
 /// And the rate at a loss.
 double WellFlow::driven_by(double fall, const Opening& opening) const {
   const double square = law_.laminar * law_.laminar + 4.0 * opening.resistance * std::abs(fall);
-  return 2.0 * fall / (law_.laminar + std::sqrt(square));
+  return opening.part * 2.0 * fall / (law_.laminar + std::sqrt(square));
 }
 
 void WellFlow::guess(const Eigen::VectorXd& pressure) {
@@ -41,7 +42,8 @@ void WellFlow::guess(const Eigen::VectorXd& pressure) {
 void WellFlow::take_tangents() {
   slopes_ = 0.0;
   for (Opening& opening : openings_) {
-    opening.slope = 1.0 / (2.0 * opening.resistance * std::abs(opening.rate) + law_.laminar);
+    const double of_all = std::abs(opening.rate) / opening.part;
+    opening.slope = opening.part / (2.0 * opening.resistance * of_all + law_.laminar);
     opening.lost = loss(opening);
     slopes_ += opening.slope;
   }

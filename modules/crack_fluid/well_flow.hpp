@@ -27,6 +27,7 @@ class WellFlow {
     Index facet;
     double resistance;   ///< R [Pa s^2/m^6], in 2D [Pa s^2/m^4]
     double rate;         ///< where Newton begins [m^3/s], in 2D [m^2/s]; then the solution
+    double part = 1.0;   ///< of the perforations that R is of
     double slope = 0.0;  ///< dq / d(p_w - p_f)
     double lost = 0.0;   ///< p_w - p_f that belongs to the rate by the tangent [Pa]
   };

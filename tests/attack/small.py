@@ -57,6 +57,7 @@ SMALL = {
     "shut_in": {**wing(0.2, 0.0025, 0.02, 0.08)},
     "sliding_crack": {"body.spacing": 0.004},
     "two_fractures": {"time.end": 60.0},
+    "well": {"time.end": 60.0},
 }
 
 

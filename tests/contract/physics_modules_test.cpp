@@ -64,7 +64,8 @@ const std::string inlet_3d =
     "crack_fluid.inlets=[{name: pump, at: [2 m, 2 m, 2 m], volume_rate: 5e-5 m^3/s}]";
 
 const std::string well =
-    "crack_fluid.wells=[{name: well, rate: 5e-5 m^2/s, height: 10 m, clusters: [{name: heel, at: "
+    "crack_fluid.wells=[{name: well, rate: 5e-5 m^2/s, thickness: 10 m, clusters: [{name: heel, "
+    "at: "
     "[3 m, 5 m], perforations: 12, diameter: 10 mm}, {name: toe, at: [8 m, 5 m]}]}]";
 
 struct Variant {

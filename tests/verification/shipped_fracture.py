@@ -17,6 +17,8 @@ import sys
 import tempfile
 import unittest
 
+import h5py
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
 PERIFRAC = os.path.abspath(sys.argv.pop(1))
@@ -44,6 +46,13 @@ class Run:
             with open(os.path.join(folder, "history.csv"), encoding="utf-8") as file:
                 self.rows = [{name.split(" [")[0]: float(value) for name, value in row.items()}
                              for row in csv.DictReader(file)]
+            self.crack = [self.middles(frame) for frame in sorted(glob.glob(os.path.join(folder, "frames", "crack_*.hdf")))]
+
+    @staticmethod
+    def middles(frame):
+        """Of the facets [m]."""
+        with h5py.File(frame) as file:
+            return file["VTKHDF/Points"][:, :2].tolist()
 
     def last(self, name):
         return self.rows[-1][name]
@@ -163,6 +172,60 @@ class ShippedFracture(unittest.TestCase):
         parts = run.last("crack_volume") + run.last("leak_off_volume")
         compressed = 1.0 + run.last("mean_crack_pressure") / 2.2e9
         self.assertAlmostEqual(parts + run.last("crack_volume") * (compressed - 1.0), 0.20005, delta=2e-4)
+
+    def test_well(self):
+        """Friction keeps the middle fracture open in the shadow of the others; all grow upwards; shut in, the middle
+        one feeds the others through the well."""
+        run = self.run_scene("well", {}, 1e-5)
+        for row in run.rows[1:]:
+            rates = [row[f"inlet_{cluster}_rate"] for cluster in ("heel", "midst", "toe")]
+            pumped = 1.5e-3 if row["time"] <= 150.0 else 0.0
+            self.assertAlmostEqual(rates[0], rates[2], delta=1e-8)
+            if row["time"] <= 150.0 or row["time"] > 156.0:
+                self.assertAlmostEqual(sum(rates), pumped, delta=1e-15)
+            for cluster, rate in zip(("heel", "midst", "toe"), rates):
+                lost = 8e3 * (30.0 * rate / (math.pi * 8 * 0.009**2 * 0.8)) ** 2
+                self.assertAlmostEqual(row["well_well_pressure"] - row[f"inlet_{cluster}_pressure"],
+                                       math.copysign(lost, rate), delta=5.0)
+        pumped = [row for row in run.rows if row["time"] <= 150.0]
+        self.assertAlmostEqual(pumped[-1]["inlet_midst_rate"] / 5e-4, 0.969, delta=0.01)
+        self.assertLess(run.last("inlet_midst_rate"), 0.0)
+        self.assertAlmostEqual(run.last("crack_length"), 136.6, delta=4.0)
+        for x in (60.0, 100.0, 140.0):
+            heights = [y for facet_x, y in run.crack[-1] if abs(facet_x - x) < 10.0]
+            self.assertAlmostEqual(max(heights), 126.0, delta=0.5)  # 28 m above its beginning's middle
+            self.assertAlmostEqual(min(heights), 78.0, delta=0.5)   # 24 m below it
+        parts = run.last("crack_volume") * (1.0 + run.last("mean_crack_pressure") / 2.2e9) + run.last("leak_off_volume")
+        self.assertAlmostEqual(parts, 1.5e-3 * 150.05, delta=1e-6)
+        self.assertAlmostEqual(run.last("leak_off_volume"), 0.1436, delta=0.003)
+
+    def test_stress_gradient(self):
+        """The upper tip alone grows: K there is (p - sigma + g a / 2) sqrt(pi a), the others' by rollers 100 m away
+        not counted, which hold a crack of 40 m closed by some 4 %."""
+        for kind, mean in (("network", 1.064), ("uniform_pressure", 1.056)):
+            run = Run(os.path.join(HERE, "stress_gradient.yaml"), {"crack_fluid.type": kind})
+            self.assertAlmostEqual(min(y for _, y in run.crack[-1]), 66.0, delta=1e-9)
+            ratios = []
+            for row in run.rows:
+                a = 0.5 * row["crack_length"]
+                if row["time"] < 45.0:
+                    continue
+                net = row["inlet_well_pressure"] - (30e6 + 4e3 * (100.0 - (64.0 + a)))
+                ratios.append((net + 4e3 * a / 2.0) * math.sqrt(math.pi * a) / 1.1547e6)
+            self.assertGreater(len(ratios), 3)
+            self.assertAlmostEqual(sum(ratios) / len(ratios), mean, delta=0.01, msg=kind)
+
+    def test_rock_at_rest(self):
+        """Under the stress of its weight and the water's nothing moves, and what the rock bears is the total stress
+        less alpha times the water's pressure."""
+        run = Run(os.path.join(HERE, "rock_at_rest.yaml"), {})
+        for row in (run.rows[0], run.rows[-1]):
+            for probe, y in (("sl", 4.5), ("su", 26.5)):
+                water = 20e6 + 1e4 * (32.0 - y)
+                for axis, total in (("x", 35e6 + 17e3 * (30.0 - y)), ("y", 40e6 + 23e3 * (30.0 - y))):
+                    self.assertAlmostEqual(row[f"effective_stress_{axis}{axis} at {probe}"], 0.7 * water - total,
+                                           delta=1e-3)
+            self.assertLess(abs(row["displacement_y at ul"]), 1e-12)
 
     def test_hydro_shear(self):
         """Slides from where friction bears no more than the shear, 15 MPa - 5 MPa / 0.6, and by what it does not bear:

@@ -4,22 +4,13 @@
 #include <bit>
 
 #include "core/base/small_vector.hpp"
+#include "core/body/highest_corner.hpp"
 
 namespace perifrac {
 
 template <int D>
 PoreGravity<D>::PoreGravity(const Body<D>& body, const Vector<D>& gravity, double density)
-    : body_(&body) {
-  for (int a = 0; a < D; ++a) {
-    weight_[a] = density * gravity[a];
-    const auto [low, high] = std::ranges::minmax(body.points().position[a]);
-    top_[a] = gravity[a] > 0.0 ? low : high;
-  }
-  for (const Face& face : body.faces()) {
-    if (face.curved()) continue;
-    if ((face.direction < 0) == (weight_[face.axis] > 0.0)) top_[face.axis] = face.coordinate;
-  }
-}
+    : body_(&body), weight_(density * gravity), top_(highest_corner<D>(body, gravity)) {}
 
 template <int D>
 double PoreGravity<D>::at(const Vector<D>& x) const {

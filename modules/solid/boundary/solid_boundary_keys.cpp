@@ -225,6 +225,7 @@ void read_body_force(const Section& section, SolidBoundary<D>& boundary) {
 template <int D>
 void read_gravity(const Section& section, SolidBoundary<D>& boundary) {
   if (!section.scene().has("gravity") || !section.has("density")) return;
+  if (section.has("stress_gradient")) return;  // which bears it (stress_at_rest.hpp)
   boundary.gravity(section.number("density"), read_vector<D>(section.scene(), "gravity"));
 }
 

@@ -47,7 +47,7 @@ class CutBody {
   std::span<const FaceJump<D>> jumps() const { return jumps_; }
   /// Normal and tangential stress that facet f is relieved of [Pa].
   Vector<D> relief(Index f) const;
-  bool relief_varies() const { return initial_stress_ && !initial_stress_->inside.empty(); }
+  bool relief_varies() const { return initial_stress_ && initial_stress_->varies(); }
   /// The points that a jump is between lie within the rock. What a load of its faces presses that
   /// rock together by is no part of how far the faces are apart; this times the load puts it back
   /// [m/Pa]. On the line of a crack both stresses in the plane are -p, and the strain across it is

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/small_vector.hpp"
+#include "core/body/highest_corner.hpp"
 #include "core/geometry/region.hpp"
 
 namespace perifrac {
@@ -13,6 +15,10 @@ namespace {
 
 constexpr const char* effective_key = "confining_stress";
 constexpr const char* total_key = "total_stress";
+constexpr const char* gradient_key = "stress_gradient";
+constexpr const char* datum_key = "stress_datum";
+/// Of the rock's weight: so much the vertical gradient may be off it.
+constexpr double weight_tolerance = 0.01;
 
 std::string in_region(const std::string& name, const char* key) {
   return "regions." + name + "." + key;
@@ -35,7 +41,15 @@ bool writes_pore_pressure(const Section& scene) {
 /// Which of the two keys the scene says it by; null: neither.
 const char* stress_key(const Section& section) {
   const auto total = path_of(section, total_key);
-  if (!total) return path_of(section, effective_key) ? effective_key : nullptr;
+  const auto effective = path_of(section, effective_key);
+  if (!total && !effective && section.has(gradient_key)) {
+    section.fail(gradient_key, "beside no stress at rest", "confining_stress or total_stress");
+  }
+  if (section.has(gradient_key) && !section.has(datum_key)) {
+    section.fail(gradient_key, "no stress_datum says where the stress is as said",
+                 "solid.stress_datum, a height in m");
+  }
+  if (!total) return effective ? effective_key : nullptr;
   if (path_of(section, effective_key)) {
     section.fail(*total, "beside confining_stress, which is the effective stress",
                  "one of the two: total_stress holds alpha times the pore pressure, "
@@ -47,9 +61,11 @@ const char* stress_key(const Section& section) {
     section.fail(*total, "beside pore_flow, and nothing says which pore pressure is in it",
                  "pore_flow.initial_pressure, or confining_stress, the effective stress");
   }
-  if (const std::string state = scene.word("pore_flow.initial_state"); state != "uniform") {
-    section.fail(*total, fmt::format("beside a pore pressure that is {}", state),
-                 "pore_flow.initial_state: uniform, or confining_stress, the effective stress");
+  if (scene.word("pore_flow.initial_state") == "hydrostatic" &&
+      scene.word("pore_flow.fluid.equation_of_state") != "linear") {
+    section.fail(*total, "beside a fluid whose weight changes with depth",
+                 "pore_flow.fluid.equation_of_state: linear, or confining_stress, the effective "
+                 "stress");
   }
   if (scene.word("solid.type") == "dynamic") {
     section.fail(*total, "beside pore_flow in a solid with inertia",
@@ -72,6 +88,39 @@ std::optional<std::string> stressed_region(const Section& section, const char* k
     if (section.has(in_region(name, key))) return in_region(name, key);
   }
   return {};
+}
+
+/// With gravity the gradient is the rock's weight: the body is at rest under both.
+template <int D>
+void require_weight(const Section& section, const char* key) {
+  const Section scene = section.scene();
+  if (!scene.has("gravity") || !section.has("density")) return;
+  if (key == std::string_view(effective_key) && scene.has("pore_flow")) {
+    section.fail(gradient_key, "of the effective stress, beside gravity", "total_stress");
+  }
+  std::vector<double> force = scene.numbers("gravity");
+  for (double& f : force) f *= section.number("density");
+  const double grows = section.numbers(gradient_key)[D - 1], weight = -force[D - 1];
+  const bool is_upright =
+      std::all_of(force.begin(), force.end() - 1, [](double f) { return f == 0.0; });
+  if (is_upright && std::abs(grows - weight) <= weight_tolerance * std::abs(weight)) return;
+  section.fail(
+      gradient_key,
+      fmt::format("{:g} Pa/m along {}, which is not the weight of the rock", grows, "xyz"[D - 1]),
+      is_upright ? fmt::format("{:g} Pa/m there, solid.density times gravity", weight)
+                 : fmt::format("gravity along {} alone", "xyz"[D - 1]));
+}
+
+template <int D>
+void read_gradient(const Section& section, const char* key, const Body<D>& body,
+                   InitialStress<D>& stress) {
+  if (!section.has(gradient_key)) return;
+  if (!body.cutouts().empty()) {
+    section.fail(gradient_key, "in a body with cutouts", "the same stress at all heights");
+  }
+  require_weight<D>(section, key);
+  std::ranges::copy(section.numbers(gradient_key), stress.by_height.begin());
+  stress.datum = section.number(datum_key);
 }
 
 /// A region whose faces lie within the body bears what the rest bears across them.
@@ -107,6 +156,16 @@ KeyTable stress_at_rest_keys() {
            .meaning = "In place of confining_stress: the total stress, of which alpha times "
                       "pore_flow.initial_pressure is the pore water's; all of it without pore_flow "
                       "is the rock's. What lies behind the faces bears it."},
+          {.path = gradient_key,
+           .type = KeyType::vector,
+           .unit = "Pa/m",
+           .meaning = "How either grows with depth, in regions too, beside cracks that grow by "
+                      "energy_release: it counts times stress_datum less the height, y, in 3D z. "
+                      "Beside gravity the vertical one is the weight of the rock, which is at "
+                      "rest under both."},
+          {.path = datum_key,
+           .unit = "m",
+           .meaning = "The height at which the stress is as said; stress_gradient needs it."},
           {.path = in_region("*", effective_key),
            .type = KeyType::vector,
            .unit = "Pa",
@@ -127,7 +186,12 @@ std::optional<StatedStress> read_stated_stress(const Section& scene) {
                       .total = section.numbers(key),
                       .biot_coefficient = 0.0,
                       .pore_pressure = 0.0};
+  if (section.has(gradient_key)) {
+    stated.gradient = section.numbers(gradient_key);
+    stated.datum = section.number(datum_key);
+  }
   if (!scene.has("pore_flow")) return stated;
+  stated.pores_vary = scene.word("pore_flow.initial_state") != "uniform";
   stated.biot_coefficient = scene.number("pore_flow.biot_coefficient");
   stated.pore_pressure = scene.number("pore_flow.initial_pressure");
   const double of_water = stated.biot_coefficient * stated.pore_pressure;
@@ -148,16 +212,17 @@ std::optional<InitialStress<D>> read_initial_stress(const Section& section, cons
   if (stressed && !body.cutouts().empty()) {
     section.fail(*stressed, "in a body with cutouts", fmt::format("one solid.{}", key));
   }
-  InitialStress<D> stress{read_tension<D>(section, key)};
+  InitialStress<D> stress{{read_tension<D>(section, key)}};
+  read_gradient<D>(section, key, body, stress);
   if (!stressed) return stress;
+  auto& [elsewhere, inside] = stress.at_datum;
   region_of_points<D>(section, body.regions(), body.points());  // says which do not exist
   for (const std::string& name : section.names("regions")) {
     const std::string path = in_region(name, key);
     if (!section.has(path)) continue;
     const Region<D>& region = *std::ranges::find(body.regions(), name, &Region<D>::name);
-    stress.inside.emplace_back(region, read_tension<D>(section, path));
-    require_rest<D>(section, path, region, stress.inside.back().second, stress.elsewhere,
-                    body.points());
+    inside.emplace_back(region, read_tension<D>(section, path));
+    require_rest<D>(section, path, region, inside.back().second, elsewhere, body.points());
   }
   return stress;
 }
@@ -169,8 +234,39 @@ std::optional<Vector<D>> read_uniform_stress(const Section& section) {
   if (const auto path = stressed_region(section, key)) {
     section.fail(*path, "without cracks that grow by energy_release", fmt::format("solid.{}", key));
   }
+  if (section.has(gradient_key)) {
+    section.fail(gradient_key, "without cracks that grow by energy_release",
+                 "the same stress at all heights");
+  }
   return read_tension<D>(section, key);
 }
+
+namespace {
+
+/// p0 + gradient . (x - origin).
+template <int D>
+struct PorePressureAtRest {
+  double pressure;
+  Vector<D> gradient{};
+  Vector<D> origin{};
+};
+
+template <int D>
+PorePressureAtRest<D> read_pore_pressure_at_rest(const Section& flow, const Body<D>& body) {
+  PorePressureAtRest<D> at_rest{.pressure = flow.number("initial_pressure")};
+  const std::string state = flow.word("initial_state");
+  if (state == "linear") {
+    std::ranges::copy(flow.numbers("initial_gradient"), at_rest.gradient.begin());
+  } else if (state == "hydrostatic" && flow.scene().has("gravity")) {
+    Vector<D> gravity;
+    std::ranges::copy(flow.scene().numbers("gravity"), gravity.begin());
+    at_rest.gradient = flow.number("fluid.density") * gravity;
+    at_rest.origin = highest_corner<D>(body, gravity);
+  }
+  return at_rest;
+}
+
+}  // namespace
 
 template <int D>
 std::vector<double> read_pore_stress_at_rest(const Section& section, const Body<D>& body) {
@@ -183,10 +279,12 @@ std::vector<double> read_pore_stress_at_rest(const Section& section, const Body<
     const std::string path = in_region(name, "biot_coefficient");
     biot.push_back(flow.has(path) ? flow.number(path) : biot.front());
   }
-  const double pressure = flow.number("initial_pressure");
-  std::vector<double> stress;
-  for (const std::uint8_t region : region_of_points<D>(flow, body.regions(), body.points())) {
-    stress.push_back(biot[region] * pressure);
+  const auto [pressure, gradient, origin] = read_pore_pressure_at_rest<D>(flow, body);
+  const std::vector<std::uint8_t> region = region_of_points<D>(flow, body.regions(), body.points());
+  std::vector<double> stress(region.size());
+  for (std::size_t i = 0; i < stress.size(); ++i) {
+    const Vector<D> off = body.points().at(static_cast<Index>(i)) - origin;
+    stress[i] = biot[region[i]] * (pressure + dot(gradient, off));
   }
   return stress;
 }

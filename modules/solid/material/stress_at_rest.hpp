@@ -11,16 +11,25 @@
 
 namespace perifrac {
 
-/// The keys of `confining_stress` and `total_stress`.
+/// The keys of `confining_stress`, `total_stress` and `stress_gradient`.
 KeyTable stress_at_rest_keys();
 
-/// What a scene says of the stress outside `regions`, compressive positive, by axis [Pa].
+/// What a scene says of the stress outside `regions`, at its datum, compressive positive, by axis
+/// [Pa].
 struct StatedStress {
   std::string key;  ///< in the solid's section
   std::vector<double> effective;
   std::vector<double> total;
-  double biot_coefficient;  ///< 0 without pore flow
-  double pore_pressure;     ///< at the start [Pa]
+  double biot_coefficient;         ///< 0 without pore flow
+  double pore_pressure;            ///< at the start [Pa]
+  bool pores_vary = false;         ///< then at the highest corner, or the origin
+  std::vector<double> gradient{};  ///< how it grows with depth; empty: not [Pa/m]
+  double datum = 0.0;              ///< height [m]
+
+  /// The total stress at a height.
+  double total_at(int axis, double height) const {
+    return total[axis] + (gradient.empty() ? 0.0 : gradient[axis] * (datum - height));
+  }
 };
 
 /// Nothing where the scene has none. Throws InputError where it says both, or not enough.

@@ -197,6 +197,18 @@ TEST(CrackWells, TakesOutWhatThereIs) {
   }
 }
 
+/// One that feeds two facets is no more to a well, where perforations lose nothing, than one that
+/// feeds one.
+TEST(CrackWells, WhatDryCracksTakeIsSharedByCluster) {
+  CrackRun run(water, {cluster("a", {5 * dx, 0.0}), cluster("b", {5.5 * dx, 1.0})}, {}, nullptr,
+               nullptr, {{"w", rate, {}, {0.0, 0.0}}});
+  run.add_line(straight_line({0.0, 0.0}, 0.0, dx, 10));
+  run.add_line(straight_line({0.0, 1.0}, 0.0, dx, 10));
+  run.open(w);
+  run.advance(1e-4);
+  EXPECT_NEAR(run.scalar("inlet_a_rate"), 0.5 * rate, 1e-12 * rate);
+}
+
 /// A cluster between two facets feeds both alike, as one with all its perforations would.
 TEST(CrackWells, AClusterBetweenFacetsFeedsBoth) {
   const double resistance = 1e5 / (rate * rate);

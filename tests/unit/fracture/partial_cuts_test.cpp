@@ -41,7 +41,7 @@ Eigen::VectorXd jumps_of(CrackedBody<2>& body, const Eigen::VectorXd& pressure) 
 /// A facet that is cut in part: the body answers as between that without and with it, however the
 /// crack runs across the lattice and whatever its faces are relieved of.
 TEST(PartialCuts, AnswerBetweenTheBodyWithoutAndWithTheCut) {
-  const InitialStress<2> stress{.elsewhere = {-1e-3, -2e-3}};
+  const InitialStress<2> stress{{-1e-3, -2e-3}};
   for (const double angle : {0.0, 0.3, 0.785}) {
     CutPlate without(whole - 1, angle, stress), with(whole - 1, angle, stress),
         part(whole - 1, angle, stress);
@@ -75,7 +75,7 @@ TEST(PartialCuts, AnswerBetweenTheBodyWithoutAndWithTheCut) {
 /// Work of load and faces, from one state to another, is what the body holds more and what the cut
 /// has set free; and so the books by displacements say.
 TEST(PartialCuts, SetFreeWhatTheyShould) {
-  CutPlate plate(whole - 1, 0.3, InitialStress<2>{.elsewhere = {-1e-4, -2e-4}});
+  CutPlate plate(whole - 1, 0.3, InitialStress<2>{{-1e-4, -2e-4}});
   CrackedBody<2>& body = *plate.cracked;
   ASSERT_TRUE(body.cut(CutPlate::first(whole, 0.3).back()));
   const Eigen::VectorXd first = pressures(whole), last = 0.5 * first.reverse();
