@@ -111,6 +111,10 @@ class Export(RunTest):
         self.assert_refused(perifrac("export", run, "--frame", "soon"), "--frame", "soon")
         self.assert_refused(perifrac("export", run, "--to", "obj"), "--to")
         self.assert_refused(perifrac("export", self.folder), str(self.folder), "frames")
+        (run / "frames/body_000001.hdf").write_bytes(b"cut short")
+        done = perifrac("export", run, "--frame", "all")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+        self.assertIn("no export", done.stderr)
 
     def test_tables(self):
         run = self.run_scene("radial.yaml", *ROUND)
