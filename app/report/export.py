@@ -55,7 +55,7 @@ def export(folder: Path, which: str, kind: str, output: Path) -> list[Path]:
         if kind == "vtu":
             written.append(write_collection(files, output / f"{name}.pvd"))
     if kind == "vtu":
-        written.append(write_state(shown, output / "paraview.py"))
+        written.append(write_state(shown, output / "paraview_state.py"))
     return written
 
 
