@@ -55,7 +55,7 @@ def export(folder: Path, which: str, kind: str, output: Path) -> list[Path]:
         if kind == "vtu":
             written.append(write_collection(files, output / f"{name}.pvd"))
     if kind == "vtu":
-        written.append(write_state(shown, output / "paraview.py"))
+        written.append(write_state(shown, output / "paraview_state.py"))
     return written
 
 
@@ -67,8 +67,8 @@ def main(arguments: list[str]) -> int:
     except NoRun as error:
         print(f"perifrac: {error}", file=sys.stderr)
         return 2
-    except OSError as error:
-        print(f"perifrac: {error.filename}: {error.strerror}", file=sys.stderr)
+    except (OSError, KeyError, ValueError) as error:  # a frame that is cut short, a disk that is full
+        print(f"perifrac: no export of {folder}: {error}", file=sys.stderr)
         return 1
     return 0
 

@@ -45,7 +45,7 @@ def main(arguments: list[str]) -> int:
     try:
         write_setup(read_setup(json.load(sys.stdin)), path)
     except OSError as error:
-        print(f"perifrac: {path}: {error.strerror}", file=sys.stderr)
+        print(f"perifrac: {error}", file=sys.stderr)
         return 1
     return 0
 

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 """docs/mesh_to_points: meshes as meshio writes them become bodies of points that the program takes."""
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import meshio
 import numpy as np
 
@@ -84,6 +86,26 @@ class MeshToPoints(unittest.TestCase):
         self.assertIn("region_1: {from: [0.0, 0.5]", said)
         self.assertNotIn("cracks", said)
         self.assertIn("400 points", check)
+
+    @unittest.skipUnless(shutil.which("gmsh"), "gmsh is not installed")
+    def test_even_stress_on_the_page_s_mesh(self):
+        """What docs/point_clouds.md says of points that come in pairs."""
+        subprocess.run(["gmsh", "-2", SCRIPT.parent / "rock.geo", "-o", "rock.msh"], cwd=self.folder, check=True,
+                       capture_output=True)
+        said, _ = self.scene(None, "rock.msh", volumes="voronoi")
+        for line in ("sand: {from: [0.0, 0.1], to: [0.4, 0.3]}", "- {name: natural, file: rock_natural.csv}"):
+            self.assertIn(line, said)
+        for volumes, ratio, off in (("voronoi", 2.5, 0.028), ("file", 3, 0.016)):
+            keys = (f"body.volumes={volumes}", f"body.horizon_ratio={ratio}", "cracks=[]",
+                    "solid.boundary.top={type: traction, traction: [0 MPa, -1 MPa]}")
+            subprocess.run([PERIFRAC, "run", "scene.yaml", "--no-report", "--output", volumes,
+                            *(word for key in keys for word in ("--set", key))], cwd=self.folder, check=True,
+                           capture_output=True)
+            with h5py.File(self.folder / volumes / "frames/body_000001.hdf") as frame:
+                stress = frame["VTKHDF/PointData/effective_stress"][()]
+            worst = np.abs(stress / 1e6 - [0, 0, 0, -1]).max()
+            print(f"{volumes}, horizon ratio {ratio}: {len(stress)} points, stress off by {worst:.1%}", file=sys.stderr)
+            self.assertTrue(off / 1.5 < worst < 1.5 * off, worst)  # another Gmsh makes another mesh
 
     def test_what_export_writes(self):
         subprocess.run([PERIFRAC, "run", "--example", "layered_column", "--until", "1 s", "--no-report", "--output", "run"],

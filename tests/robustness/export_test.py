@@ -63,7 +63,7 @@ class Export(RunTest):
         run = self.run_scene("hf_complete.yaml", "--until", "0.1 ms")
         files = self.export(run)
         self.assertEqual(files, ["body_000001.vtu", "body.pvd", "crack_000001.vtu", "crack.pvd", "fluid_000001.vtu",
-                                 "fluid.pvd", "paraview.py"])
+                                 "fluid.pvd", "paraview_state.py"])
         body, crack, fluid = (read(run / "export" / f"{name}_000001.vtu") for name in ("body", "crack", "fluid"))
         self.assertEqual((body.GetNumberOfCells(), body.GetCellType(0)), (3088, QUAD))
         # Neighbours share corners: those of 52 by 60 squares, less what lies within the notch.
@@ -111,6 +111,10 @@ class Export(RunTest):
         self.assert_refused(perifrac("export", run, "--frame", "soon"), "--frame", "soon")
         self.assert_refused(perifrac("export", run, "--to", "obj"), "--to")
         self.assert_refused(perifrac("export", self.folder), str(self.folder), "frames")
+        (run / "frames/body_000001.hdf").write_bytes(b"cut short")
+        done = perifrac("export", run, "--frame", "all")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+        self.assertIn("no export", done.stderr)
 
     def test_tables(self):
         run = self.run_scene("radial.yaml", *ROUND)
@@ -147,7 +151,7 @@ class Export(RunTest):
                  "PVDReader", "Render", "ResetCamera", "Show")
         simple.__dict__.update({word: Anything(word) for word in words})
         sys.modules.update({"paraview": types.ModuleType("paraview"), "paraview.simple": simple})
-        state = run / "export/paraview.py"
+        state = run / "export/paraview_state.py"
         exec(compile(state.read_text(), state, "exec"), {"__file__": str(state)})
         opened = [named["FileName"].rpartition("/")[2] for word, _, named in told if word == "PVDReader"]
         self.assertEqual(opened, ["body.pvd", "crack.pvd", "fluid.pvd"])
