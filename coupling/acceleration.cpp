@@ -125,6 +125,7 @@ class Secants final : public Acceleration {
   }
 
   void visit_state(StateVisitor& visitor) override {
+    if (kept_ == 0) return;
     forget_old();
     auto count = std::ssize(steps_);
     visitor.visit("steps", count);

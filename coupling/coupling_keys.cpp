@@ -78,7 +78,7 @@ const KeyTable& coupling_keys() {
                   "met below the tolerance of the modules' own integrators"},
       {.path = "acceleration",
        .type = KeyType::word,
-       .fallback = "quasi_newton",
+       .fallback = "anderson",
        .words = {"none", "aitken", "anderson", "quasi_newton"},
        .meaning = "How the next pass's input is formed from those before: anderson from those of "
                   "the window, quasi_newton from those of windows before, too"},

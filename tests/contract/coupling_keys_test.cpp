@@ -34,7 +34,7 @@ TEST(CouplingKeys, DefaultsFollowFromTheSimulatedTime) {
   EXPECT_FALSE(options.max_iterations);
   EXPECT_EQ(options.retries, 8);
   EXPECT_DOUBLE_EQ(options.tolerance, 1e-4);
-  EXPECT_EQ(options.acceleration, AccelerationType::quasi_newton);
+  EXPECT_EQ(options.acceleration, AccelerationType::anderson);
 }
 
 TEST(CouplingKeys, ReadsEachKey) {
