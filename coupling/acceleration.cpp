@@ -96,6 +96,7 @@ class Secants final : public Acceleration {
     residual_.resize(0);
   }
 
+  bool remembers() const override { return kept_ > 0; }
   /// What is new has not been asked yet, and has answered nothing.
   void follow(std::span<const Eigen::Index> kept, Eigen::Index size) override {
     for (Step& step : steps_) {
@@ -125,7 +126,7 @@ class Secants final : public Acceleration {
   }
 
   void visit_state(StateVisitor& visitor) override {
-    if (kept_ == 0) return;
+    if (!remembers()) return;
     forget_old();
     auto count = std::ssize(steps_);
     visitor.visit("steps", count);

@@ -26,8 +26,10 @@ class Acceleration {
   virtual Eigen::VectorXd next(const Eigen::VectorXd& used, const Eigen::VectorXd& answer,
                                const Eigen::VectorXd& scale) = 0;
 
+  /// Keeps something over windows, and is to be told of points that come.
+  virtual bool remembers() const { return false; }
   /// The entries grow in number: those at `kept` of the `size` new ones are the old ones in turn.
-  virtual void follow(std::span<const Eigen::Index>, Eigen::Index) { reset(); }
+  virtual void follow(std::span<const Eigen::Index>, Eigen::Index) {}
 
   /// What the next window depends on.
   virtual void visit_state(StateVisitor&) {}

@@ -79,7 +79,7 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
   if (reached < window.end) ++work_.events;
   find_held_back(iterations);
   for (Link& link : links_) link.accept();
-  follow_points();
+  if (acceleration_->remembers()) follow_points();
   const std::int64_t passes = work_.passes - passes_before;
   const bool one_pass = iterations.max == 1 || (iterations.at_once > 0.0 && passes == 1);
   if (one_pass) watch(reached - window.begin);
@@ -300,6 +300,7 @@ void WindowSolver::accelerate(double length) {
 }
 
 void WindowSolver::note_points() {
+  if (!acceleration_->remembers()) return;
   accelerated_.resize(links_.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (links_[i].predicts()) accelerated_[i] = freeze(points_of(links_[i]), accelerated_[i]);

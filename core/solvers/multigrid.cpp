@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
-#include <fmt/format.h>
 
 #include "core/profile/profile.hpp"
 
@@ -30,11 +29,6 @@ Eigen::VectorXd mixed_vector(Eigen::Index size) {
 }
 
 }  // namespace
-
-NotConverged::NotConverged(int iterations, double residual)
-    : std::runtime_error(fmt::format("conjugate gradients do not converge: {:.1e} of the load is "
-                                     "left after {} iterations",
-                                     residual, iterations)) {}
 
 Multigrid::Multigrid(std::vector<std::unique_ptr<MultigridLevel>> levels,
                      const Eigen::SparseMatrix<double>& coarsest)
@@ -145,28 +139,15 @@ int Multigrid::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolera
 
 int Multigrid::correct(Eigen::VectorXd& residual, Eigen::VectorXd& x, double target) {
   const ProfileScope profiled("solves");
-  Work& work = work_.front();
-  Eigen::VectorXd direction, image(residual.size());
-  const double start = residual.norm();
-  double square = 0.0;
-  for (int k = 0;; ++k) {
-    const double left = residual.norm();
-    if (left <= target) return k;
-    if (!std::isfinite(left) || k == most_iterations) throw NotConverged(k, left / start);
-    work.residual = residual;
+  const auto apply = [this](const Eigen::VectorXd& u, Eigen::VectorXd& image) {
+    levels_.front()->apply(u, image);
+  };
+  const auto precondition = [this](const Eigen::VectorXd& left, Eigen::VectorXd& correction) {
+    work_.front().residual = left;
     cycle(0);
-    const double next = residual.dot(work.correction);
-    if (k == 0) {
-      direction = work.correction;
-    } else {
-      direction = work.correction + next / square * direction;
-    }
-    square = next;
-    levels_.front()->apply(direction, image);
-    const double step = square / direction.dot(image);
-    x += step * direction;
-    residual -= step * image;
-  }
+    correction = work_.front().correction;
+  };
+  return gradients_.correct(residual, x, target, most_iterations, apply, precondition);
 }
 
 }  // namespace perifrac

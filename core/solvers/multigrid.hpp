@@ -1,21 +1,15 @@
 #pragma once
 
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "core/solvers/conjugate_gradients.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 
 namespace perifrac {
-
-/// An iteration that does not get to its tolerance.
-class NotConverged : public std::runtime_error {
- public:
-  NotConverged(int iterations, double residual);
-};
 
 /// One level of a Multigrid: a symmetric, positive definite operator that is known by what it does
 /// to a vector, and the way to the next coarser level.
@@ -72,6 +66,7 @@ class Multigrid {
 
   std::vector<std::unique_ptr<MultigridLevel>> levels_;
   std::vector<Work> work_;  ///< by level
+  ConjugateGradients gradients_;
   SparseCholesky coarsest_;
 };
 

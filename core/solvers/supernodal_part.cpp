@@ -1,6 +1,7 @@
 #include "core/solvers/supernodal_part.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace perifrac {
 
@@ -28,6 +29,7 @@ SupernodalPart::SupernodalPart(const Supernodes& factor)
 void SupernodalPart::find_paths(std::span<const int> rows, std::vector<int>& path) {
   path.clear();
   for (const int row : rows) {
+    assert(row >= 0 && row < std::ssize(place_));
     int s = supernode_of_[place_[row]];
     while (!is_on_path_[s]) {
       is_on_path_[s] = 1;

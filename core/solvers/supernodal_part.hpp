@@ -18,10 +18,10 @@ struct Supernodes {
   std::span<const int> permutation;  ///< by row of P A P^T, that of A
 };
 
-/// Solves for a part of A^-1 b. A row of b that is not zero acts on the supernode of that row and
-/// on those that this one's rows lead up to, the path to the root of the elimination tree; likewise
-/// a row of the solution needs its own path only (Gilbert 1994). For rows that lie close together
-/// that is a small part of the factor.
+/// Goes through the factor, or the part of it that a part of A^-1 b needs. A row of b that is not
+/// zero acts on the supernode of that row and on those that this one's rows lead up to, the path to
+/// the root of the elimination tree; likewise a row of the solution needs its own path only
+/// (Gilbert 1994). For rows that lie close together that is a small part of the factor.
 class SupernodalPart {
  public:
   /// Refers to the arrays of `factor`.

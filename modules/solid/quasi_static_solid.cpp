@@ -6,7 +6,7 @@
 #include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
 #include "core/profile/profile.hpp"
-#include "core/solvers/multigrid.hpp"
+#include "core/solvers/not_converged.hpp"
 #include "modules/solid/boundary/rigid_motion.hpp"
 #include "modules/solid/equilibrium/newton_solver.hpp"
 #include "modules/solid/material/nonlinear_response.hpp"

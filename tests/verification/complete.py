@@ -45,7 +45,9 @@ class Complete(RunTest):
         return rows
 
     def test_books_close_in_equilibrium(self):
-        rows = self.assert_books_close(self.run_scene(COARSE, "run", "--threads", "1", scene=SCENE), energy=0.01)
+        # Settled windows: in those of 3e-3 events fall elsewhere with other rounding, and 0.7 to 1.3 % are open.
+        keys = COARSE | {"coupling.iterations.tolerance": "1e-4"}
+        rows = self.assert_books_close(self.run_scene(keys, "run", "--threads", "1", scene=SCENE), energy=0.01)
         self.assertGreater(rows[-1][SHARES[1]], 1e-5)
         self.assertGreater(rows[-1]["crack_length"], rows[0]["crack_length"])
 

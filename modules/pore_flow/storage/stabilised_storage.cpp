@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/eigen_view.hpp"
+#include "core/base/errors.hpp"
 #include "core/bonds/bond_state.hpp"
 #include "core/profile/profile.hpp"
 
@@ -115,36 +117,30 @@ const Eigen::SparseMatrix<double>& StabilisedStorage<D>::between() const {
   return *between_;
 }
 
-/// (own + B) p = right side.
+/// B takes nothing from linear pressures: what points hold by themselves is a good beginning.
 template <int D>
-void StabilisedStorage<D>::solve(std::span<double> p) const {
+void StabilisedStorage<D>::solve(double t, std::span<double> p) const {
   const ProfileScope profiled("solves");
   constexpr double tolerance = 1e-14;
-  constexpr int most = 200;
-  image_.resize(own_.size());
-  const auto apply = [this](const Eigen::VectorXd& u) {
-    roughness_.apply({u.data(), static_cast<std::size_t>(u.size())},
-                     {image_.data(), static_cast<std::size_t>(image_.size())});
-    image_ += own_.cwiseProduct(u);
+  constexpr int most = 300;
+  const auto apply = [this](const Eigen::VectorXd& u, Eigen::VectorXd& image) {
+    roughness_.apply(view(u), view(image));
+    image += own_.cwiseProduct(u);
   };
-  x_ = inverse_.cwiseProduct(right_side_);
-  apply(x_);
-  residual_ = right_side_ - image_;
+  const auto precondition = [this](const Eigen::VectorXd& left, Eigen::VectorXd& correction) {
+    correction = inverse_.cwiseProduct(left);
+  };
+  x_ = right_side_.cwiseQuotient(own_);
+  residual_.resize(x_.size());
+  apply(x_, residual_);
+  residual_ = right_side_ - residual_;
   const double target = tolerance * right_side_.norm();
-  double square = 0.0;
-  for (int k = 0; residual_.norm() > target && k < most; ++k) {
-    correction_ = inverse_.cwiseProduct(residual_);
-    const double next = residual_.dot(correction_);
-    if (k == 0) {
-      direction_ = correction_;
-    } else {
-      direction_ = correction_ + next / square * direction_;
+  try {  // what is not finite stays where it is, for the checks to find its place
+    if (x_.allFinite()) {
+      gradients_.correct(residual_, x_, target, most, apply, precondition);
     }
-    square = next;
-    apply(direction_);
-    const double step = square / direction_.dot(image_);
-    x_ += step * direction_;
-    residual_ -= step * image_;
+  } catch (const NotConverged& error) {
+    throw NumericalError("pore_pressure", "the whole body", t, error.what());
   }
   std::ranges::copy(x_, p.begin());
 }
@@ -157,15 +153,15 @@ void StabilisedStorage<D>::pressure(double t, std::span<const double> zeta,
     right_side_[i] =
         intact_->volume[i] * (zeta[i] - materials().at(i).biot_coefficient * dilatation().at(i, t));
   }
-  solve(p.first(points));
+  solve(t, p.first(points));
 }
 
 template <int D>
-void StabilisedStorage<D>::pressure_change(double, std::span<const double>,
+void StabilisedStorage<D>::pressure_change(double t, std::span<const double>,
                                            std::span<const double> change, std::span<double> dp) {
   const Index points = intact_->point_count;
   for (Index i = 0; i < points; ++i) right_side_[i] = intact_->volume[i] * change[i];
-  solve(dp.first(points));
+  solve(t, dp.first(points));
 }
 
 template <int D>
@@ -187,11 +183,9 @@ void StabilisedStorage<D>::add_to(Eigen::SparseMatrix<double>& matrix, double t,
 
 template <int D>
 double StabilisedStorage<D>::energy_between_points(std::span<const double> p) const {
-  image_.resize(own_.size());
-  roughness_.apply(p.first(own_.size()), {image_.data(), static_cast<std::size_t>(image_.size())});
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < own_.size(); ++i) sum += p[i] * image_[i];
-  return 0.5 * sum;
+  residual_.resize(own_.size());
+  roughness_.apply(p.first(own_.size()), view(residual_));
+  return 0.5 * view(p.first(own_.size())).dot(residual_);
 }
 
 template class StabilisedStorage<2>;

@@ -9,6 +9,7 @@
 
 #include "core/bonds/family.hpp"
 #include "core/operators/linear_exact.hpp"
+#include "core/solvers/conjugate_gradients.hpp"
 #include "modules/pore_flow/storage/linear_storage.hpp"
 #include "modules/pore_flow/storage/roughness_law.hpp"
 
@@ -45,7 +46,8 @@ class StabilisedStorage final : public LinearStorage {
   RoughnessLaws<D> laws() const;
   const Eigen::SparseMatrix<double>& between() const;
   void find_own();
-  void solve(std::span<double> p) const;
+  /// (own + B) p = right_side_. Throws NumericalError.
+  void solve(double t, std::span<double> p) const;
 
   std::shared_ptr<const Family<D>> intact_;
   double scale_;                    ///< strength dx^2 [m^2]
@@ -56,9 +58,9 @@ class StabilisedStorage final : public LinearStorage {
   mutable LinearExactOperator<D, RoughnessLaws<D>> roughness_;  ///< B
   Eigen::VectorXd own_;                                         ///< V (S + alpha^2 slope)
   Eigen::VectorXd inverse_;  ///< of what is near to the diagonal of own + B
+  mutable ConjugateGradients gradients_;
+  mutable Eigen::VectorXd right_side_, x_, residual_;           ///< workspace
   mutable std::optional<Eigen::SparseMatrix<double>> between_;  ///< B, where it was asked for
-  mutable Eigen::VectorXd right_side_, x_, residual_, correction_, direction_,
-      image_;  ///< workspace
 };
 
 }  // namespace perifrac

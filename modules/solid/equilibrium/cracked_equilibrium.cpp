@@ -3,7 +3,7 @@
 #include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
 #include "core/solvers/complementarity.hpp"
-#include "core/solvers/multigrid.hpp"
+#include "core/solvers/not_converged.hpp"
 
 namespace perifrac {
 

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/config/scene.hpp"
+#include "modules/solid/material/stress_at_rest.hpp"
 #include "tests/unit/solid/elastic_solid.hpp"
 
 namespace perifrac {
@@ -24,7 +25,8 @@ SolidBoundary<2> read(const Body<2>& body, const std::string& solid, const std::
        "",
        {{.path = "dimension", .type = KeyType::integer, .required = true, .meaning = "Of space."},
         {.path = "gravity", .type = KeyType::vector, .unit = "m/s^2", .meaning = "Gravity."}}},
-      {"solid", "any", solid_boundary_keys()}};
+      {"solid", "any", solid_boundary_keys()},
+      {"solid", "any", stress_at_rest_keys()}};
   return read_solid_boundary<2>(read_scene(path, {}, catalogue).at("solid"), body);
 }
 
