@@ -98,7 +98,6 @@ constexpr auto other_words = std::to_array<OtherWord>({
     {"q", "rate"},
     {"leakoff", "leak_off"},
     {"carter", "leak_off_coefficient"},
-    {"wells", "inlets"},
     {"injection", "inlets"},
     {"injectors", "inlets"},
     {"perforations", "wells"},
