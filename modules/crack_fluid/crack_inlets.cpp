@@ -52,34 +52,37 @@ void CrackInlets::locate(const PointSet& facets, const CrackGraph& graph) {
   }
 }
 
+FacetInflow CrackInlets::inflow(std::size_t k, std::size_t n, const TimeWindow& step) const {
+  const CrackInlet& inlet = inlets_[k];
+  FacetInflow inflow{
+      .facet = facets_[k][n], .least = 0.0, .most = 0.0, .target = liquid_.vapour_pressure};
+  const bool holds = inlet.from_fluid ? supply_[k].stiffness > 0.0 : inlet.holds_pressure;
+  if (holds && step.length() > 0.0) {
+    const double pressure =
+        inlet.from_fluid ? supply_[k].pressure : inlet.amount * inlet.schedule.factor(step.end);
+    inflow.least = -infinity;
+    inflow.most = infinity;
+    inflow.target = std::max(inflow.target, pressure);
+    if (inlet.from_fluid) inflow.stiffness = supply_[k].stiffness;
+  } else if (!inlet.holds_pressure && !inlet.from_fluid) {
+    const double mass = liquid_.density * inlet.amount * share_[k][n] *
+                        inlet.schedule.integral(step.begin, step.end);
+    inflow.least = mass;
+    inflow.most = std::max(mass, 0.0);
+  }
+  return inflow;
+}
+
 std::span<const FacetInflow> CrackInlets::inflows(const TimeWindow& step) {
   inflows_.clear();
   std::set<Index> taken;
   for (std::size_t k = 0; k < inlets_.size(); ++k) {
-    const CrackInlet& inlet = inlets_[k];
     for (std::size_t n = 0; n < facets_[k].size(); ++n) {
-      FacetInflow inflow{
-          .facet = facets_[k][n], .least = 0.0, .most = 0.0, .target = liquid_.vapour_pressure};
-      if (!taken.insert(inflow.facet).second) {
-        throw NumericalError("crack_pressure", fmt::format("inlet '{}'", inlet.name), step.begin,
-                             "a facet that serves another inlet too");
+      if (!taken.insert(facets_[k][n]).second) {
+        throw NumericalError("crack_pressure", fmt::format("inlet '{}'", inlets_[k].name),
+                             step.begin, "a facet that serves another inlet too");
       }
-      if (inlet.from_well) continue;
-      const bool holds = inlet.from_fluid ? supply_[k].stiffness > 0.0 : inlet.holds_pressure;
-      if (holds && step.length() > 0.0) {
-        const double pressure =
-            inlet.from_fluid ? supply_[k].pressure : inlet.amount * inlet.schedule.factor(step.end);
-        inflow.least = -infinity;
-        inflow.most = infinity;
-        inflow.target = std::max(inflow.target, pressure);
-        if (inlet.from_fluid) inflow.stiffness = supply_[k].stiffness;
-      } else if (!inlet.holds_pressure && !inlet.from_fluid) {
-        const double mass = liquid_.density * inlet.amount * share_[k][n] *
-                            inlet.schedule.integral(step.begin, step.end);
-        inflow.least = mass;
-        inflow.most = std::max(mass, 0.0);
-      }
-      inflows_.push_back(inflow);
+      if (!inlets_[k].from_well) inflows_.push_back(inflow(k, n, step));
     }
   }
   return inflows_;

@@ -59,6 +59,9 @@ class CrackInlets {
   bool is_of_well(Index facet) const;
 
  private:
+  /// What the n-th facet of inlet k brings; it is no cluster of a well.
+  FacetInflow inflow(std::size_t k, std::size_t n, const TimeWindow& step) const;
+
   std::vector<CrackInlet> inlets_;
   CrackLiquid liquid_;
   CrackWells wells_;
