@@ -157,7 +157,7 @@ sanitize: install-tests
 	for preset in sanitize sanitize-thread; do \
 	  cmake --preset $$preset --log-level=WARNING > /dev/null && cmake --build --preset $$preset && \
 	  ctest --preset $$preset || exit; done
-	OMP_WAIT_POLICY=passive tests/robustness/cut_free_test.py build/sanitize/bin/perifrac --times 20
+	GLIBC_TUNABLES=glibc.malloc.hugetlb=0 OMP_WAIT_POLICY=passive tests/robustness/cut_free_test.py build/sanitize/bin/perifrac --times 20
 
 mutants: configure-tests
 	tests/mutants/mutants.py

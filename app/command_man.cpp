@@ -70,6 +70,9 @@ threads, where \fB\-\-threads\fR is not given
 \fBOMP_WAIT_POLICY\fR, \fBGOMP_SPINCOUNT\fR
 how threads wait; they sleep where neither is set
 .TP
+\fBGLIBC_TUNABLES\fR
+where it is not set, memory may come in large pages (glibc.malloc.hugetlb=1)
+.TP
 \fBPERIFRAC_INSTRUCTIONS\fR
 the instruction set that an installed program takes: x86\-64\-v4, x86\-64\-v3 or x86\-64; else the best that the processor has. Results differ in their last bits from set to set
 .TP

@@ -130,7 +130,9 @@ class LinearExactOperator {
       bond(bonds, b) -= w;
     }
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(R * (bonds + 1), R * (bonds + 1));
+    // K_i enters because the second term of the energy is s (sum_j w |u_j - u_i|^2 - F : F K).
     const auto shape = shape_tensor_at(*family_, i);
+    Eigen::Matrix<double, R * D, R * D> stiffness;
     for (int column = 0; column < R * D; ++column) {
       Tensor<R, D> unit{};
       unit[column] = 1.0;
@@ -138,9 +140,12 @@ class LinearExactOperator {
       for (int b = 0; b < D; ++b) {
         stress[column / D * D + b] -= bond_stiffness_[i] * shape[(column % D) * D + b];
       }
-      for (int row = 0; row < R * D; ++row) {
-        matrix.block(row / D * (bonds + 1), column / D * (bonds + 1), bonds + 1, bonds + 1) +=
-            stress[row] * gradient.row(row % D).transpose() * gradient.row(column % D);
+      for (int row = 0; row < R * D; ++row) stiffness(row, column) = stress[row];
+    }
+    for (int row = 0; row < R; ++row) {
+      for (int column = 0; column < R; ++column) {
+        matrix.block(row * (bonds + 1), column * (bonds + 1), bonds + 1, bonds + 1).noalias() =
+            gradient.transpose() * (stiffness.template block<D, D>(row * D, column * D) * gradient);
       }
     }
     for (int r = 0; r < R; ++r) {
@@ -252,12 +257,12 @@ class LinearExactOperator {
     });
   }
 
-  /// A as a sparse matrix, both halves: G^T V (C - s K) G plus the bonds' own stiffness.
+  /// A as a sparse matrix, both halves.
   Eigen::SparseMatrix<double> assemble() const {
-    const Eigen::SparseMatrix<double> g = gradient_matrix();
-    Eigen::SparseMatrix<double> a = g.transpose() * (constitutive_matrix() * g);
-    a += bond_matrix(*family_, mirror_, std::span<const double>(bond_stiffness_));
-    return a;
+    return sum_of_points(
+        size(), family_->point_count,
+        [this](Index i, std::vector<Index>& unknowns) { append_unknowns(i, unknowns); },
+        [this](Index i) { return point_stiffness(i); });
   }
 
   /// ForceOfStress on its bonds.
@@ -383,31 +388,6 @@ class LinearExactOperator {
         }
       }
     }
-  }
-
-  /// Block-diagonal V (C - s K) on gradients; K_i enters because the second term of the energy is
-  /// s (sum_j w |u_j - u_i|^2 - F : F K).
-  Eigen::SparseMatrix<double> constitutive_matrix() const {
-    const Index points = family_->point_count;
-    Eigen::SparseMatrix<double> matrix(R * D * points, R * D * points);
-    matrix.reserve(Eigen::VectorXi::Constant(R * D * points, R * D));
-    for (Index i = 0; i < points; ++i) {
-      const auto shape = shape_tensor_at(*family_, i);
-      for (int column = 0; column < R * D; ++column) {
-        Tensor<R, D> unit{};
-        unit[column] = 1.0;
-        Tensor<R, D> stress = law_at(law_, i).stress(unit);
-        const int r = column / D;
-        for (int b = 0; b < D; ++b) {
-          stress[r * D + b] -= bond_stiffness_[i] * shape[(column % D) * D + b];
-        }
-        for (int row = 0; row < R * D; ++row) {
-          matrix.insert(row * points + i, column * points + i) = family_->volume[i] * stress[row];
-        }
-      }
-    }
-    matrix.makeCompressed();
-    return matrix;
   }
 
   std::shared_ptr<const Family<D>> family_;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "core/operators/node_unknowns.hpp"
 
@@ -49,18 +51,36 @@ PointStiffness on_unknowns(const Family<D>& family, const MirrorCondition<D, R>&
   std::ranges::sort(result.unknowns);
   const auto twice = std::ranges::unique(result.unknowns);
   result.unknowns.erase(twice.begin(), twice.end());
-  const auto place = [&](Index unknown) {
-    return std::ranges::lower_bound(result.unknowns, unknown) - result.unknowns.begin();
-  };
-  Eigen::MatrixXd from_unknowns =
-      Eigen::MatrixXd::Zero(nodes.rows(), static_cast<Eigen::Index>(result.unknowns.size()));
-  for (std::size_t row = 0; row < ends.size(); ++row) {
-    for (int k = 0; k < ends[row].count; ++k) {
-      from_unknowns(row, place(ends[row].terms[k].unknown)) += ends[row].terms[k].coefficient;
+  for (Combination& end : ends) {  // places from here on
+    for (int k = 0; k < end.count; ++k) {
+      const auto place = std::ranges::lower_bound(result.unknowns, end.terms[k].unknown);
+      end.terms[k].unknown = static_cast<Index>(place - result.unknowns.begin());
     }
   }
-  result.matrix = from_unknowns.transpose() * nodes * from_unknowns;
+  const auto size = std::ssize(result.unknowns);
+  result.matrix.setZero(size, size);
+  for (Eigen::Index column = 0; column < nodes.cols(); ++column) {
+    const Combination& right = ends[column];
+    for (Eigen::Index row = 0; row < nodes.rows(); ++row) {
+      const Combination& left = ends[row];
+      for (int l = 0; l < right.count; ++l) {
+        const double part = nodes(row, column) * right.terms[l].coefficient;
+        for (int k = 0; k < left.count; ++k) {
+          result.matrix(left.terms[k].unknown, right.terms[l].unknown) +=
+              part * left.terms[k].coefficient;
+        }
+      }
+    }
+  }
   return result;
 }
+
+/// What points 0 to `points` add to a matrix of `size`, summed; both halves, and of every point's
+/// unknowns the whole diagonal, zeros too. `append_unknowns(i, unknowns)` adds those of
+/// `stiffness(i)`, in any order.
+Eigen::SparseMatrix<double> sum_of_points(
+    Index size, Index points,
+    const std::function<void(Index i, std::vector<Index>& unknowns)>& append_unknowns,
+    const std::function<PointStiffness(Index i)>& stiffness);
 
 }  // namespace perifrac

@@ -9,6 +9,7 @@
 #include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
 #include "core/io/log.hpp"
+#include "core/solvers/reduced_matrix.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/equilibrium/stiffness_multigrid.hpp"
 
@@ -55,10 +56,7 @@ class DirectStiffness final : public StiffnessSolver<D> {
                   std::string why)
       : elastic_(std::move(elastic)), free_(std::move(free)), why_(std::move(why)) {}
 
-  void prepare() override {
-    const Eigen::SparseMatrix<double> equations = free_.transpose();
-    factor_.factor(Eigen::SparseMatrix<double>(equations * elastic_->assemble() * free_));
-  }
+  void prepare() override { factor_.factor(reduced(elastic_->assemble(), free_)); }
 
   std::string path() const override { return "a factor of the stiffness: " + why_; }
   bool goes_on() const override { return false; }

@@ -9,6 +9,7 @@
 #include "core/base/require.hpp"
 #include "core/bonds/crack_cut.hpp"
 #include "core/solvers/complementarity.hpp"
+#include "core/solvers/reduced_matrix.hpp"
 #include "modules/solid/fracture/loose_piece.hpp"
 
 namespace perifrac {
@@ -44,7 +45,7 @@ CondensedBody<D>::CondensedBody(std::shared_ptr<Family<D>> family, double spacin
 template <int D>
 const Eigen::SparseMatrix<double>& CondensedBody<D>::free_stiffness() {
   if (stiffness_.size() == 0) {
-    stiffness_ = free_unknowns_.transpose() * elastic_->assemble() * free_unknowns_;
+    stiffness_ = reduced(elastic_->assemble(), free_unknowns_);
   }
   return stiffness_;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tuple>
+
 #include <Eigen/Core>
 
 #include "core/base/small_vector.hpp"
@@ -18,29 +20,37 @@ PointStiffness bond_energy_stiffness(const Family<D>& family, const MirrorCondit
                                      const IsotropicElasticity<D>& law, Index i) {
   const Index first = family.offset[i];
   const Index bonds = family.offset[i + 1] - first;
-  Eigen::MatrixXd extension = Eigen::MatrixXd::Zero(bonds, D * (bonds + 1));
-  Eigen::VectorXd length(bonds), weight(bonds);
+  const Eigen::Index size = D * (bonds + 1);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd dilatation = Eigen::VectorXd::Zero(size);  // sum_j w |xi| e
+  double weighted_volume = 0.0;
   for (Index b = 0; b < bonds; ++b) {
     const Vector<D> xi =
         vector_at(family.position, family.other[first + b]) - vector_at(family.position, i);
-    length[b] = norm(xi);
-    weight[b] = family.weight[first + b];
+    const double weight = family.weight[first + b], square = dot<D>(xi, xi);
+    weighted_volume += weight * square;
     for (int a = 0; a < D; ++a) {
-      extension(b, a * (bonds + 1) + b) += xi[a] / length[b];
-      extension(b, a * (bonds + 1) + bonds) -= xi[a] / length[b];
+      dilatation[a * (bonds + 1) + b] += weight * xi[a];
+      dilatation[a * (bonds + 1) + bonds] -= weight * xi[a];
+      for (int c = 0; c < D; ++c) {
+        const double pull = weight * xi[a] * xi[c] / square;
+        for (const auto& [row, column, sign] :
+             {std::tuple(b, b, 1.0), {bonds, bonds, 1.0}, {b, bonds, -1.0}, {bonds, b, -1.0}}) {
+          matrix(a * (bonds + 1) + row, c * (bonds + 1) + column) += sign * pull;
+        }
+      }
     }
   }
-  const double weighted_volume = weight.dot(length.cwiseAbs2());
   if (!(weighted_volume > 0.0)) {
-    return on_unknowns(family, mirror, i, Eigen::MatrixXd::Zero(D * (bonds + 1), D * (bonds + 1)));
+    matrix.setZero();
+    return on_unknowns(family, mirror, i, matrix);
   }
-  const Eigen::RowVectorXd dilatation =
-      D / weighted_volume * weight.cwiseProduct(length).transpose() * extension;
-  const Eigen::MatrixXd deviation = extension - length / D * dilatation;
-  const Eigen::MatrixXd matrix = law.drained_bulk_modulus() * dilatation.transpose() * dilatation +
-                                 D * (D + 2) * law.shear_modulus / weighted_volume *
-                                     deviation.transpose() * weight.asDiagonal() * deviation;
-  return on_unknowns(family, mirror, i, family.volume[i] * matrix);
+  // sum_j w (e - theta |xi| / D)^2 = sum_j w e^2 - theta^2 m / D^2.
+  matrix *= family.volume[i] * D * (D + 2) * law.shear_modulus / weighted_volume;
+  dilatation *= D / weighted_volume;
+  const double volumetric = law.lame_lambda - law.shear_modulus;  // k - (D + 2) mu / D
+  matrix.noalias() += (family.volume[i] * volumetric * dilatation) * dilatation.transpose();
+  return on_unknowns(family, mirror, i, matrix);
 }
 
 }  // namespace perifrac

@@ -346,63 +346,12 @@ double LpsElasticity<D>::point_energy(Index i, std::span<const double>) const {
          (dilatation_stiffness(i) * theta * theta + bond_stiffness_[i] * stretch[0]);
 }
 
-/// Takes displacements to the extension xi.(u_j - u_i) / |xi| of every bond.
-template <int D>
-Eigen::SparseMatrix<double> LpsElasticity<D>::extension_matrix() const {
-  const Index points = family_->point_count;
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(family_->other.size() * 2 * D);
-  for (Index i = 0; i < points; ++i) {
-    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
-      const Index j = family_->other[bond];
-      const Vector<D> xi = bond_vector(i, j);
-      const double length = norm(xi);
-      for (int r = 0; r < D; ++r) {
-        Combination end = node_unknowns(*family_, mirror_, j, r);
-        end.add(r * points + i, -1.0);
-        for (int k = 0; k < end.count; ++k) {
-          triplets.emplace_back(bond, end.terms[k].unknown,
-                                end.terms[k].coefficient * xi[r] / length);
-        }
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> matrix(static_cast<Index>(family_->other.size()), size());
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  return matrix;
-}
-
-template <int D>
-Eigen::SparseMatrix<double> LpsElasticity<D>::dilatation_matrix() const {
-  const Index points = family_->point_count;
-  Eigen::SparseMatrix<double> sum(points, static_cast<Index>(family_->other.size()));
-  sum.reserve(Eigen::VectorXi::Ones(sum.cols()));
-  for (Index i = 0; i < points; ++i) {
-    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
-      const Vector<D> xi = bond_vector(i, family_->other[bond]);
-      sum.insert(i, bond) =
-          dilatation_scale_[i] * family_->weight[bond] * std::sqrt(dot<D>(xi, xi));
-    }
-  }
-  return sum * extension_matrix();
-}
-
 template <int D>
 Eigen::SparseMatrix<double> LpsElasticity<D>::assemble() const {
-  const Index points = family_->point_count;
-  Eigen::VectorXd volume_stiffness(points), stiffness(family_->other.size());
-  for (Index i = 0; i < points; ++i) {
-    volume_stiffness[i] = family_->volume[i] * dilatation_stiffness(i);
-    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
-      stiffness[bond] = family_->volume[i] * bond_stiffness_[i] * family_->weight[bond];
-    }
-  }
-  const Eigen::SparseMatrix<double> theta = dilatation_matrix();
-  const Eigen::SparseMatrix<double> extension = extension_matrix();
-  Eigen::SparseMatrix<double> a =
-      theta.transpose() * Eigen::SparseMatrix<double>(volume_stiffness.asDiagonal() * theta);
-  a += extension.transpose() * Eigen::SparseMatrix<double>(stiffness.asDiagonal() * extension);
-  return a;
+  return sum_of_points(
+      size(), family_->point_count,
+      [this](Index i, std::vector<Index>& unknowns) { append_unknowns(i, unknowns); },
+      [this](Index i) { return point_stiffness(i); });
 }
 
 template <int D>

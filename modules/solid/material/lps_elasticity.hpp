@@ -38,8 +38,6 @@ class LpsElasticity final : public BreakableElasticity<D> {
   void add_pore_force(std::span<const double> pore_stress, std::span<double> force) override;
   void stress(std::span<const double> u, std::span<double> stress) override;
   Eigen::SparseMatrix<double> assemble() const override;
-  /// Takes displacements to point dilatations.
-  Eigen::SparseMatrix<double> dilatation_matrix() const;
   Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const override;
   std::string path() const override;
   double drained_bulk_modulus(Index i) const override { return law_.at(i).drained_bulk_modulus(); }
@@ -75,7 +73,6 @@ class LpsElasticity final : public BreakableElasticity<D> {
   void add_face_reactions(std::span<double> reaction) const;
   Vector<D> bond_vector(Index i, Index j) const;
   Vector<D> difference(Index i, Index j) const;
-  Eigen::SparseMatrix<double> extension_matrix() const;
 
   std::shared_ptr<const Family<D>> family_;
   MirrorCondition<D, D> mirror_;
