@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/run/summary.hpp"
+#include "app/run/memory.hpp"
 #include "core/base/errors.hpp"
 #include "coupling/processor_time.hpp"
 

@@ -114,6 +114,14 @@ double available_memory() {
                    left_of_limit(RLIMIT_AS, "VmSize"), left_of_limit(RLIMIT_DATA, "VmData")});
 }
 
+long peak_memory() {
+  const double peak = kilobytes_of("/proc/self/status", "VmHWM");
+  if (std::isfinite(peak)) return static_cast<long>(peak);
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return 1024 * used.ru_maxrss;
+}
+
 void keep_to_free_memory() {
   const double free = available_memory();
   rlimit limit{};

@@ -11,6 +11,10 @@ namespace perifrac {
 /// on this process leaves (ulimit -v), and what one on its group does.
 double available_memory();
 
+/// What this process has held at most so far [bytes]; not what the process that began it held,
+/// which getrusage() counts too.
+long peak_memory();
+
 /// From now on the process is refused memory beyond what is free now, as by a limit (ulimit -d):
 /// it can say so, where the system would end it without a word.
 void keep_to_free_memory();

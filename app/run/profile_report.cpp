@@ -8,7 +8,7 @@
 
 #include "app/run/array_list.hpp"
 #include "app/run/build_info.hpp"
-#include "app/run/summary.hpp"
+#include "app/run/memory.hpp"
 
 namespace perifrac {
 

@@ -7,6 +7,7 @@
 #include <omp.h>
 
 #include "app/run/build_info.hpp"
+#include "app/run/memory.hpp"
 #include "app/run/version.hpp"
 #include "app/simulation/register_modules.hpp"
 #include "core/io/atomic_file.hpp"
@@ -88,8 +89,6 @@ nlohmann::json modules_summary(const Section& scene, const CouplingManager& mana
 }
 
 }  // namespace
-
-long peak_memory() { return 1024 * usage().ru_maxrss; }
 
 std::vector<std::string> effects(const Section& scene) {
   std::vector<std::string> result;

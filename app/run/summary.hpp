@@ -51,7 +51,4 @@ std::vector<std::string> effects(const Section& scene);
 /// with a field.
 nlohmann::json counts(const Simulation& simulation);
 
-/// The most memory that the process ever held [bytes].
-long peak_memory();
-
 }  // namespace perifrac
