@@ -6,21 +6,32 @@
 
 namespace perifrac {
 
-Eigen::SparseMatrix<double> reduced(const Eigen::SparseMatrix<double>& a,
-                                    const Eigen::SparseMatrix<double>& t) {
-  using Entry = Eigen::SparseMatrix<double>::InnerIterator;
-  assert(a.rows() == a.cols() && a.rows() == t.rows() && a.isCompressed());
-  std::vector<int> column_of(t.rows(), -1);
-  std::vector<double> factor(t.rows(), 0.0);
-  for (int column = 0; column < t.outerSize(); ++column) {
-    for (Entry entry(t, column); entry; ++entry) {
-      assert(column_of[entry.row()] < 0);
-      column_of[entry.row()] = column;
-      factor[entry.row()] = entry.value();
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// The one entry of each row: its column, -1 where there is none, and its value.
+struct RowEntries {
+  explicit RowEntries(const Matrix& t) : column(t.rows(), -1), value(t.rows(), 0.0) {
+    for (int c = 0; c < t.outerSize(); ++c) {
+      for (Matrix::InnerIterator entry(t, c); entry; ++entry) {
+        assert(column[entry.row()] < 0);
+        column[entry.row()] = c;
+        value[entry.row()] = entry.value();
+      }
     }
   }
+  std::vector<int> column;
+  std::vector<double> value;
+};
 
-  Eigen::SparseMatrix<double> result(t.cols(), t.cols());
+}  // namespace
+
+Matrix reduced(const Matrix& a, const Matrix& t) {
+  using Entry = Matrix::InnerIterator;
+  assert(a.rows() == a.cols() && a.rows() == t.rows() && a.isCompressed());
+  const RowEntries of_row(t);
+  Matrix result(t.cols(), t.cols());
   result.resizeNonZeros(a.nonZeros());
   std::vector<int> seen_in(t.cols(), -1), rows;
   std::vector<double> sum(t.cols());
@@ -29,14 +40,14 @@ Eigen::SparseMatrix<double> reduced(const Eigen::SparseMatrix<double>& a,
     rows.clear();
     for (Entry from(t, column); from; ++from) {
       for (Entry entry(a, static_cast<int>(from.row())); entry; ++entry) {
-        const int row = column_of[entry.row()];
+        const int row = of_row.column[entry.row()];
         if (row < 0) continue;
         if (seen_in[row] != column) {
           seen_in[row] = column;
           sum[row] = 0.0;
           rows.push_back(row);
         }
-        sum[row] += factor[entry.row()] * entry.value() * from.value();
+        sum[row] += of_row.value[entry.row()] * entry.value() * from.value();
       }
     }
     if (!std::ranges::is_sorted(rows)) std::ranges::sort(rows);
