@@ -259,10 +259,7 @@ class LinearExactOperator {
 
   /// A as a sparse matrix, both halves.
   Eigen::SparseMatrix<double> assemble() const {
-    return sum_of_points(
-        size(), family_->point_count,
-        [this](Index i, std::vector<Index>& unknowns) { append_unknowns(i, unknowns); },
-        [this](Index i) { return point_stiffness(i); });
+    return sum_of_points(*this, family_->point_count);
   }
 
   /// ForceOfStress on its bonds.

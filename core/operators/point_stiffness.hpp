@@ -83,4 +83,13 @@ Eigen::SparseMatrix<double> sum_of_points(
     const std::function<void(Index i, std::vector<Index>& unknowns)>& append_unknowns,
     const std::function<PointStiffness(Index i)>& stiffness);
 
+/// The same of what an operator's append_unknowns() and point_stiffness() say.
+template <class Operator>
+Eigen::SparseMatrix<double> sum_of_points(const Operator& op, Index points) {
+  return sum_of_points(
+      op.size(), points,
+      [&](Index i, std::vector<Index>& unknowns) { op.append_unknowns(i, unknowns); },
+      [&](Index i) { return op.point_stiffness(i); });
+}
+
 }  // namespace perifrac

@@ -104,6 +104,7 @@ class OutsideModules(unittest.TestCase):
     @classmethod
     def build(cls, project, *targets):
         # Not with the launcher of compilers that the environment may name: as somebody else's machine has it.
+        # Unoptimised, which builds sooner: what is tried is whether they fit, not how fast they are.
         made = run(CMAKE, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={cls.prefix}", "-DCMAKE_BUILD_TYPE=Release",
                    "-DCMAKE_CXX_FLAGS_RELEASE=-O0")  # fmt: skip
         assert made.returncode == 0, made.stderr

@@ -88,20 +88,7 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   }
 
   Eigen::SparseMatrix<double> assemble() const override {
-    Eigen::SparseMatrix<double> matrix = operator_.assemble();
-    for (const ThinPoint& thin : thin_points_) {
-      std::vector<Eigen::Triplet<double>> triplets;
-      for (std::size_t row = 0; row < thin.stiffness.unknowns.size(); ++row) {
-        for (std::size_t column = 0; column < thin.stiffness.unknowns.size(); ++column) {
-          triplets.emplace_back(thin.stiffness.unknowns[row], thin.stiffness.unknowns[column],
-                                thin.stiffness.matrix(row, column));
-        }
-      }
-      Eigen::SparseMatrix<double> own(matrix.rows(), matrix.cols());
-      own.setFromTriplets(triplets.begin(), triplets.end());
-      matrix += own;
-    }
-    return matrix;
+    return sum_of_points(*this, operator_.family().point_count);
   }
 
   Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const override {

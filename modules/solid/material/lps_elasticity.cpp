@@ -348,10 +348,7 @@ double LpsElasticity<D>::point_energy(Index i, std::span<const double>) const {
 
 template <int D>
 Eigen::SparseMatrix<double> LpsElasticity<D>::assemble() const {
-  return sum_of_points(
-      size(), family_->point_count,
-      [this](Index i, std::vector<Index>& unknowns) { append_unknowns(i, unknowns); },
-      [this](Index i) { return point_stiffness(i); });
+  return sum_of_points(*this, family_->point_count);
 }
 
 template <int D>
