@@ -11,6 +11,7 @@
 #include "app/references/rock.hpp"
 #include "app/references/table_reference.hpp"
 #include "app/simulation/place_reader.hpp"
+#include "app/warnings/meeting_tips_warning.hpp"
 #include "app/warnings/nucleus_warning.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
@@ -144,6 +145,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   std::vector<std::string> warnings = grain_warnings(scene);
   if (regime) warnings.insert(warnings.end(), regime->warnings.begin(), regime->warnings.end());
   if (const auto warning = nucleus_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = meeting_tips_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = border_warning(scene)) warnings.push_back(*warning);
   for (const std::string& warning : table_warnings(scene)) warnings.push_back(warning);

@@ -18,6 +18,7 @@ import tempfile
 import unittest
 
 import h5py
+from scipy.special import ellipe, ellipk
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
@@ -239,6 +240,26 @@ class ShippedFracture(unittest.TestCase):
                 self.assertEqual(row["crack_slip_area"], 0.0)
             elif beyond > 1e5:
                 self.assertAlmostEqual(row["crack_slip_area"] / exact, 1.081, delta=0.004)
+
+    def test_two_tips_that_run_at_each_other(self):
+        """Of two cracks from b to a in a row K at the inner tips is sqrt(pi) (a^2 E/K - b^2) / sqrt(b (a^2 - b^2)) times
+        the stress, E and K of 1 - b^2/a^2: they go on first, meet, and the crack that they make runs on."""
+        stress_of_all = 0.6e-3 / 0.2 * 1e9 / (1.0 - 0.25**2)
+        for b, within in ((2, 0.01), (3, 0.05)):  # the plate is not endless
+            ligament = {"cracks[0].path": f"[{b} mm, 100 mm, {15 + b} mm, 100 mm]"}
+            run = Run(os.path.join(HERE, "two_tips.yaml"), ligament)
+            a = 15.0 + b
+            m = 1.0 - (b / a) ** 2
+            K = math.sqrt(math.pi * 1e-3) * (a * a * ellipe(m) / ellipk(m) - b * b) / math.sqrt(b * (a * a - b * b))
+            exact = math.sqrt(50.0 * 1e9 / (1.0 - 0.25**2)) / (stress_of_all * K)
+            grown = [row for row in run.rows if row["crack_length"] > 0.0151]
+            self.assertAlmostEqual(grown[0]["time"] / exact, 1.0, delta=within)
+            parted = next(row for row in run.rows if row["crack_length"] > 0.0495)  # as wide as the body, plane and all
+            self.assertLess(parted["time"], 1.001 * grown[0]["time"])
+            self.assertNotIn("not known", run.log)
+        near = Run(os.path.join(HERE, "two_tips.yaml"), {"cracks[0].path": "[0.5 mm, 100 mm, 15.5 mm, 100 mm]",
+                                                         "time.end": "10 ms"})
+        self.assertIn("cracks[0] ends at (0.0005, 0.1) m, 0.5 spacings from a plane of symmetry", near.log)
 
     def test_hf_leakoff_pores(self):
         run = self.run_scene("hf_leakoff_pores", {"body.spacing": "5 mm", "time.end": "50 ms"}, 0.0065)

@@ -64,6 +64,13 @@ constexpr double first_jump = 1.0, last_jump = 4.0;  // spacings behind the tip
 /// K_II / K_I over the ratio of the jumps at 1-4 spacings behind a tip on a lattice.
 constexpr double mode_ratio = 0.87;
 
+/// What J looks at around a tip that is alone in the rock, and what it has to [spacings].
+constexpr double largest_ring = 4.5, least_ring = 2.0;
+
+/// Cosine of the direction to another tip. The other end of its own crack lies behind: of seeds
+/// that are so short others know (short_seeds.hpp).
+constexpr double abreast = -0.5;
+
 constexpr double largest_kink = 70.0 * M_PI / 180.0;
 
 /// A turn below this is rounding [rad].
@@ -75,6 +82,16 @@ EnergyRelease::EnergyRelease(CutBody<2>& body, double spacing)
     : body_(body), spacing_(spacing), by_x_(body.family().point_count) {
   std::iota(by_x_.begin(), by_x_.end(), 0);
   std::ranges::sort(by_x_, {}, [&](Index i) { return body.family().position[0][i]; });
+  mirrors_.fill({-INFINITY, INFINITY});
+  const Family<2>& family = body.family();
+  for (Index g = 0; g < family.ghost_count() && !family.curved; ++g) {
+    const Vector<2> source = vector_at(family.position, family.ghost_source[g]);
+    const Vector<2> image = vector_at(family.position, family.point_count + g);
+    for (int a = 0; a < 2; ++a) {
+      if (std::abs(image[1 - a] - source[1 - a]) > 1e-9 * spacing) continue;
+      mirrors_[a][image[a] > source[a] ? 1 : 0] = 0.5 * (image[a] + source[a]);
+    }
+  }
 }
 
 TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
@@ -106,9 +123,55 @@ std::vector<Vector<2>> EnergyRelease::jumps_in(std::span<const double> unknowns)
   return jumps;
 }
 
-/// Near a boundary the ring is drawn in, so as to lie within the body [m].
+/// Near a boundary the ring is drawn in, so as to lie within the body, and so it is near another
+/// tip, so as to hold this one alone [m].
 double EnergyRelease::radius(const CrackTip& tip) const {
-  return (body_.reaches(tip.place, 4.5 * spacing_) ? 4.5 : 3.0) * spacing_;
+  const double within = body_.reaches(tip.place, largest_ring * spacing_) ? largest_ring : 3.0;
+  double alone = within * spacing_;
+  for_tips_around(tip, [&](const OtherTip& other) {
+    if (other.cosine >= abreast) alone = std::min(alone, other.away);
+  });
+  return std::max(alone, least_ring * spacing_);
+}
+
+bool EnergyRelease::meets_another(const CrackTip& tip) const {
+  bool found = false;
+  for_tips_around(tip, [&](const OtherTip& other) {
+    found = found || meets(other.clear / spacing_, other.cosine);
+  });
+  return found;
+}
+
+/// A facet's corner that no other has, in the rock.
+bool EnergyRelease::is_end(const Vector<2>& corner) const {
+  const auto has = [&](const CrackFacet<2>& facet) {
+    return length(facet[0] - corner) < 1e-6 * spacing_ ||
+           length(facet[1] - corner) < 1e-6 * spacing_;
+  };
+  return std::ranges::count_if(body_.facets(), has) == 1 && body_.reaches(corner, -0.25 * spacing_);
+}
+
+/// Ends of cracks, and images of the tip, within the largest ring.
+void EnergyRelease::for_tips_around(const CrackTip& tip,
+                                    const std::function<void(const OtherTip&)>& see) const {
+  const auto look = [&](const Vector<2>& off, double clear) {
+    const double away = length(off);
+    if (away < 1e-6 * spacing_ || away >= largest_ring * spacing_) return;
+    see({away, clear, dot(off, tip.direction) / away});
+  };
+  for (const CrackFacet<2>& facet : body_.facets()) {
+    for (const Vector<2>& corner : facet) {
+      const Vector<2> off = corner - tip.place;
+      if (length(off) < largest_ring * spacing_ && is_end(corner)) look(off, length(off));
+    }
+  }
+  for (int a = 0; a < 2; ++a) {
+    for (const double plane : mirrors_[a]) {
+      Vector<2> off{};
+      off[a] = 2.0 * (plane - tip.place[a]);
+      look(off, 0.5 * length(off));
+    }
+  }
 }
 
 /// In the square of that half width, in their order.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -42,7 +43,8 @@ struct TipLoad : TipJump {
 /// point:
 ///   J = sum V [(grad u^T sigma) grad q . d - W d . grad q + rho u'' . (grad u d) q]
 ///       - int q (p dw/ds + tau dv/ds) ds,
-/// q = 1 within a spacing of the tip and 0 beyond `radius`; p and tau are what the faces carry, w
+/// q = 1 within a spacing of the tip and 0 beyond `radius`, 4.5 spacings, less where another tip is
+/// nearer: two that run at each other have none together. p and tau are what the faces carry, w
 /// and v their jumps, s along the crack to the tip. Of displacements from the state at rest, so
 /// that an initial stress counts as what faces are relieved of. With a pore stress a, sigma is the
 /// total stress, W is less a theta, and there is
@@ -70,9 +72,18 @@ class EnergyRelease {
   std::vector<Index> looks_at(const CrackTip& tip) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
   TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
+  /// Another tip, or the image of this one beyond a plane of symmetry, meets() it.
+  bool meets_another(const CrackTip& tip) const;
 
  private:
   double radius(const CrackTip& tip) const;
+  struct OtherTip {
+    double away;    ///< of it or its image [m]
+    double clear;   ///< as meets() takes it [m]
+    double cosine;  ///< of the direction to it
+  };
+  void for_tips_around(const CrackTip& tip, const std::function<void(const OtherTip&)>& see) const;
+  bool is_end(const Vector<2>& corner) const;
   std::vector<Index> points_around(const Vector<2>& centre, double radius) const;
   Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
                     std::span<const Vector<2>> jumps) const;
@@ -85,7 +96,14 @@ class EnergyRelease {
   CutBody<2>& body_;
   double spacing_;
   std::vector<Index> by_x_;  ///< points
+  /// By axis: its planes of symmetry, lower and upper, infinite where there is none [m].
+  std::array<std::array<double, 2>, 2> mirrors_;
 };
+
+/// Another tip, in a direction from this one's with this cosine, lies within any ring that J could
+/// be asked on. `clear` [spacings]: how far rock goes on to that tip, or to the plane of symmetry
+/// that it is an image beyond.
+constexpr bool meets(double clear, double cosine) { return clear < 1.75 && cosine >= 0.5; }
 
 /// As far as their ratio goes: of a tip on a lattice, whose faces slide further than they open.
 TipModes modes_of(const TipJump& jump);
