@@ -60,26 +60,28 @@ std::optional<std::string> meeting_tips_warning(const Section& scene) {
   const std::vector<End> ends = ends_of_cracks(scene);
   const auto warning = [&](const End& end, const std::string& other, double clear) {
     return fmt::format(
-        "cracks[{}] ends at ({:.6g}, {:.6g}) m, {:.2g} spacings from {}: when it goes on there is "
-        "not known before the crack's other end has; begin them as one, or take a body.spacing of "
-        "{:.2g} m or less",
+        "cracks[{}] ends at ({:.6g}, {:.6g}) m, {:.2g} spacings from {}: too near to know when it "
+        "goes on there; begin them as one crack, or take a body.spacing of {:.2g} m or less",
         end.crack, end.place[0], end.place[1], clear / spacing, other, 0.5 * clear);
   };
   for (const End& end : ends) {
-    const auto is_close = [&](const Vector<2>& off) {
+    const auto is_met = [&](const Vector<2>& off, const Vector<2>& direction) {
       const double away = norm(off);
-      return away > 1e-6 * spacing && meets(away / spacing, dot(off, end.direction) / away);
+      return away > 1e-6 * spacing && are_opposed(dot(direction, end.direction)) &&
+             meets(away / spacing, dot(off, end.direction) / away);
     };
     for (const End& other : ends) {
       const Vector<2> off = other.place - end.place;
-      if (is_close(off))
+      if (is_met(off, other.direction))
         return warning(end, fmt::format("the end of cracks[{}]", other.crack), norm(off));
     }
     for (int a = 0; a < 2; ++a) {
+      Vector<2> image = end.direction;
+      image[a] = -image[a];
       for (const double plane : planes[a]) {
         Vector<2> off{};
         off[a] = plane - end.place[a];
-        if (is_close(off)) return warning(end, "a plane of symmetry", norm(off));
+        if (is_met(off, image)) return warning(end, "a plane of symmetry", norm(off));
       }
     }
   }

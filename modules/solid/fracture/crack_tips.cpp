@@ -120,11 +120,11 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
   const TipModes modes = modes_of(load);
   const double straight_on = std::hypot(modes.opening, modes.sliding);
   const double turned = straight_on > 0.0 ? kink_intensity(modes) / straight_on : 1.0;
-  // The nearer two tips are, the larger their K: one that has come so near goes on.
-  if (may_go && tip.moved && energy_release_.meets_another(tip.at)) return 1.0;
   tip.asked = opens ? turned * std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
   tip.asked_opening = opens ? opening : 0.0;
-  return tip.asked;
+  // The nearer two tips are, the larger their K: one that has come so near goes on.
+  const bool meets = may_go && tip.moved && energy_release_.meets_another(tip.at, state.opening);
+  return meets ? std::max(tip.asked, 1.0) : tip.asked;
 }
 
 /// Dry faces that touch and have not slid under friction: what is there of a jump is rounding, of

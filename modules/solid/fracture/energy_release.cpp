@@ -71,6 +71,10 @@ constexpr double largest_ring = 4.5, least_ring = 2.0;
 /// that are so short others know (short_seeds.hpp).
 constexpr double abreast = -0.5;
 
+/// J of another tip, which goes with the square of its opening, counts beside that of this one
+/// where it opens by more than this of its opening.
+constexpr double telling_opening = 0.25;
+
 constexpr double largest_kink = 70.0 * M_PI / 180.0;
 
 /// A turn below this is rounding [rad].
@@ -102,8 +106,9 @@ TipLoad EnergyRelease::at(const CrackTip& tip, std::span<const double> unknowns,
     const Vector<2> relief = body_.relief(f);
     return {pressure[f] + relief[0], shear.empty() ? relief[1] : relief[1] + shear[f]};
   };
+  const double ring = radius(tip, jumps);
   return {jump(tip, jumps),
-          of_points(tip, unknowns, pore_stress, inertia) + of_faces(tip, jumps, load)};
+          of_points(tip, ring, unknowns, pore_stress, inertia) + of_faces(tip, ring, jumps, load)};
 }
 
 TipLoad EnergyRelease::under(const CrackTip& tip, std::span<const double> unknowns,
@@ -112,7 +117,9 @@ TipLoad EnergyRelease::under(const CrackTip& tip, std::span<const double> unknow
   const auto load = [&](Index f) {
     return std::ranges::find(faces, f) != faces.end() ? traction : Vector<2>{};
   };
-  return {jump(tip, jumps), of_points(tip, unknowns, {}, {}) + of_faces(tip, jumps, load)};
+  const double ring = radius(tip, jumps);
+  return {jump(tip, jumps),
+          of_points(tip, ring, unknowns, {}, {}) + of_faces(tip, ring, jumps, load)};
 }
 
 std::vector<Vector<2>> EnergyRelease::jumps_in(std::span<const double> unknowns) const {
@@ -123,22 +130,26 @@ std::vector<Vector<2>> EnergyRelease::jumps_in(std::span<const double> unknowns)
   return jumps;
 }
 
-/// Near a boundary the ring is drawn in, so as to lie within the body, and so it is near another
-/// tip, so as to hold this one alone [m].
-double EnergyRelease::radius(const CrackTip& tip) const {
-  const double within = body_.reaches(tip.place, largest_ring * spacing_) ? largest_ring : 3.0;
-  double alone = within * spacing_;
-  for_tips_around(tip, [&](const OtherTip& other) {
+/// Near a boundary the ring is drawn in, so as to lie within the body [m].
+double EnergyRelease::largest_radius(const CrackTip& tip) const {
+  return (body_.reaches(tip.place, largest_ring * spacing_) ? largest_ring : 3.0) * spacing_;
+}
+
+/// And near another tip so as to hold this one alone [m].
+double EnergyRelease::radius(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
+  double alone = largest_radius(tip);
+  const auto counts = [&](Index f) { return jumps[f][0] > telling_opening * jumps[tip.facet][0]; };
+  for_tips_around(tip, counts, [&](const OtherTip& other) {
     if (other.cosine >= abreast) alone = std::min(alone, other.away);
   });
   return std::max(alone, least_ring * spacing_);
 }
 
-bool EnergyRelease::meets_another(const CrackTip& tip) const {
+bool EnergyRelease::meets_another(const CrackTip& tip, const Eigen::VectorXd& opening) const {
   bool found = false;
-  for_tips_around(tip, [&](const OtherTip& other) {
-    found = found || meets(other.clear / spacing_, other.cosine);
-  });
+  for_tips_around(
+      tip, [&](Index f) { return opening[f] > telling_opening * opening[tip.facet]; },
+      [&](const OtherTip& other) { found = found || meets(other.clear / spacing_, other.cosine); });
   return found;
 }
 
@@ -151,25 +162,32 @@ bool EnergyRelease::is_end(const Vector<2>& corner) const {
   return std::ranges::count_if(body_.facets(), has) == 1 && body_.reaches(corner, -0.25 * spacing_);
 }
 
-/// Ends of cracks, and images of the tip, within the largest ring.
-void EnergyRelease::for_tips_around(const CrackTip& tip,
+/// Of images of the tip and ends of cracks, these where their facet `counts`, those within the
+/// largest ring that run at it.
+void EnergyRelease::for_tips_around(const CrackTip& tip, const std::function<bool(Index)>& counts,
                                     const std::function<void(const OtherTip&)>& see) const {
-  const auto look = [&](const Vector<2>& off, double clear) {
+  const double within = largest_ring * spacing_;
+  const auto look = [&](const Vector<2>& off, const Vector<2>& direction, double clear) {
     const double away = length(off);
-    if (away < 1e-6 * spacing_ || away >= largest_ring * spacing_) return;
+    if (away < 1e-6 * spacing_ || away >= within) return;
+    if (!are_opposed(dot(direction, tip.direction))) return;
     see({away, clear, dot(off, tip.direction) / away});
   };
-  for (const CrackFacet<2>& facet : body_.facets()) {
-    for (const Vector<2>& corner : facet) {
-      const Vector<2> off = corner - tip.place;
-      if (length(off) < largest_ring * spacing_ && is_end(corner)) look(off, length(off));
+  for (std::size_t f = 0; f < body_.facets().size(); ++f) {
+    const CrackFacet<2>& facet = body_.facets()[f];
+    for (const int end : {0, 1}) {
+      const Vector<2> off = facet[end] - tip.place, along = facet[end] - facet[1 - end];
+      if (length(off) < within && counts(static_cast<Index>(f)) && is_end(facet[end]))
+        look(off, along / length(along), length(off));
     }
   }
   for (int a = 0; a < 2; ++a) {
+    Vector<2> image = tip.direction;
+    image[a] = -image[a];
     for (const double plane : mirrors_[a]) {
       Vector<2> off{};
       off[a] = 2.0 * (plane - tip.place[a]);
-      look(off, 0.5 * length(off));
+      look(off, image, 0.5 * length(off));
     }
   }
 }
@@ -190,7 +208,7 @@ std::vector<Index> EnergyRelease::points_around(const Vector<2>& centre, double 
 
 std::vector<Index> EnergyRelease::looks_at(const CrackTip& tip) const {
   const Family<2>& family = body_.family();
-  const Cutoff cutoff{tip.place, spacing_, radius(tip)};
+  const Cutoff cutoff{tip.place, spacing_, largest_radius(tip)};
   std::vector<Index> unknowns;
   for (const Index i : points_around(cutoff.centre, cutoff.outer)) {
     body_.elastic().append_unknowns(i, unknowns);
@@ -211,7 +229,7 @@ std::vector<Index> EnergyRelease::looks_at(const CrackTip& tip) const {
 }
 
 bool EnergyRelease::is_straight(const CrackTip& tip, double angle) const {
-  const Cutoff ring{tip.place, spacing_, radius(tip)};
+  const Cutoff ring{tip.place, spacing_, largest_radius(tip)};
   for (std::size_t f = 0; f < body_.jumps().size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
     if (!ring.reaches(facet[0]) && !ring.reaches(facet[1])) continue;
@@ -262,11 +280,12 @@ Vector<2> EnergyRelease::jump_at(const Vector<2>& corner, const CrackTip& tip,
   return sum / count;
 }
 
-double EnergyRelease::of_points(const CrackTip& tip, std::span<const double> unknowns,
+double EnergyRelease::of_points(const CrackTip& tip, double radius,
+                                std::span<const double> unknowns,
                                 std::span<const double> pore_stress,
                                 const PointInertia<2>& inertia) const {
   const Family<2>& family = body_.family();
-  const Cutoff cutoff{tip.place, spacing_, radius(tip)};
+  const Cutoff cutoff{tip.place, spacing_, radius};
   const DeformedMaterial<2> deformed = body_.elastic().deform(unknowns);
   const Vector<2>& d = tip.direction;
   double sum = 0.0;
@@ -290,9 +309,9 @@ double EnergyRelease::of_points(const CrackTip& tip, std::span<const double> unk
 }
 
 /// `load`: what a facet's faces carry along its normal and tangent [Pa].
-double EnergyRelease::of_faces(const CrackTip& tip, std::span<const Vector<2>> jumps,
+double EnergyRelease::of_faces(const CrackTip& tip, double radius, std::span<const Vector<2>> jumps,
                                const std::function<Vector<2>(Index)>& load) const {
-  const Cutoff cutoff{tip.place, spacing_, radius(tip)};
+  const Cutoff cutoff{tip.place, spacing_, radius};
   double sum = 0.0;
   for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];

@@ -72,25 +72,27 @@ class EnergyRelease {
   std::vector<Index> looks_at(const CrackTip& tip) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
   TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
-  /// Another tip, or the image of this one beyond a plane of symmetry, meets() it.
-  bool meets_another(const CrackTip& tip) const;
+  /// Another tip that is as open, or the image of this one beyond a plane of symmetry, meets() it.
+  bool meets_another(const CrackTip& tip, const Eigen::VectorXd& opening) const;
 
  private:
-  double radius(const CrackTip& tip) const;
+  double largest_radius(const CrackTip& tip) const;
+  double radius(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
   struct OtherTip {
     double away;    ///< of it or its image [m]
     double clear;   ///< as meets() takes it [m]
     double cosine;  ///< of the direction to it
   };
-  void for_tips_around(const CrackTip& tip, const std::function<void(const OtherTip&)>& see) const;
+  void for_tips_around(const CrackTip& tip, const std::function<bool(Index)>& counts,
+                       const std::function<void(const OtherTip&)>& see) const;
   bool is_end(const Vector<2>& corner) const;
   std::vector<Index> points_around(const Vector<2>& centre, double radius) const;
   Vector<2> jump_at(const Vector<2>& corner, const CrackTip& tip,
                     std::span<const Vector<2>> jumps) const;
   std::vector<Vector<2>> jumps_in(std::span<const double> unknowns) const;
-  double of_points(const CrackTip& tip, std::span<const double> unknowns,
+  double of_points(const CrackTip& tip, double radius, std::span<const double> unknowns,
                    std::span<const double> pore_stress, const PointInertia<2>& inertia) const;
-  double of_faces(const CrackTip& tip, std::span<const Vector<2>> jumps,
+  double of_faces(const CrackTip& tip, double radius, std::span<const Vector<2>> jumps,
                   const std::function<Vector<2>(Index)>& load) const;
 
   CutBody<2>& body_;
@@ -100,9 +102,13 @@ class EnergyRelease {
   std::array<std::array<double, 2>, 2> mirrors_;
 };
 
-/// Another tip, in a direction from this one's with this cosine, lies within any ring that J could
-/// be asked on. `clear` [spacings]: how far rock goes on to that tip, or to the plane of symmetry
-/// that it is an image beyond.
+/// Two tips run at each other, by the cosine between their directions: what one adds to the other's
+/// J is of the other sign.
+constexpr bool are_opposed(double cosine) { return cosine <= -0.75; }
+
+/// A tip that runs at this one, in a direction from it with this cosine, lies within any ring that
+/// J could be asked on. `clear` [spacings]: how far rock goes on to that tip, or to the plane of
+/// symmetry that it is an image beyond.
 constexpr bool meets(double clear, double cosine) { return clear < 1.75 && cosine >= 0.5; }
 
 /// As far as their ratio goes: of a tip on a lattice, whose faces slide further than they open.
