@@ -12,21 +12,13 @@ length and half its height and V the volume of both wings; the reference (tests/
 is marched under that. Pressure is that in the middle of the facet at the inlet.
 """
 import argparse
-import csv
-import json
-import math
 import os
-import subprocess
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "references"))
+from kgd_convergence import HELD, MODULUS, RATE, SIZE, SPACING, run, viscosity_of  # noqa: E402
 from kgd_with_lag import March  # noqa: E402
 
-SPACING, RATE, MODULUS = 5e-3, 1.6e-4, 700e6 / (1 - 0.25**2)  # m, m^2/s, Pa
-TOUGHNESS = (32 / math.pi * MODULUS * 5.0) ** 0.5  # K' [Pa m^0.5]
-HELD = 0.179  # what the faces add
-SIZE = 8  # of the body, in half lengths
 ASKED = 3.0  # % of length and lag, where that is of two facets or more
 # Half more than is reached at 10 and 20 facets: errors of length and lag, and the tip's way in a window, all in facets; of
 # pressure in %; the energy left open, in %.
@@ -39,11 +31,11 @@ def reference(K_m, T, rise=0.0):
 
 
 class Case:
-    """The scene's numbers, and its reference."""
+    """The run's numbers, and its reference."""
 
     def __init__(self, K_m, T, facets):
         self.facets, self.length = facets, facets * SPACING
-        self.viscosity = (TOUGHNESS / K_m) ** 4 / (RATE * MODULUS**3)  # 12 mu
+        self.viscosity = viscosity_of(K_m)
         length = reference(K_m, T).at("length", T)
         self.unit = self.length / length  # (Q t_om E' / stress)^(1/2)
         self.stress = (RATE * MODULUS**3 * self.viscosity / self.unit**2) ** 0.25
@@ -51,32 +43,6 @@ class Case:
         self.march = reference(K_m, T, self.rise)
         self.time = self.viscosity * MODULUS**2 / self.stress**3
         self.end = T * self.time
-
-    def scene(self):
-        size, seed = SIZE * self.length, max(3, self.facets // 4) * SPACING
-        return f"""
-dimension: 2
-body: {{shape: box, size: [{size} m, {2 * size} m], spacing: {SPACING} m}}
-cracks:
-  - {{name: wing, path: [0 m, {size} m, {seed} m, {size} m]}}
-solid:
-  type: quasi_static
-  linear_solver: {{type: direct}}
-  material: {{youngs_modulus: 700 MPa, poisson_ratio: 0.25}}
-  confining_stress: [{self.stress} Pa, {self.stress} Pa]
-  boundary: {{left: {{type: roller}}, bottom: {{type: roller}}, top: {{type: roller}}}}
-damage: {{type: energy_release, fracture_energy: 5 J/m^2}}
-crack_fluid:
-  type: network
-  density: 1000 kg/m^3
-  viscosity: {self.viscosity / 12} Pa s
-  bulk_modulus: 1e14 Pa
-  counts: both
-  inlets: [{{name: well, at: [0 mm, {size} m], rate: {RATE} m^2/s}}]
-time: {{end: {self.end} s}}
-coupling: {{window: {{largest: {self.end * 1.5 / self.facets / 8} s}}, iterations: {{max: 40}}}}
-output: {{interval: {self.end} s}}
-"""
 
     def errors(self, history):
         """In %: means of length, lag and pressure; the mean lag and the tip's longest way in facets."""
@@ -101,24 +67,6 @@ output: {{interval: {self.end} s}}
         return [100 * s / lasted for s in sums[:3]] + [sums[3] / lasted, longest / SPACING]
 
 
-def run(perifrac, case):
-    """history.csv as columns by name, and the open part of the energy."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "scene.yaml")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(case.scene())
-        done = subprocess.run([perifrac, "run", path, "--no-report", "--threads", "1", "--overwrite", "--output", folder],
-                              capture_output=True, text=True, check=False)  # fmt: skip
-        if done.returncode != 0:
-            sys.exit(done.stderr)
-        with open(os.path.join(folder, "history.csv"), encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-            summary = json.load(file)
-    history = {name.split(" [")[0]: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
-    return history, summary["ledger"]["energy_error"]
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("perifrac")
@@ -131,7 +79,7 @@ def main():
         K_m, T = map(float, named.split(":"))
         for facets in given.facets:
             case = Case(K_m, T, facets)
-            history, energy = run(os.path.abspath(given.perifrac), case)
+            history, energy = run(os.path.abspath(given.perifrac), facets, case.viscosity, case.end, case.stress)
             *found, dry, way = case.errors(history)
             of_facets = (found[0] * 0.0085 * facets, found[1] * dry / 100, way, found[2], 100 * energy)
             beyond = any(abs(f) > bound for f, bound in zip(of_facets, BOUNDS))
