@@ -3,6 +3,7 @@
 #include <array>
 #include <random>
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "core/solvers/symmetric_spectrum.hpp"
