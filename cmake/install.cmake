@@ -22,10 +22,10 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64 AND NOT PERIFRAC_NATIVE)
   install(TARGETS perifrac RUNTIME DESTINATION libexec/perifrac/${perifrac_set} COMPONENT set)
   add_executable(perifrac_launcher app/launcher/launcher.cpp)
   target_compile_options(perifrac_launcher PRIVATE -Wall -Wextra -Wshadow -Wconversion)
-  target_link_options(perifrac_launcher PRIVATE -static-libstdc++ -static-libgcc)
-  set_target_properties(perifrac_launcher PROPERTIES
-    OUTPUT_NAME perifrac RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/launcher)
-  install(TARGETS perifrac_launcher RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  target_link_options(perifrac_launcher PRIVATE -static-libstdc++ -static-libgcc -s)
+  # Named so when it is installed only: ninja would take it for the target `perifrac`.
+  install(PROGRAMS $<TARGET_FILE:perifrac_launcher> DESTINATION ${CMAKE_INSTALL_BINDIR}
+          RENAME perifrac COMPONENT program)
 else()
   set_target_properties(perifrac PROPERTIES INSTALL_RPATH "$ORIGIN/../${perifrac_own_libraries}")
   install(TARGETS perifrac RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
@@ -49,7 +49,8 @@ foreach(set ${PERIFRAC_SETS})
     if(component STREQUAL python_folder)
       set(only_by_name EXCLUDE_FROM_ALL)
     endif()
-    install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" --install \"${tree}\" --component ${component}
+    install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" -E env --unset=DESTDIR
+                                          \"${CMAKE_COMMAND}\" --install \"${tree}\" --component ${component}
                                           --prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\" \${perifrac_strip}
                                   COMMAND_ERROR_IS_FATAL ANY)" COMPONENT ${component} ${only_by_name})
   endforeach()

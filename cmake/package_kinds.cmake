@@ -2,6 +2,7 @@
 # nobody who compiles.
 if(CPACK_GENERATOR STREQUAL TGZ)
   set(CPACK_PACKAGING_INSTALL_PREFIX "/")
+  set(CPACK_COMPONENT_INCLUDE_TOPLEVEL_DIRECTORY ON)
   if(python IN_LIST CPACK_COMPONENTS_ALL)
     set(folder python_folder)
   endif()
