@@ -6,9 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crack_path import neighbours
-
 MOST_FACETS = 4000
+REACH = 1.6  # of the usual gap: facets farther apart are no neighbours
 
 
 @dataclass
@@ -18,6 +17,30 @@ class Paths:
     branch: np.ndarray
     along: np.ndarray
     joined: list[tuple[int, int]] = field(default_factory=list)  # a branch's first facet and what it begins at
+
+
+def nearest_gaps(distance: np.ndarray) -> np.ndarray:
+    return np.where(distance > 0, distance, np.inf).min(axis=1)
+
+
+def neighbours(middles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of every facet the nearest, and the nearest on its other side; with the distances of all."""
+    away = middles[None, :, :] - middles[:, None, :]
+    distance = np.hypot(away[..., 0], away[..., 1])
+    if len(middles) < 2:
+        return np.empty((0, 2), dtype=int), distance
+    reach = REACH * float(np.median(nearest_gaps(distance)))
+    found = set()
+    for i in range(len(middles)):
+        near = [j for j in np.argsort(distance[i], kind="stable") if j != i and distance[i, j] < 1.5 * reach]
+        if not near or distance[i, near[0]] > reach:
+            continue
+        found.add((min(i, near[0]), max(i, near[0])))
+        first = away[i, near[0]]
+        other = [j for j in near[1:] if distance[i, j] < reach and away[i, j] @ first < 0]
+        if other:
+            found.add((min(i, other[0]), max(i, other[0])))
+    return np.array(sorted(found), dtype=int).reshape(-1, 2), distance
 
 
 def tree_of(root: int, links: list[list[int]], points: np.ndarray, parent: np.ndarray) -> list[int]:
@@ -33,8 +56,9 @@ def tree_of(root: int, links: list[list[int]], points: np.ndarray, parent: np.nd
     return order
 
 
-def branches_of(root: int, order: list[int], parent: np.ndarray, step: np.ndarray, found: Paths, next_branch: int) -> int:
-    """Splits the tree of one crack: its longest arms on both sides of the oldest facet are one branch."""
+def branches_of(root: int, order: list[int], parent: np.ndarray, points: np.ndarray, found: Paths, next_branch: int) -> int:
+    """Splits the tree of one crack: its longest arms on both sides of the oldest facet are one branch, counted
+    towards larger x, or y; so that it does not turn round as one arm outgrows the other."""
     children: dict[int, list[int]] = {at: [] for at in order}
     for at in order[1:]:
         children[int(parent[at])].append(at)
@@ -46,7 +70,10 @@ def branches_of(root: int, order: list[int], parent: np.ndarray, step: np.ndarra
     main, last = next_branch, next_branch
     for at in order:
         branch = int(found.branch[at])
-        for place, child in enumerate(sorted(children[at], key=lambda c: -depth[c])):
+        ranked = sorted(children[at], key=lambda c: -depth[c])
+        if at == root:
+            ranked[:2] = sorted(ranked[:2], key=lambda c: tuple(points[c]), reverse=True)
+        for place, child in enumerate(ranked):
             backwards = at == root and place == 1
             goes_on = place == 0 or backwards
             if not goes_on:
@@ -54,11 +81,12 @@ def branches_of(root: int, order: list[int], parent: np.ndarray, step: np.ndarra
                 sign[last] = 1.0
                 found.joined.append((child, at))
             found.branch[child] = branch if goes_on else last
+            step = np.hypot(*(points[child] - points[at]))
             if backwards:
-                found.along[child] = -step[child]
+                found.along[child] = -step
             else:
                 direction = -1.0 if goes_on and found.along[at] < 0 and branch == main else sign[int(found.branch[child])]
-                found.along[child] = found.along[at] + direction * step[child]
+                found.along[child] = found.along[at] + direction * step
     return last + 1
 
 
@@ -81,8 +109,5 @@ def crack_paths(points: np.ndarray) -> Paths | None:
             continue
         parent[root] = -1
         order = tree_of(root, links, points, parent)
-        step = np.zeros(count)
-        for at in order[1:]:
-            step[at] = np.hypot(*(points[at] - points[parent[at]]))
-        next_branch = branches_of(root, order, parent, step, found, next_branch)
+        next_branch = branches_of(root, order, parent, points, found, next_branch)
     return found

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.lines import Line2D
 
-from crack_path import CrackPath, crack_path
+from crack_paths import Paths, crack_paths, neighbours
 from frames import spacing
 from quantities import Display, display_for, quantity
 from run import Run
@@ -26,6 +26,7 @@ STRESS = matplotlib.colormaps["RdBu_r"]
 # Okabe and Ito's colours, distinct to every kind of colour vision.
 SHARES = {"notch": "#56B4E9", "crack": "#D55E00", "by_crack": "#009E73", "by_notch": "#CC79A7"}
 THINNEST, WIDEST = 1.0, 5.0  # lines of closed and widest facets [points]
+DASHES = ("-", "--", ":", "-.")  # of one crack after another
 LOWEST_OPENING = 0.01  # of the widest: below it a facet is drawn as closed
 Panel = Callable[[Axes], None]
 
@@ -44,7 +45,7 @@ class Fracture:
     rock: PointSet
     crack: PointSet
     fluid: PointSet | None
-    path: CrackPath
+    pairs: np.ndarray  # (count, 2): facets of the crack that are neighbours
 
     @property
     def opening(self) -> np.ndarray:
@@ -87,7 +88,7 @@ def read_fracture(run: Run) -> Fracture | None:
     rock, crack, fluid = (last_frame(run, name) for name in ("body", "crack", "fluid"))
     if rock is None or crack is None or "crack_opening" not in crack.fields or len(crack.points) < 2:
         return None
-    return Fracture(found["body"].frames[-1].time, rock, crack, fluid, crack_path(crack.points))
+    return Fracture(found["body"].frames[-1].time, rock, crack, fluid, neighbours(crack.points)[0])
 
 
 def principal_stress(stress: np.ndarray) -> np.ndarray:
@@ -130,7 +131,7 @@ def draw_rock(axes: Axes, fracture: Fracture, values: np.ndarray, factor: float,
 
 def draw_cracks(axes: Axes, fracture: Fracture, colour_of=None) -> None:
     """Lines as wide as the crack is open, on a scale of their own; what is closed is dotted."""
-    pairs = fracture.path.pairs
+    pairs = fracture.pairs
     if len(pairs) == 0:
         return
     lines = fracture.length.factor * fracture.crack.points[pairs]
@@ -211,24 +212,35 @@ def stress_panel(fracture: Fracture) -> Panel:
     return draw
 
 
-def along_panel(fracture: Fracture) -> Panel:
-    """Opening and pressure along the crack from its first facet."""
+def draw_along(axes: Axes, fracture: Fracture, paths: Paths, x: np.ndarray, y: np.ndarray, **style) -> None:
+    """A line for every branch, of its open facets."""
+    for branch in range(int(paths.branch.max()) + 1):
+        members = np.flatnonzero((paths.branch == branch) & fracture.is_open)
+        members = members[np.argsort(x[members])]
+        axes.plot(x[members], y[members], linestyle=DASHES[branch % len(DASHES)], markersize=3, linewidth=1.2, **style)
+
+
+def along_panel(fracture: Fracture, paths: Paths) -> Panel:
+    """Opening and pressure along the cracks, each counted from its oldest facet."""
 
     def draw(axes: Axes) -> None:
-        known = np.isfinite(fracture.path.along) & fracture.is_open
-        order = np.flatnonzero(known)[np.argsort(fracture.path.along[known])]
-        length = display_for("m", float(fracture.path.along[order].max(initial=0.0)))
-        x = length.factor * fracture.path.along[order]
+        seen = paths.along[fracture.is_open]
+        length = display_for("m", float(np.abs(seen).max(initial=0.0)))
         width = display_for("m", float(fracture.opening.max()))
-        axes.plot(x, width.factor * fracture.opening[order], color="#0072B2", marker="o", markersize=3, linewidth=1.2)
-        axes.set(title=f"Along the crack at {time_of(fracture)}", xlabel=f"from its mouth [{length.unit}]")
+        draw_along(axes, fracture, paths, length.factor * paths.along, width.factor * fracture.opening, color="#0072B2", marker="o")
+        cracks, wings = int(paths.branch.max()) + 1, seen.min(initial=0.0) < 0
+        begun = "where it began" if wings else "its mouth"
+        axes.set(title=f"Along the crack{'s' if cracks > 1 else ''} at {time_of(fracture)}", xlabel=f"from {begun} [{length.unit}]")
         axes.set_ylabel(f"opening [{width.unit}]", color="#0072B2")
         axes.set_ylim(bottom=0)
+        if 1 < cracks <= len(DASHES):
+            axes.legend(handles=[Line2D([], [], color=INK, linestyle=dash, label=f"crack {n + 1}")
+                                 for n, dash in enumerate(DASHES[:cracks])])  # fmt: skip
         if fracture.pressure is None:
             return
         beside = axes.twinx()
         shown = display_for("Pa", float(np.abs(fracture.pressure).max()))
-        beside.plot(x, shown.factor * fracture.pressure[order], color="#D55E00", marker="s", markersize=3, linewidth=1.2)
+        draw_along(beside, fracture, paths, length.factor * paths.along, shown.factor * fracture.pressure, color="#D55E00", marker="s")
         beside.set_ylabel(f"pressure [{shown.unit}]", color="#D55E00")
         beside.grid(False)
         beside.spines["right"].set_visible(True)
@@ -284,5 +296,7 @@ def fracture_panels(run: Run) -> list[Panel]:
         panels.append(stress_panel(fracture))
     if not panels:
         return []
+    if (paths := crack_paths(fracture.crack.points)) is not None:
+        panels.append(along_panel(fracture, paths))
     shares = shares_panel(run)
-    return panels + [along_panel(fracture)] + ([shares] if shares else [])
+    return panels + ([shares] if shares else [])

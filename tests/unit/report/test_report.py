@@ -32,7 +32,7 @@ import chunks  # noqa: E402
 import fracture_panels  # noqa: E402
 import page  # noqa: E402
 import quantities  # noqa: E402
-from crack_paths import crack_paths  # noqa: E402
+from crack_paths import crack_paths, neighbours  # noqa: E402
 from run import read_run  # noqa: E402
 
 
@@ -364,6 +364,20 @@ class Fractures(ReportTest):
         names, right = self.labels(4.0)
         self.assertEqual(names, ["x [m]", "from its mouth [m]"])
         self.assertTrue(10 < right <= 80, right)
+
+    def test_two_cracks_with_two_wings_each_are_two_lines(self) -> None:
+        """Their facets grow by turns, one wing longer than the other."""
+        points = np.array([[x, y] for x in (0.5, -0.5, 1.5, -1.5, 2.5) for y in (0.0, 9.0)])
+        opening = np.array([0.4, 0.5, 0.4, 0.5, 0.3, 0.2, 0.3, 0.2, 0.1, 0.1])
+        crack = fracture_panels.PointSet(points, {"crack_opening": opening, "crack_pressure": 1e6 + opening})
+        fracture = fracture_panels.Fracture(1.0, crack, crack, None, neighbours(points)[0])
+        figure, axes = plt.subplots()
+        fracture_panels.along_panel(fracture, crack_paths(points))(axes)
+        lines = [line.get_xydata() for line in axes.get_lines()]
+        self.assertEqual(axes.get_xlabel(), "from where it began [m]")
+        plt.close(figure)
+        np.testing.assert_allclose(lines[0], np.c_[[-2, -1, 0, 1, 2], [300, 400, 400, 300, 100]])
+        np.testing.assert_allclose(lines[1], np.c_[[-2, -1, 0, 1, 2], [200, 500, 500, 200, 100]])
 
 
 class Packed(unittest.TestCase):
