@@ -101,6 +101,7 @@ void SceneRun::settle() {
 void SceneRun::finish(bool stopped) {
   log_if_any(balance_warning(scene_, simulation_));
   log_if_any(filling_warning(scene_, simulation_));
+  log_if_any(residual_aperture_warning(scene_, simulation_));
   const auto seepage = seepage_warning(scene_, simulation_.manager->time());
   if (!stopped) log_if_any(seepage);
   recorder_.write_checkpoint(false);

@@ -14,14 +14,30 @@ namespace perifrac {
 
 namespace {
 
-constexpr double least_filled = 2.0;  // spacings
+constexpr double least_filled = 2.0;   // spacings
+constexpr double most_residual = 0.5;  // of the widest opening; volumes are 3 % off then
 
-/// Of a field without places; nothing where there is none.
-double value_of(const Simulation& simulation, const std::string& name) {
+/// Of a field; 0 where there is none.
+double largest_of(const Simulation& simulation, const std::string& name) {
+  double largest = 0.0;
   for (const Field& field : fields_of(*simulation.manager)) {
-    if (field.port.name == name) return field.values().front();
+    if (field.port.name != name) continue;
+    for (const double value : field.values()) largest = std::max(largest, value);
   }
-  return 0.0;
+  return largest;
+}
+
+/// A length of what is wet in 2D; in 3D the radius of a disc as large [m].
+double wetted_size(const Section& scene, const Simulation& simulation) {
+  return scene.integer("dimension") == 2 ? largest_of(simulation, "wetted_length")
+                                         : std::sqrt(largest_of(simulation, "wetted_area") / M_PI);
+}
+
+bool pumps_at_a_rate(const Section& scene) {
+  for (std::size_t k = 0; k < scene.count("crack_fluid.inlets"); ++k) {
+    if (scene.has(fmt::format("crack_fluid.inlets[{}].rate", k))) return true;
+  }
+  return false;
 }
 
 /// Pores that deform along one axis alone [m^2/s]; the largest of its directions and the first of
@@ -79,18 +95,31 @@ Seepage where_fluid_seeps(const Section& scene) {
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("crack_fluid")) return {};
   const double spacing = scene.number("body.spacing");
-  const bool is_flat = scene.integer("dimension") == 2;
-  // In 3D the radius of a disc as large as what is wet, and the side of a square as what is not.
-  const double filled = is_flat ? value_of(simulation, "wetted_length")
-                                : std::sqrt(value_of(simulation, "wetted_area") / M_PI);
-  const double dry =
-      is_flat ? value_of(simulation, "fluid_lag") : std::sqrt(value_of(simulation, "dry_area"));
+  const double filled = wetted_size(scene, simulation);
+  const double dry = scene.integer("dimension") == 2
+                         ? largest_of(simulation, "fluid_lag")
+                         : std::sqrt(largest_of(simulation, "dry_area"));
   if (!(filled > 0.0) || filled >= least_filled * spacing || !(dry > spacing)) return {};
   return fmt::format(
       "fluid fills {:.2g} m of the cracks in the end, {:.1f} spacings: its pressure and what it "
       "opens are those of facets as long as body.spacing, not of a crack; a later time.end or a "
       "finer body.spacing",
       filled, filled / spacing);
+}
+
+std::optional<std::string> residual_aperture_warning(const Section& scene,
+                                                     const Simulation& simulation) {
+  if (!simulation.has_body() || !scene.has("crack_fluid.residual_aperture")) return {};
+  if (!writes(scene, "damage") || !pumps_at_a_rate(scene)) return {};
+  if (wetted_size(scene, simulation) < least_filled * scene.number("body.spacing")) return {};
+  const double residual = scene.number("crack_fluid.residual_aperture");
+  const double widest = largest_of(simulation, "crack_opening");
+  if (residual <= most_residual * widest) return {};
+  return fmt::format(
+      "cracks are {:.2g} m open at the widest in the end, and crack_fluid.residual_aperture is "
+      "{:.2g} m: fluid fills and flows through that, not what it opens; lower it to a tenth of the "
+      "openings that are expected",
+      widest, residual);
 }
 
 std::optional<std::string> seepage_warning(const Section& scene, double time) {

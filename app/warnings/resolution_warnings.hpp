@@ -12,6 +12,10 @@ namespace perifrac {
 /// pressure and no opening yet that would not depend on how long facets are.
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation);
 
+/// Where cracks that are pumped, and may grow, end hardly wider than what closed ones keep.
+std::optional<std::string> residual_aperture_warning(const Section& scene,
+                                                     const Simulation& simulation);
+
 /// Where pressure has gone less than a spacing into the pores by `time` [s], from a face that holds
 /// it or a crack: what seeps then is what points so far apart take, not rock.
 std::optional<std::string> seepage_warning(const Section& scene, double time);

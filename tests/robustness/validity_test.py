@@ -148,6 +148,14 @@ class Validity(RunTest):
                 "time.end": "0.03 ms", "output.interval": "0.03 ms"}
         self.assert_warns(self.without_reference("radial.yaml"), soon, "fluid fills")
 
+    def test_a_residual_aperture_as_wide_as_what_is_opened(self):
+        wing = {"body.spacing": "5 mm", "body.size": "[100 mm, 200 mm]", "cracks[0].path": "[0 mm, 100 mm, 10 mm, 100 mm]",
+                "crack_fluid.inlets[0].at": "[0 mm, 100 mm]", "time.end": "20 ms"}
+        for residual, warns in (("2 um", False), ("30 um", True), ("80 um", True)):
+            keys = wing | {"crack_fluid.residual_aperture": residual}
+            warned = self.warnings(self.without_reference("kgd_leakoff.yaml"), keys)
+            self.assertEqual(any("crack_fluid.residual_aperture" in warning for warning in warned), warns, warned)
+
     def test_a_probe_beside_a_border_of_rocks(self):
         cap = "{cap: {material: {bulk_modulus: 2.5 GPa, shear_modulus: %s}}}"
         probe = {"time.end": "0.1 s", "output.times": "[]"}
