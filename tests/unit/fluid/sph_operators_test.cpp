@@ -209,7 +209,9 @@ void expect_diffusion_of_what_is_not_linear() {
     const Vector<D> x = water.points.at(i);
     int borders = 0;
     for (const double c : x) borders += c < horizon || c > water.width - horizon;
-    if (borders < 1) EXPECT_NEAR(water.moments.diffusion[i], 0.0, 1e-9);
+    if (borders < 1) {
+      EXPECT_NEAR(water.moments.diffusion[i], 0.0, 1e-9);
+    }
   }
   SphWater<D> mixed(count_of(D), 0.15, true);
   mixed.shake();
