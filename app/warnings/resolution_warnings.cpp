@@ -35,7 +35,8 @@ double wetted_size(const Section& scene, const Simulation& simulation) {
 
 bool pumps_at_a_rate(const Section& scene) {
   for (std::size_t k = 0; k < scene.count("crack_fluid.inlets"); ++k) {
-    if (scene.has(fmt::format("crack_fluid.inlets[{}].rate", k))) return true;
+    const std::string rate = fmt::format("crack_fluid.inlets[{}].rate", k);
+    if (scene.has(rate) && scene.number(rate) > 0.0) return true;
   }
   return false;
 }
