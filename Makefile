@@ -76,6 +76,7 @@ test: build check-style
 	ctest --preset release --label-exclude slow
 
 test-slow: build
+	@command -v npm > /dev/null || tools/install editor
 	ctest --preset release --label-regex slow
 
 check-style: install-tests

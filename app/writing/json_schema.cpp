@@ -19,19 +19,22 @@ using Json = nlohmann::ordered_json;
 constexpr const char* magnitude_pattern =
     R"((?!0[xX])([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?(?![0-9.,]|[eE][-+]?[0-9.])\s*([^\s0-9.,].*|1/.*)?$)";
 
+/// Bounds hold for bare numbers, the pattern for those with a unit. One schema of both: of two,
+/// editors show neither's meaning.
 Json number_schema(const Key& key) {
-  Json bare = {{"type", key.type == KeyType::integer ? "integer" : "number"}};
+  Json schema = {{"type", "integer"}};
   const Range range(key.range);
   if (std::isfinite(range.lowest())) {
-    bare[range.includes_lowest() ? "minimum" : "exclusiveMinimum"] = range.lowest();
+    schema[range.includes_lowest() ? "minimum" : "exclusiveMinimum"] = range.lowest();
   }
   if (std::isfinite(range.highest())) {
-    bare[range.includes_highest() ? "maximum" : "exclusiveMaximum"] = range.highest();
+    schema[range.includes_highest() ? "maximum" : "exclusiveMaximum"] = range.highest();
   }
-  if (key.type == KeyType::integer) return bare;
+  if (key.type == KeyType::integer) return schema;
+  schema["type"] = {"number", "string"};
   const std::string sign = range.lowest() >= 0.0 ? "[+]?" : "[-+]?";
-  const std::string pattern = "^\\s*" + sign + magnitude_pattern;
-  return {{"anyOf", {bare, {{"type", "string"}, {"pattern", pattern}}}}};
+  schema["pattern"] = "^\\s*" + sign + magnitude_pattern;
+  return schema;
 }
 
 /// What the key may hold.
