@@ -23,12 +23,12 @@ def nearest_gaps(distance: np.ndarray) -> np.ndarray:
     return np.where(distance > 0, distance, np.inf).min(axis=1)
 
 
-def neighbours(middles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of every facet the nearest, and the nearest on its other side; with the distances of all."""
+def neighbours(middles: np.ndarray) -> np.ndarray:
+    """Pairs: of every facet the nearest, and the nearest on its other side."""
+    if len(middles) < 2:
+        return np.empty((0, 2), dtype=int)
     away = middles[None, :, :] - middles[:, None, :]
     distance = np.hypot(away[..., 0], away[..., 1])
-    if len(middles) < 2:
-        return np.empty((0, 2), dtype=int), distance
     reach = REACH * float(np.median(nearest_gaps(distance)))
     found = set()
     for i in range(len(middles)):
@@ -40,7 +40,7 @@ def neighbours(middles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         other = [j for j in near[1:] if distance[i, j] < reach and away[i, j] @ first < 0]
         if other:
             found.add((min(i, other[0]), max(i, other[0])))
-    return np.array(sorted(found), dtype=int).reshape(-1, 2), distance
+    return np.array(sorted(found), dtype=int).reshape(-1, 2)
 
 
 def tree_of(root: int, links: list[list[int]], points: np.ndarray, parent: np.ndarray) -> list[int]:
@@ -99,7 +99,7 @@ def crack_paths(points: np.ndarray) -> Paths | None:
     if count == 1:
         return found
     links: list[list[int]] = [[] for _ in range(count)]
-    for i, j in neighbours(points)[0]:
+    for i, j in neighbours(points):
         links[i].append(int(j))
         links[j].append(int(i))
     parent = np.full(count, -2)

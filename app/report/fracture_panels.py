@@ -88,7 +88,7 @@ def read_fracture(run: Run) -> Fracture | None:
     rock, crack, fluid = (last_frame(run, name) for name in ("body", "crack", "fluid"))
     if rock is None or crack is None or "crack_opening" not in crack.fields or len(crack.points) < 2:
         return None
-    return Fracture(found["body"].frames[-1].time, rock, crack, fluid, neighbours(crack.points)[0])
+    return Fracture(found["body"].frames[-1].time, rock, crack, fluid, neighbours(crack.points))
 
 
 def principal_stress(stress: np.ndarray) -> np.ndarray:

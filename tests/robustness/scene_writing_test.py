@@ -17,7 +17,6 @@ import yaml
 
 from catalogue_cases import shipped_scenes, wrong_by_the_catalogue
 
-ROOT = Path(__file__).resolve().parents[2]
 PERIFRAC = os.path.abspath(sys.argv.pop(1))
 KINDS = ("consolidation", "constant_head", "fractures_in_layers", "impact", "kgd", "mandel", "natural_fracture",
          "own_points", "radial")  # fmt: skip

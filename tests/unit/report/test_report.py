@@ -370,7 +370,7 @@ class Fractures(ReportTest):
         points = np.array([[x, y] for x in (0.5, -0.5, 1.5, -1.5, 2.5) for y in (0.0, 9.0)])
         opening = np.array([0.4, 0.5, 0.4, 0.5, 0.3, 0.2, 0.3, 0.2, 0.1, 0.1])
         crack = fracture_panels.PointSet(points, {"crack_opening": opening, "crack_pressure": 1e6 + opening})
-        fracture = fracture_panels.Fracture(1.0, crack, crack, None, neighbours(points)[0])
+        fracture = fracture_panels.Fracture(1.0, crack, crack, None, neighbours(points))
         figure, axes = plt.subplots()
         fracture_panels.along_panel(fracture, crack_paths(points))(axes)
         lines = [line.get_xydata() for line in axes.get_lines()]
@@ -403,6 +403,11 @@ class Paths(unittest.TestCase):
         np.testing.assert_array_equal(paths.along[:5], [0, 1, -1, 2, -2])
         self.assertEqual(len(set(paths.branch)), 2)
         self.assertEqual(len(paths.joined), 1)
+
+    def test_a_crack_counts_towards_larger_x_whichever_wing_is_longer(self) -> None:
+        for points, along in (((0, 1, -1, 2, -2, 3), [0, 1, -1, 2, -2, 3]), ((0, 1, -1, -2, -3), [0, 1, -1, -2, -3])):
+            paths = crack_paths(np.array([[x, 0.0] for x in points]))
+            np.testing.assert_array_equal(paths.along, along)
 
     def test_two_cracks(self) -> None:
         points = np.array([[x, y] for y in (0.0, 50.0) for x in range(5)], dtype=float)
