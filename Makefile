@@ -18,7 +18,7 @@ help:
 	@echo 'make install-package  makes the package and installs it'
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 15 minutes)'
 	@echo 'make bench      kernels, timed'
-	@echo 'make docs       write docs/configuration.md anew'
+	@echo 'make docs       write docs/configuration.md and configs/perifrac.schema.json anew'
 	@echo 'make site       the pages as a site to read and search offline: build/release/site/docs/index.html'
 	@echo 'make tutorials  runs the tutorials and takes their pictures anew'
 	@echo 'make gallery    docs/gallery.md: twelve scenes with picture, command and time (some minutes)'
@@ -94,6 +94,7 @@ paper: perifrac
 
 docs: perifrac
 	$(PERIFRAC) list --page > docs/configuration.md
+	$(PERIFRAC) schema > configs/perifrac.schema.json
 
 # Broken links and anchors are errors.
 site: install-tests

@@ -252,7 +252,7 @@ int dispatch(const CLI::App& app, const Request& request) {
   if (app.got_subcommand("export")) return export_frames(request.exported);
   if (app.got_subcommand("new")) return write_new(request.kind, request.name, request.new_scene);
   if (app.got_subcommand("explain")) return explain(request.key);
-  if (app.got_subcommand("schema")) return print_json_schema();
+  if (app.got_subcommand("schema")) return print(json_schema_of_scenes());
   if (app.got_subcommand("info")) return print_info(request.file, request.run.json);
   if (app.got_subcommand("man")) return print(man_page(app));
   if (app.got_subcommand("completion")) return print(completion_script(app, request.shell));

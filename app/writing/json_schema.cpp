@@ -238,9 +238,6 @@ nlohmann::ordered_json json_schema(const Catalogue& catalogue) {
   return head;
 }
 
-int print_json_schema() {
-  fmt::print("{}\n", json_schema(scene_catalogue()).dump(1));
-  return 0;
-}
+std::string json_schema_of_scenes() { return json_schema(scene_catalogue()).dump(1) + "\n"; }
 
 }  // namespace perifrac

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "core/config/catalogue.hpp"
@@ -12,7 +14,7 @@ namespace perifrac {
 /// components the scene's dimension asks for, names that differ, geometry.
 nlohmann::ordered_json json_schema(const Catalogue& catalogue);
 
-/// `perifrac schema`: that of scenes, on standard output.
-int print_json_schema();
+/// That of scenes, as `perifrac schema` prints it and configs/perifrac.schema.json holds it.
+std::string json_schema_of_scenes();
 
 }  // namespace perifrac

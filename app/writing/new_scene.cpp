@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/installation/data_folder.hpp"
+#include "app/writing/json_schema.hpp"
 #include "app/writing/new_file.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/names.hpp"
@@ -54,6 +55,9 @@ int write_new_scene(const std::string& kind, const std::string& output) {
   for (const auto& [from, to] : files) {
     write_new_file(to, read_input_text(from.string(), "a template of the program"));
   }
+  // The first line of every template names it, for the editor.
+  const fs::path schema = scene.parent_path() / "perifrac.schema.json";
+  if (!fs::exists(fs::symlink_status(schema))) write_new_file(schema, json_schema_of_scenes());
   fmt::print("wrote {}; next: perifrac check {}\n", scene.string(), scene.string());
   return 0;
 }

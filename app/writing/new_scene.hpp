@@ -9,8 +9,9 @@ namespace perifrac {
 std::vector<std::string> scene_kinds();
 
 /// `perifrac new KIND`: writes a commented scene to begin with, and the files that it reads, beside
-/// `output` (`KIND.yaml` where empty). Throws InputError for a kind that there is none of, and
-/// where a file of that name is there already.
+/// `output` (`KIND.yaml` where empty), and where it is not there yet the schema by which editors
+/// check it. Throws InputError for a kind that there is none of, and where a file of that name is
+/// there already.
 int write_new_scene(const std::string& kind, const std::string& output);
 
 }  // namespace perifrac

@@ -11,9 +11,16 @@ BEYOND = {"crack_without_normal_in_3d", "damage_without_fracture_energy", "scatt
           "number_with_decimals_for_integer"}  # 2.0 is an integer there  # fmt: skip
 
 
+SCHEMA_LINE = "# yaml-language-server: $schema="  # and where it lies, from the scene
+TEMPLATES = ROOT / "app/writing/templates"  # `perifrac new` writes the schema beside its scenes
+
+
 def shipped_scenes():
-    return sorted([*ROOT.glob("configs/*.yaml"), *ROOT.glob("configs/paper/*.yaml"),
-                   *ROOT.glob("app/writing/templates/*.yaml")])  # fmt: skip
+    return sorted([*ROOT.glob("configs/*.yaml"), *ROOT.glob("configs/paper/*.yaml"), *TEMPLATES.glob("*.yaml")])
+
+
+def schema_of(scene):
+    return (TEMPLATES if scene.parent == TEMPLATES else ROOT / "configs") / "perifrac.schema.json"
 
 
 def wrong_by_the_catalogue():

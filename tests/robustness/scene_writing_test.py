@@ -15,7 +15,7 @@ from pathlib import Path
 import jsonschema
 import yaml
 
-from catalogue_cases import shipped_scenes, wrong_by_the_catalogue
+from catalogue_cases import ROOT, SCHEMA_LINE, schema_of, shipped_scenes, wrong_by_the_catalogue
 
 PERIFRAC = os.path.abspath(sys.argv.pop(1))
 KINDS = ("consolidation", "constant_head", "fractures_in_layers", "impact", "kgd", "mandel", "natural_fracture",
@@ -43,7 +43,14 @@ class New(unittest.TestCase):
                 text = (self.folder / (kind + ".yaml")).read_text(encoding="utf-8")
                 self.assertGreaterEqual(text.count("# "), 5, "comments")
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
-                         sorted([k + ".yaml" for k in KINDS] + ["own_points.csv"]))
+                         sorted([k + ".yaml" for k in KINDS] + ["own_points.csv", "perifrac.schema.json"]))
+        schema = (self.folder / "perifrac.schema.json").read_text(encoding="utf-8")
+        self.assertEqual(schema, perifrac("schema").stdout)
+
+    def test_keeps_a_schema_that_is_there(self):
+        (self.folder / "perifrac.schema.json").write_text("{}", encoding="utf-8")
+        self.assertEqual(perifrac("new", "kgd", cwd=self.folder).returncode, 0)
+        self.assertEqual((self.folder / "perifrac.schema.json").read_text(encoding="utf-8"), "{}")
 
     def test_never_replaces_a_file(self):
         for name in ("own_points.yaml", "own_points.csv"):
@@ -124,6 +131,18 @@ class Schema(unittest.TestCase):
     def errors(self, path):
         return [f"{list(e.path)}: {e.message}" for e in
                 self.validator.iter_errors(yaml.load(path.read_text(encoding="utf-8"), Loader=CoreLoader))]  # fmt: skip
+
+    def test_lies_beside_the_shipped_scenes(self):
+        """`make docs` writes it."""
+        committed = (ROOT / "configs/perifrac.schema.json").read_text(encoding="utf-8")
+        self.assertTrue(committed == perifrac("schema").stdout, "out of date: run 'make docs'")
+
+    def test_is_named_by_every_shipped_scene(self):
+        for path in shipped_scenes():
+            with self.subTest(path.name):
+                first = path.read_text(encoding="utf-8").split("\n", 1)[0]
+                self.assertTrue(first.startswith(SCHEMA_LINE))
+                self.assertEqual((path.parent / first.removeprefix(SCHEMA_LINE)).resolve(), schema_of(path))
 
     def test_takes_every_shipped_scene(self):
         scenes = shipped_scenes()
