@@ -217,14 +217,15 @@ def history_title(columns: list[Column]) -> str:
 
 
 def history_charts(run: Run) -> list[Chart]:
-    """history.csv, one chart a unit; counters (no unit) tell nothing as curves."""
-    by_unit: dict[str, list[Column]] = {}
+    """history.csv, one chart a unit, and one of openings, which beside lengths would be zero; counters (no unit) tell
+    nothing as curves."""
+    alike: dict[tuple[str, bool], list[Column]] = {}
     for column in run.history.columns:
         if column.unit and np.isfinite(column.values).any():
-            by_unit.setdefault(column.unit, []).append(column)
+            alike.setdefault((column.unit, "opening" in column.name), []).append(column)
     charts = []
     time = run.history.time
-    for unit, columns in by_unit.items():
+    for (unit, _), columns in alike.items():
         title = history_title(columns)
         same = len({place_of(c.name)[0] for c in columns}) == 1
         names = [place_of(c.name)[1] if same else words(c.name) for c in columns]

@@ -365,6 +365,14 @@ class Fractures(ReportTest):
         self.assertEqual(names, ["x [m]", "from its mouth [m]"])
         self.assertTrue(10 < right <= 80, right)
 
+    def test_openings_have_a_chart_of_their_own(self) -> None:
+        folder = self.folder / "history"
+        fractured_run.write_run(folder, spacing=5e-4)
+        (folder / "history.csv").write_text(
+            "time [s],crack_length [m],inlet_notch_opening [m],fluid_lag [m]\n0,0.01,1e-6,0\n1,0.02,2e-6,0.001\n", encoding="utf-8")
+        titles = [chart.title for chart in charts.history_charts(read_run(folder))]
+        self.assertEqual(titles, ["Crack length, fluid lag", "Inlet notch opening"])
+
     def test_two_cracks_with_two_wings_each_are_two_lines(self) -> None:
         """Their facets grow by turns, one wing longer than the other."""
         points = np.array([[x, y] for x in (0.5, -0.5, 1.5, -1.5, 2.5) for y in (0.0, 9.0)])
