@@ -4,12 +4,15 @@
 Usage: inclined_crack.py PERIFRAC
 """
 import csv
+import glob
 import math
 import os
 import subprocess
 import sys
 import tempfile
 import unittest
+
+import h5py
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PERIFRAC = os.path.abspath(sys.argv.pop(1))
@@ -25,6 +28,23 @@ def run(keys):
         with open(os.path.join(folder, "history.csv"), encoding="utf-8") as file:
             rows = list(csv.reader(file))
     return {name.split(" [")[0]: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+
+
+def run_notch(spacing):
+    """A notch 20 degrees off the largest stress: history.csv's last row, and the middles of the facets beyond it."""
+    keys = {"body.spacing": spacing, "cracks[0].path": "[75 mm, 200 mm, 80 mm, 186 mm]",
+            "solid.confining_stress": "[0.9 MPa, 5.567 MPa]", "crack_fluid.bulk_modulus": "0.208 GPa",
+            "time.end": "60 ms"}
+    settings = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+    scene = os.path.join(HERE, "..", "..", "configs", "hf_leakoff_stiff_water.yaml")
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([PERIFRAC, "run", scene, "--no-report", "--threads", "1", "--output", folder, *settings],
+                       check=True, capture_output=True)
+        with open(os.path.join(folder, "history.csv"), encoding="utf-8") as file:
+            last = list(csv.DictReader(file))[-1]
+        with h5py.File(sorted(glob.glob(os.path.join(folder, "frames", "crack_*.hdf")))[-1]) as file:
+            middles = file["VTKHDF/Points"][:, :2].tolist()
+    return {name.split(" [")[0]: float(value) for name, value in last.items()}, [p for p in middles if p[1] < 0.186]
 
 
 def hoop_intensity(opening, sliding):
@@ -54,6 +74,23 @@ class InclinedCrack(unittest.TestCase):
         print(f"\nfirst growth at {highest / 1e6:.4f} MPa, largest hoop stress {exact / 1e6:.4f} MPa")
         self.assertAlmostEqual(highest / exact, 1.0, delta=0.0012)
         self.assertGreater(length[-1], 2.0 * HALF_LENGTH + 0.049)
+
+    def test_follows_the_largest_stress_without_swinging(self):
+        """(K_IC / difference of the stresses)^2, over which the stress turns a crack, is a sixth of the coarse spacing.
+        The first facets, at 6 to 12 to the notch, are those that know least of their direction."""
+        found = {}
+        for spacing in ("2.5 mm", "1.25 mm"):
+            found[spacing], path = run_notch(spacing)
+            angles = [math.degrees(math.atan2(b[0] - a[0], a[1] - b[1])) for a, b in zip(path, path[1:])]
+            turns = [abs(b - a) for a, b in zip(angles, angles[1:])]
+            print(f"\n{spacing}: inlet at {found[spacing]['inlet_notch_pressure'] / 1e6:.4f} MPa, turns of at most "
+                  f"{max(turns):.1f} degrees, {max(turns[len(turns) // 2:]):.1f} in the second half, "
+                  f"{angles[-1]:.1f} degrees off the largest stress in the end")
+            self.assertLess(max(turns), 15.0)
+            self.assertLess(max(turns[len(turns) // 2:]), 3.0)
+            self.assertLess(abs(angles[-1]), 2.0)
+        for figure in ("inlet_notch_pressure", "crack_length", "leak_off_volume"):
+            self.assertAlmostEqual(found["2.5 mm"][figure] / found["1.25 mm"][figure], 1.0, delta=0.022, msg=figure)
 
     def test_asks_for_one_pressure_at_any_angle(self):
         means = {}

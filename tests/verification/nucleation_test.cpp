@@ -47,10 +47,12 @@ TEST(Nucleation, OfAnUnevenRockIsBelowItsMeanStrength) {
   EXPECT_LT(run.column("energy_gained [J/m]")[begun - length.begin()], 0.95 * work);
 }
 
-/// Loads go on to pull at the piece: no equilibrium is left.
+/// Loads go on to pull at the piece above the weak layer: no equilibrium is left.
 TEST(Nucleation, EndsTheRunWhereACrackLeavesAPieceThatNothingHolds) {
-  const SceneRun run = pull("0 mm", "0.8 MPa",
-                            {"solid.boundary={bottom: {type: fixed}, top: {type: traction, "
+  const SceneRun run = pull("0 mm", "1.2 MPa",
+                            {"body.regions={weak: {from: [0 mm, 96 mm], to: [100 mm, 104 mm]}}",
+                             "damage.regions={weak: {tensile_strength: 0.8 MPa}}",
+                             "solid.boundary={bottom: {type: fixed}, top: {type: traction, "
                              "traction: [0 MPa, 2 MPa], schedule: {ramp: 1 s}}}"});
   EXPECT_EQ(run.exit_code, 1);
   for (const double energy : run.column("energy_gained [J/m]")) EXPECT_LT(energy, 1e3);

@@ -77,7 +77,7 @@ bool MovingTips::cut_for(const CrackTip& at, double turn) {
   CrackedBody<2>& cracked = equilibrium_.body();
   CrackFacet<2> facet = tips_.next_facet(at, turn);
   const bool joined = tips_.joins(facet, at, facet[1]);
-  if (!cracked.cut(facet)) return false;
+  if (!tips_.cut_ahead(facet)) return false;
   Tip tip{.at = at,
           .facet = static_cast<Index>(cracked.facets().size()) - 1,
           .nearest = body_.nearest_point(middle<2>(facet))};
@@ -312,7 +312,9 @@ void MovingTips::book() {
 }
 
 double MovingTips::turn(const Tip& tip, std::span<const Vector<2>> jumps) const {
-  return kink_angle({1.0, mode_ratio(tip, 1, energy_release_.jump(end_of(tip), jumps))});
+  const CrackTip end = end_of(tip);
+  const TipJump jump = energy_release_.jump(end, jumps);
+  return tips_.turn_of(end, {1.0, mode_ratio(tip, 1, jump)}, jump.turn_to, law(tip), 1.0);
 }
 
 bool MovingTips::conclude() {

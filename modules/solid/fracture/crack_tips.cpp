@@ -7,6 +7,7 @@
 #include "core/base/small_vector.hpp"
 #include "core/state/visit_each.hpp"
 #include "modules/solid/fracture/even_loads.hpp"
+#include "modules/solid/fracture/loose_piece.hpp"
 
 namespace perifrac {
 
@@ -24,6 +25,12 @@ constexpr double worth_asking = 0.9;
 /// (1.3 was met), up to this change. What a guess leaves open decides nothing: windows end, and
 /// tips go on, within `near` of the criterion.
 constexpr double guess_error = 1.5, telling_change = 0.15, near = 0.005;
+
+/// A turn below this is rounding [rad].
+constexpr double least_turn = 1e-6;
+
+/// A piece of so few points lies within two spacings.
+constexpr std::size_t chip = 4;
 
 }  // namespace
 
@@ -68,6 +75,15 @@ CrackFacet<2> CrackTips::next_facet(const CrackTip& tip, double turn) const {
   const double c = std::cos(turn), s = std::sin(turn);
   const Vector<2> ahead = c * tip.direction + s * perpendicular(tip.direction);
   return {tip.place, tip.place + body_.spacing() * ahead};
+}
+
+bool CrackTips::cut_ahead(const CrackFacet<2>& facet) {
+  try {
+    return cracked_.cut(facet);
+  } catch (const PieceCutFree& piece) {
+    if (piece.points() > chip) throw;
+    return false;
+  }
 }
 
 double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
@@ -288,8 +304,21 @@ double CrackTips::find_readiness(const CrackState<2>& state) {
   return most;
 }
 
+double CrackTips::turn_of(const CrackTip& tip, const TipModes& modes, double turn_to,
+                          const TipLaw& tip_law, double readiness) const {
+  const double held = 4.0 * std::sqrt(2.0 / M_PI * body_.spacing()) *
+                      cracked_.stress_along(tip.facet) / (readiness * tip_law.toughness());
+  const double intensity = kink_intensity(modes);
+  const double turn = turn_to + kink_angle(modes, intensity > 0.0 ? held * intensity : 0.0);
+  return std::abs(turn) < least_turn ? 0.0 : turn;
+}
+
 double CrackTips::turn_of(const Tip& tip, std::span<const Vector<2>> jumps) const {
-  return kink_angle(tip.modes ? *tip.modes : modes_of(energy_release_.jump(tip.at, jumps)));
+  const TipJump jump = energy_release_.jump(tip.at, jumps);
+  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(),
+                       energy_to_cut(next_facet(tip.at, 0.0))};
+  return turn_of(tip.at, tip.modes ? *tip.modes : modes_of(jump), jump.turn_to, tip_law,
+                 tip.readiness);
 }
 
 std::vector<std::pair<CrackTip, double>> CrackTips::take_ready(const CrackState<2>& state) {
@@ -336,7 +365,7 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   const bool joined = joins(facet, tip.at, facet[1]);
   const bool known = tip.at.before != no_facet;
   const double before = known ? cracked_.intensity_at_fixed_volume(tip.at.before) : 1.0;
-  if (!cracked_.cut(facet)) {
+  if (!cut_ahead(facet)) {
     tip.grows = false;
     return 0.0;
   }

@@ -42,6 +42,12 @@ class CrackTips {
   /// Per length of it [J/m^2].
   double energy_to_cut(const CrackFacet<2>& facet) const;
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
+  /// Cuts a facet ahead of a tip; false, and nothing done, where the tip ends: where the facet
+  /// meets no bond, or would cut a chip free, too small for the lattice to tell two cracks apart.
+  bool cut_ahead(const CrackFacet<2>& facet);
+  /// By which a tip turns that is loaded so, its K being `readiness` times the toughness [rad].
+  double turn_of(const CrackTip& tip, const TipModes& modes, double turn_to, const TipLaw& tip_law,
+                 double readiness) const;
   /// The facet would come close to an end of another crack's, where it is to end.
   bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
   /// Beyond K_I's share, `s` behind a tip that has crossed `part` of its last facet [m].

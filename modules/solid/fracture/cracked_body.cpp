@@ -37,7 +37,8 @@ template <int D>
 void CrackedBody<D>::check_pieces(std::span<const std::pair<Index, Index>> cut) {
   if (are_joined<D>(*family_, cut)) return;
   const auto loose = loose_pieces();
-  if (!loose.empty()) throw PieceCutFree(describe_piece<D>(*family_, loose.front()));
+  if (loose.empty()) return;
+  throw PieceCutFree(describe_piece<D>(*family_, loose.front()), loose.front().size());
 }
 
 template <int D>

@@ -101,6 +101,18 @@ Vector<D> CutBody<D>::relief(Index f) const {
 }
 
 template <int D>
+double CutBody<D>::stress_along(Index f) const {
+  if (!initial_stress_) return 0.0;
+  const Vector<D> there = initial_stress_->at(middle<D>(bonds_.facets()[f]));
+  const Vector<D>&normal = jumps_[f].normal, &tangent = jumps_[f].tangents[0];
+  double sum = 0.0;
+  for (int a = 0; a < D; ++a) {
+    sum += there[a] * (tangent[a] * tangent[a] - normal[a] * normal[a]);
+  }
+  return sum;
+}
+
+template <int D>
 double CutBody<D>::pressed_by(Index f) const {
   if constexpr (D == 3) return 0.0;
   double softness = 0.0;

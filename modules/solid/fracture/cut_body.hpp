@@ -47,6 +47,8 @@ class CutBody {
   std::span<const FaceJump<D>> jumps() const { return jumps_; }
   /// Normal and tangential stress that facet f is relieved of [Pa].
   Vector<D> relief(Index f) const;
+  /// Stress at rest along facet f less that across it, in 2D [Pa].
+  double stress_along(Index f) const;
   bool relief_varies() const { return initial_stress_ && initial_stress_->varies(); }
   /// The points that a jump is between lie within the rock. What a load of its faces presses that
   /// rock together by is no part of how far the faces are apart; this times the load puts it back

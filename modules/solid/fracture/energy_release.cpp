@@ -67,6 +67,10 @@ constexpr double mode_ratio = 0.87;
 /// What J looks at around a tip that is alone in the rock, and what it has to [spacings].
 constexpr double largest_ring = 4.5, least_ring = 2.0;
 
+/// What the crack was before it turned by more than this is no part of how its tip is loaded: until
+/// a facet lies beyond the turn that is far enough behind the tip, it goes straight on [rad].
+constexpr double other_leg = 0.6;
+
 /// Cosine of the direction to another tip. The other end of its own crack lies behind: of seeds
 /// that are so short others know (short_seeds.hpp).
 constexpr double abreast = -0.5;
@@ -240,7 +244,7 @@ bool EnergyRelease::is_straight(const CrackTip& tip, double angle) const {
 }
 
 TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const {
-  TipJump mean{0.0, 0.0};
+  Vector<2> apart{}, ahead{};
   int count = 0;
   for (std::size_t f = 0; f < jumps.size(); ++f) {
     const CrackFacet<2>& facet = body_.facets()[f];
@@ -249,19 +253,19 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
     if (behind < first_jump * spacing_ || behind > last_jump * spacing_) continue;
     if (std::abs(aside) > spacing_) continue;
     const FaceJump<2>& face = body_.jumps()[f];
-    // In the frame of the tip: x ahead, y to the left. The jump is from the lower face to the
-    // upper.
-    const Vector<2> d = jumps[f][0] * face.normal + jumps[f][1] * face.tangents[0];
+    const double cosine = dot(face.tangents[0], tip.direction);
+    if (std::abs(cosine) < std::cos(other_leg)) continue;
+    // From the right face to the left.
     const double sign = cross(tip.direction, face.normal) > 0.0 ? 1.0 : -1.0;
-    mean.opening += sign * cross(tip.direction, d);
-    mean.sliding += sign * dot(tip.direction, d);
+    apart += sign * (jumps[f][0] * face.normal + jumps[f][1] * face.tangents[0]);
+    ahead += (cosine > 0.0 ? 1.0 : -1.0) * face.tangents[0];
     ++count;
   }
-  if (count > 0) {
-    mean.opening /= count;
-    mean.sliding /= count;
-  }
-  return mean;
+  if (count == 0) return {0.0, 0.0};
+  apart = apart / static_cast<double>(count);
+  ahead = ahead / length(ahead);
+  const double turn_to = std::atan2(cross(tip.direction, ahead), dot(tip.direction, ahead));
+  return {cross(ahead, apart), dot(ahead, apart), turn_to};
 }
 
 /// Where facets meet: the mean of theirs, 0 at the tip.
@@ -325,18 +329,40 @@ double EnergyRelease::of_faces(const CrackTip& tip, double radius, std::span<con
   return sum;
 }
 
+namespace {
+
+/// The root between 0 and `free` of what hoop stress rises by, K_I sin a + K_II (3 cos a - 1) -
+/// along sin a cos a / cos(a / 2).
+double held_to_direction(const TipModes& modes, double along, double free) {
+  const auto rises = [&](double a) {
+    return modes.opening * std::sin(a) + modes.sliding * (3.0 * std::cos(a) - 1.0) -
+           along * std::sin(a) * std::cos(a) / std::cos(0.5 * a);
+  };
+  double none = 0.0;
+  for (int n = 0; n < 50; ++n) {
+    const double middle = 0.5 * (none + free);
+    (rises(middle) * modes.sliding > 0.0 ? none : free) = middle;
+  }
+  return 0.5 * (none + free);
+}
+
+}  // namespace
+
 TipModes modes_of(const TipJump& jump) {
   return {std::max(0.0, jump.opening), mode_ratio * jump.sliding};
 }
 
-double kink_angle(const TipModes& modes) {
+double kink_angle(const TipModes& modes, double along) {
   if (modes.sliding == 0.0) return 0.0;
-  if (!(modes.opening > 0.0)) return modes.sliding > 0.0 ? -largest_kink : largest_kink;
-  const double ratio = modes.sliding / modes.opening;
-  const double angle =
-      2.0 * std::atan((1.0 - std::sqrt(1.0 + 8.0 * ratio * ratio)) / (4.0 * ratio));
-  if (std::abs(angle) < least_kink) return 0.0;
-  return std::clamp(angle, -largest_kink, largest_kink);
+  double angle = modes.sliding > 0.0 ? -largest_kink : largest_kink;
+  if (modes.opening > 0.0) {
+    const double ratio = modes.sliding / modes.opening;
+    angle =
+        std::clamp(2.0 * std::atan((1.0 - std::sqrt(1.0 + 8.0 * ratio * ratio)) / (4.0 * ratio)),
+                   -largest_kink, largest_kink);
+  }
+  if (along < 0.0) angle = held_to_direction(modes, along, angle);
+  return std::abs(angle) < least_kink ? 0.0 : angle;
 }
 
 double kink_intensity(const TipModes& modes) {

@@ -20,11 +20,13 @@ struct CrackTip {
   Index before;         ///< the one behind that; no_facet: none
 };
 
-/// Mean jumps of the faces one to four spacings behind a tip, in its frame.
+/// Mean jumps of the faces one to four spacings behind a tip, in the frame of the mean direction in
+/// which these run. A tip that has left that direction by one facet is drawn back to it by as much
+/// (K_II = K_I angle / 2), which a frame of its last facet would see twice.
 struct TipJump {
-  double opening;                 ///< [m]
-  double sliding;                 ///< positive turns the crack to its right [m]
-  double root_of_distance = 0.0;  ///< from the tip, the mean of its root [m^0.5]
+  double opening;        ///< [m]
+  double sliding;        ///< positive turns the crack to its right [m]
+  double turn_to = 0.0;  ///< from the tip's direction to that of the frame, to the left [rad]
 };
 
 /// Stress intensities of the modes at a tip, in a common unit.
@@ -115,8 +117,11 @@ constexpr bool meets(double clear, double cosine) { return clear < 1.75 && cosin
 TipModes modes_of(const TipJump& jump);
 
 /// The angle by which a crack turns, to the left positive, in the direction of largest hoop stress
-/// (Erdogan & Sih 1963); at most 70 degrees.
-double kink_angle(const TipModes& modes);
+/// (Erdogan & Sih 1963); at most 70 degrees. `along`, in the unit of the modes: of a stress T
+/// along the crack, less that across it, 4 sqrt(2 s / pi) T; where that is negative it holds a
+/// crack to its direction, so that K_II vanishes once the crack has gone on by s (Amestoy & Leblond
+/// 1992: K_II + K_I angle / 2 - 2 sqrt(2 s / pi) T angle).
+double kink_angle(const TipModes& modes, double along = 0.0);
 
 /// K_I of the crack that has turned so, in the unit of the modes: the intensity of the hoop stress
 /// there. It is what toughness is compared with; a closed tip has no K_I.

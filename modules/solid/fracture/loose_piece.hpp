@@ -17,7 +17,12 @@ namespace perifrac {
 /// Cracks have cut a piece free that nothing holds; what() describes it.
 class PieceCutFree : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  PieceCutFree(const std::string& what, std::size_t points)
+      : std::runtime_error(what), points_(points) {}
+  std::size_t points() const { return points_; }
+
+ private:
+  std::size_t points_;
 };
 
 /// Do bonds still lead from each end of these broken bonds to all others? Looks no farther than it
