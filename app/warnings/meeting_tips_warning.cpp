@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/warnings/body_box.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/body/crack_seeds.hpp"
 #include "modules/solid/fracture/energy_release.hpp"
@@ -38,13 +39,13 @@ std::vector<End> ends_of_cracks(const Section& scene) {
 std::array<std::vector<double>, 2> planes_of_symmetry(const Section& scene) {
   std::array<std::vector<double>, 2> planes;
   if (scene.text("body.shape") != "box") return planes;
-  const std::vector<double> size = scene.numbers("body.size");
+  const auto [low, high] = body_box(scene);
   const std::array<std::array<const char*, 2>, 2> faces = {{{"left", "right"}, {"bottom", "top"}}};
   for (int a = 0; a < 2; ++a) {
     for (int side = 0; side < 2; ++side) {
       const std::string type = fmt::format("solid.boundary.{}.type", faces[a][side]);
       if (scene.has(type) && scene.text(type) == "roller")
-        planes[a].push_back(side == 0 ? 0.0 : size[a]);
+        planes[a].push_back(side == 0 ? low[a] : high[a]);
     }
   }
   return planes;

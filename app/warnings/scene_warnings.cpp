@@ -13,6 +13,7 @@
 #include "app/simulation/place_reader.hpp"
 #include "app/warnings/meeting_tips_warning.hpp"
 #include "app/warnings/nucleus_warning.hpp"
+#include "app/warnings/short_leg_warning.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -146,6 +147,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (regime) warnings.insert(warnings.end(), regime->warnings.begin(), regime->warnings.end());
   if (const auto warning = nucleus_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = meeting_tips_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = short_leg_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = border_warning(scene)) warnings.push_back(*warning);
   for (const std::string& warning : table_warnings(scene)) warnings.push_back(warning);

@@ -49,7 +49,7 @@ void visit_vectors(StateVisitor& visitor, std::vector<Item>& items, bool sizes_i
     sizes.push_back(static_cast<std::int64_t>(of(item).size()));
     all.insert(all.end(), of(item).begin(), of(item).end());
   }
-  visitor.visit(std::string(name) + "_count", sizes);
+  visitor.visit(std::string(name).append("_count"), sizes);
   visitor.visit(name, all);
   if (sizes_items) items.resize(sizes.size());
   require(sizes.size() == items.size(), "a state in parts that do not fit");

@@ -264,6 +264,19 @@ class ShippedFracture(unittest.TestCase):
         near = Run(os.path.join(HERE, "two_tips.yaml"), {"cracks[0].path": "[0.5 mm, 100 mm, 15.5 mm, 100 mm]",
                                                          "time.end": "10 ms"})
         self.assertIn("cracks[0] ends at (0.0005, 0.1) m, 0.5 spacings from a plane of symmetry", near.log)
+        aside = Run(os.path.join(HERE, "two_tips.yaml"), {"cracks[0].path": "[10.5 mm, 100 mm, 25.5 mm, 100 mm]",
+                                                          "body.from": "[10 mm, 0 mm]", "time.end": "10 ms"})
+        self.assertIn("cracks[0] ends at (0.0105, 0.1) m, 0.5 spacings from a plane of symmetry", aside.log)
+
+    def test_a_leg_too_short_to_know_its_tip(self):
+        """A turn of 45 degrees 3 spacings before the end is told, one of 27 degrees is not, nor one 5 spacings before."""
+        def log(x, y):
+            path = f"[5 mm, 100 mm, 20 mm, 100 mm, {x} mm, {y} mm]"
+            return Run(os.path.join(HERE, "two_tips.yaml"), {"cracks[0].path": path, "time.end": "10 ms"}).log
+        told = "cracks[0] turns sharply 2.8 spacings before it ends at (0.022, 0.102) m"
+        self.assertIn(told, log(22.0, 102.0))
+        for x, y in ((24.0, 102.0), (23.6, 103.6)):
+            self.assertNotIn("turns sharply", log(x, y))
 
     def test_hf_leakoff_pores(self):
         run = self.run_scene("hf_leakoff_pores", {"body.spacing": "5 mm", "time.end": "50 ms"}, 0.0065)

@@ -64,12 +64,8 @@ constexpr double first_jump = 1.0, last_jump = 4.0;  // spacings behind the tip
 /// K_II / K_I over the ratio of the jumps at 1-4 spacings behind a tip on a lattice.
 constexpr double mode_ratio = 0.87;
 
-/// What J looks at around a tip that is alone in the rock, and what it has to [spacings].
-constexpr double largest_ring = 4.5, least_ring = 2.0;
-
-/// What the crack was before it turned by more than this is no part of how its tip is loaded: until
-/// a facet lies beyond the turn that is far enough behind the tip, it goes straight on [rad].
-constexpr double other_leg = 0.6;
+/// What J looks at around a tip, at least [spacings].
+constexpr double least_ring = 2.0;
 
 /// Cosine of the direction to another tip. The other end of its own crack lies behind: of seeds
 /// that are so short others know (short_seeds.hpp).
@@ -254,7 +250,7 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
     if (std::abs(aside) > spacing_) continue;
     const FaceJump<2>& face = body_.jumps()[f];
     const double cosine = dot(face.tangents[0], tip.direction);
-    if (std::abs(cosine) < std::cos(other_leg)) continue;
+    if (is_other_leg(std::abs(cosine))) continue;
     // From the right face to the left.
     const double sign = cross(tip.direction, face.normal) > 0.0 ? 1.0 : -1.0;
     apart += sign * (jumps[f][0] * face.normal + jumps[f][1] * face.tangents[0]);

@@ -104,6 +104,14 @@ class EnergyRelease {
   std::array<std::array<double, 2>, 2> mirrors_;
 };
 
+/// How far J looks around a tip that is alone in the rock [spacings].
+constexpr double largest_ring = 4.5;
+
+/// What the crack was before it turned by more than this, 34 degrees, is no part of how its tip is
+/// loaded: until a facet lies beyond the turn that is far enough behind the tip, it goes straight
+/// on.
+constexpr bool is_other_leg(double cosine) { return cosine < 0.8253; }
+
 /// Two tips run at each other, by the cosine between their directions: what one adds to the other's
 /// J is of the other sign.
 constexpr bool are_opposed(double cosine) { return cosine <= -0.75; }
