@@ -25,7 +25,9 @@ COUPLING = {f"coupling/{name}": 1 for name in ("time", "step", "window_length", 
 EQUILIBRIUM = {"solid/displacement": UNKNOWNS, "solid/external_force": UNKNOWNS, "solid/external_work": 1, **COUPLING}
 MOTION = {**EQUILIBRIUM, "solid/velocity": 2 * POINTS, "solid/damped_energy": 1}
 TIP = ("x", "y", "direction_x", "direction_y", "facet", "facet_before", "since", "grows", "intensity_ratio", "asked",
-       "asked_opening", "intensity_before", "even_opening", "even_sliding", "even_intensity", "moved", "took")
+       "asked_opening", "intensity_before", "even_opening", "even_sliding", "even_opens", "even_slides", "even_root",
+       "even_behind", "even_known", "even_intensity", "scale", "shape_scale", "shape_facets_count", "shape_jumps_count",
+       "shape_modes_count", "moved", "took")
 CRACKS = {"solid/relief_work": 1, "solid/fracture_energy": 1, "solid/crack_facets": 4 * FACETS,
           "solid/broken_bonds": 3 * 222, **{f"solid/tips/{name}": 2 for name in TIP}}
 CRACKS_IN_MOTION = {**CRACKS, "solid/contact_loss": 1, "solid/given_impulse": FACETS,

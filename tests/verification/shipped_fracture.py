@@ -153,18 +153,18 @@ class ShippedFracture(unittest.TestCase):
     def test_hf_natural_fracture(self):
         """Goes down, follows the natural fracture and goes on from its lower end."""
         run = self.run_scene("hf_natural_fracture", {"body.spacing": "2.5 mm"}, 2.4e-4)
-        self.assertAlmostEqual(run.last("crack_length"), 0.1226, delta=0.0052)  # two steps
+        self.assertAlmostEqual(run.last("crack_length"), 0.1142, delta=0.0052)  # two steps
         self.assertAlmostEqual(run.last("wetted_length"), run.last("crack_length"), delta=0.0026)
         self.assertAlmostEqual(run.last("inlet_notch_pressure"), 1.538e6, delta=0.04e6)
         self.assertGreater(run.last("inlet_notch_pressure"), 1.5e6)  # the stress that closes both
 
     def test_two_fractures(self):
         """The natural fracture stops the upper one, stays closed, and as long as it was; the facet that joins them, across
-        the larger stress, is closed too."""
-        run = self.run_scene("two_fractures", {}, 2.7e-3)
-        self.assertAlmostEqual(run.last("crack_length"), 202.2, delta=8.1)  # two steps
-        natural, facet = (20**2 + 36**2) ** 0.5, (20**2 + 36**2) ** 0.5 / 10
-        joint = 4.687
+        the larger stress, is closed too. Finer than shipped: 202.5 m at 2 m and 204.1 m at 1 m, 193 m at the shipped 4 m."""
+        run = self.run_scene("two_fractures", {"body.spacing": "2.5 m"}, 2.7e-3)
+        self.assertAlmostEqual(run.last("crack_length"), 204.1, delta=5.0)  # two steps
+        natural, facet = (20**2 + 36**2) ** 0.5, (20**2 + 36**2) ** 0.5 / 16
+        joint = 2.527
         closed = run.last("crack_length") - run.last("open_crack_length")
         self.assertAlmostEqual(closed, natural + joint, delta=0.05)
         dry = run.last("crack_length") - run.last("wetted_length")

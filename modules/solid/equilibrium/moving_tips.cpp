@@ -5,9 +5,8 @@
 
 #include <Eigen/Dense>
 
-#include "core/base/eigen_view.hpp"
 #include "core/base/small_vector.hpp"
-#include "core/state/visit_each.hpp"
+#include "modules/solid/equilibrium/tip_criterion.hpp"
 #include "modules/solid/fracture/even_loads.hpp"
 
 namespace perifrac {
@@ -16,6 +15,20 @@ namespace {
 
 /// It has crossed its facet from here on.
 constexpr double crossed = 0.005;
+
+std::vector<Vector<2>> jumps_by_even(CrackedBody<2>& cracked, std::span<const Index> faces,
+                                     const Vector<2>& traction) {
+  std::vector<Vector<2>> tractions(cracked.facets().size(), Vector<2>{});
+  for (const Index f : faces) tractions[f] = traction;
+  return cracked.jumps_by(tractions);
+}
+
+double volume_by_pressure(CrackedBody<2>& cracked, std::span<const Index> faces) {
+  const std::vector<Vector<2>> jumps = jumps_by_even(cracked, faces, {1.0, 0.0});
+  double sum = 0.0;
+  for (const Index f : faces) sum += cracked.jumps()[f].area * jumps[f][0];
+  return sum;
+}
 
 }  // namespace
 
@@ -29,31 +42,22 @@ MovingTips::MovingTips(const Body<2>& body, CrackedEquilibrium<2>& equilibrium,
 
 void MovingTips::start() { moving_.clear(); }
 
-/// Under one load the energy release of a crack goes as its length.
-double MovingTips::opened(const Tip& tip, double part) const {
-  return part + 0.5 * tip.per_spacing * part * (part - 1.0);
-}
-
 void MovingTips::hold() {
   std::vector<PartialCut> cuts;
-  for (const Tip& tip : moving_) cuts.push_back({tip.facet, opened(tip, tip.search.trial())});
+  for (const MovingTip& tip : moving_) cuts.push_back({tip.facet, tip.opened(tip.search.trial())});
   equilibrium_.set_partial(cuts);
 }
 
-CrackTip MovingTips::end_of(const Tip& tip) const {
-  const CrackedBody<2>& cracked = equilibrium_.body();
-  return {cracked.facets()[tip.facet][1], cracked.jumps()[tip.facet].tangents[0], tip.facet,
-          tip.at.facet};
-}
-
-bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips) {
+/// `scales`: of the shapes at which they come, or empty.
+bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips,
+                     std::span<const double> scales) {
   const std::size_t first = moving_.size();
   if (tips.empty()) return false;
   equilibrium_.set_partial({});
   CrackedBody<2>& cracked = equilibrium_.body();
-  std::vector<Tip> found;
+  std::vector<MovingTip> found;
   for (const auto& [at, turned] : tips) {
-    Tip& tip = found.emplace_back(Tip{.at = at});
+    MovingTip& tip = found.emplace_back(MovingTip{.at = at});
     ask_modes(tip, at, 0);
     if (at.before != no_facet) tip.per_spacing = cracked.intensity_at_fixed_volume(at.before);
   }
@@ -65,8 +69,10 @@ bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips) {
       throw;
     }
     moving_.back().root_of_j[0] = found[k].root_of_j[0];
-    moving_.back().sliding[0] = found[k].sliding[0];
+    moving_.back().modes[0] = found[k].modes[0];
+    moving_.back().slid = found[k].slid;
     moving_.back().per_spacing = found[k].per_spacing;
+    if (!scales.empty()) moving_.back().scale = scales[k];
   }
   ask_loads(first);
   hold();
@@ -78,67 +84,122 @@ bool MovingTips::cut_for(const CrackTip& at, double turn) {
   CrackFacet<2> facet = tips_.next_facet(at, turn);
   const bool joined = tips_.joins(facet, at, facet[1]);
   if (!tips_.cut_ahead(facet)) return false;
-  Tip tip{.at = at,
-          .facet = static_cast<Index>(cracked.facets().size()) - 1,
-          .nearest = body_.nearest_point(middle<2>(facet))};
-  tip.ends = joined || !cracked.is_intact_along(tips_.next_facet(end_of(tip), 0.0));
+  MovingTip tip{.at = at,
+                .facet = static_cast<Index>(cracked.facets().size()) - 1,
+                .nearest = body_.nearest_point(middle<2>(facet))};
+  tip.ends =
+      joined || !cracked.is_intact_along(tips_.next_facet(tip.end(equilibrium_.body()), 0.0));
   moving_.push_back(tip);
   return true;
 }
 
 /// As its facet begins (0) or ends (1).
-void MovingTips::ask_modes(Tip& tip, const CrackTip& at, std::size_t place) {
+void MovingTips::ask_modes(MovingTip& tip, const CrackTip& at, std::size_t place) {
   const auto even =
       ask_even_loads(equilibrium_.body(), energy_release_, at, tips_.crack_of(at.facet));
   if (!even) return;
   tip.root_of_j[place] = even->root_of_j;
-  tip.sliding[place] = even->sliding;
+  tip.modes[place] = even->modes;
+  if (place == 0) tip.slid = even->slid;
 }
 
-/// Of the tips from `first` on, all facets cut whole.
+/// Of the tips from `first` on: as their facets begin with the others as open as they are now, as
+/// they end with all whole.
 void MovingTips::ask_loads(std::size_t first) {
-  CrackedBody<2>& cracked = equilibrium_.body();
-  std::vector<PartialCut> cuts;
-  for (const Tip& tip : moving_) cuts.push_back({tip.facet, 1.0});
-  const auto volume = [&](std::span<const Index> faces, std::span<const Vector<2>> jumps) {
-    double sum = 0.0;
-    for (const Index f : faces) sum += cracked.jumps()[f].area * jumps[f][0];
-    return sum;
-  };
-  for (std::size_t k = first; k < moving_.size(); ++k) {
-    Tip& tip = moving_[k];
-    const std::vector<Index> faces = tips_.crack_of(tip.facet);
-    const bool known = tip.at.before != no_facet && tip.per_spacing > 0.0;
-    const double ratio =
-        known ? cracked.intensity_at_fixed_volume(tip.at.facet) / tip.per_spacing : 1.0;
-    tip.per_spacing = (1.0 - std::min(1.0, ratio)) / 1.5;
-    ask_modes(tip, end_of(tip), 1);
-    if (tip.sliding[1] == 0.0) tip.sliding[1] = tip.sliding[0];
-    if (tip.root_of_j[1] == 0.0)
-      tip.root_of_j[1] = tip.root_of_j[0] * (1.0 + 0.5 * tip.per_spacing);
-    if (tip.root_of_j[0] == 0.0)
-      tip.root_of_j[0] = tip.root_of_j[1] / (1.0 + 0.5 * tip.per_spacing);
-    const auto whole = cracked.jumps_by(faces, {1.0, 0.0});
-    cuts[k].opened = 0.0;
-    equilibrium_.set_partial(cuts);
-    const auto uncut = cracked.jumps_by(faces, {1.0, 0.0});
-    cuts[k].opened = 1.0;
-    equilibrium_.set_partial(cuts);
-    tip.release = volume(faces, whole) - volume(faces, uncut);
-    for (const int behind : {0, 1}) {
-      const Index facet = behind == 0 ? tip.at.facet : tip.at.before;
-      if (facet == no_facet) continue;
-      tip.cut[behind] = whole[facet][0];
-      tip.held[behind] = uncut[facet][0];
-    }
+  std::vector<PartialCut> now, whole;
+  for (const MovingTip& tip : moving_) {
+    now.push_back({tip.facet, tip.opened(tip.part)});
+    whole.push_back({tip.facet, 1.0});
   }
+  for (std::size_t k = first; k < moving_.size(); ++k) {
+    MovingTip& tip = moving_[k];
+    const std::vector<Index> faces = tips_.crack_of(tip.facet);
+    equilibrium_.set_partial(whole);
+    ask_end(tip, faces);
+    const double volume = volume_by_pressure(equilibrium_.body(), faces);
+    whole[k].opened = 0.0;
+    equilibrium_.set_partial(whole);
+    tip.release = volume - volume_by_pressure(equilibrium_.body(), faces);
+    whole[k].opened = 1.0;
+    equilibrium_.set_partial(now);
+    see_even(tip, faces, tip.held, tip.sheared_held);
+    if (turns_sharply(tip)) ask_shapes(tip, faces);
+  }
+}
+
+/// As its facet ends.
+void MovingTips::ask_end(MovingTip& tip, std::span<const Index> faces) {
+  CrackedBody<2>& cracked = equilibrium_.body();
+  const bool known = tip.at.before != no_facet && tip.per_spacing > 0.0;
+  const double ratio =
+      known ? cracked.intensity_at_fixed_volume(tip.at.facet) / tip.per_spacing : 1.0;
+  tip.per_spacing = (1.0 - std::min(1.0, ratio)) / 1.5;
+  ask_modes(tip, tip.end(cracked), 1);
+  if (tip.modes[1].sliding == 0.0) tip.modes[1] = tip.modes[0];
+  see_even(tip, faces, tip.cut, tip.sheared_cut);
+  if (turns_sharply(tip)) tip.shapes[1] = shape_of(tip, tip.end(cracked), faces);
+}
+
+/// Openings behind it per pressure and per shear on the crack's faces.
+void MovingTips::see_even(const MovingTip& tip, std::span<const Index> faces,
+                          std::array<double, 2>& pressed, std::array<double, 2>& sheared) const {
+  CrackedBody<2>& cracked = equilibrium_.body();
+  const auto by_pressure = jumps_by_even(cracked, faces, {1.0, 0.0});
+  const auto by_shear = jumps_by_even(cracked, faces, {0.0, 1.0});
+  for (const int behind : {0, 1}) {
+    const Index facet = behind == 0 ? tip.at.facet : tip.at.before;
+    if (facet == no_facet) continue;
+    pressed[behind] = by_pressure[facet][0];
+    sheared[behind] = by_shear[facet][0];
+  }
+}
+
+/// As its facet begins, of a crack without the facets that tips are in; both scaled by J.
+void MovingTips::ask_shapes(MovingTip& tip, std::span<const Index> faces) {
+  std::vector<Index> before(faces.begin(), faces.end());
+  std::erase_if(before, [&](Index f) {
+    return std::ranges::any_of(moving_, [&](const MovingTip& other) { return other.facet == f; });
+  });
+  tip.shapes[0] = shape_of(tip, tip.at, before);
+  scale_shapes(tip);
+}
+
+/// A turn lies so near behind it, or before its facet, that openings obey no law of a straight
+/// crack.
+bool MovingTips::turns_sharply(const MovingTip& tip) const {
+  const Vector<2>& ahead = equilibrium_.body().jumps()[tip.facet].tangents[0];
+  return std::abs(cross(tip.at.direction, ahead)) > std::sin(bent) ||
+         !(std::min(tip.root_of_j[0], tip.root_of_j[1]) > 0.0);
+}
+
+/// Of a crack that ends there, by the jumps of the facets behind the tip's own.
+CrackShape MovingTips::shape_of(const MovingTip& tip, const CrackTip& at,
+                                std::span<const Index> crack) const {
+  CrackedBody<2>& cracked = equilibrium_.body();
+  const std::vector<Index> loaded = tips_.crack_of(tip.facet);
+  std::vector<Index> behind = loaded;
+  std::erase(behind, tip.facet);
+  return crack_shape(cracked, at, crack, loaded, facets_near(cracked, behind, tip.at.place),
+                     cracked.elastic().law(tip.nearest).plane_strain_modulus());
+}
+
+void MovingTips::scale_shapes(MovingTip& tip) const {
+  const double modulus = equilibrium_.body().elastic().law(tip.nearest).plane_strain_modulus();
+  auto& [begins, ends] = tip.shapes;
+  const auto [begin_known, end_known] = tip.root_of_j;
+  if (tip.scale > 0.0) begins.scale = tip.scale;
+  if (begin_known > 0.0) begins.scale_to(begin_known * std::sqrt(modulus));
+  ends.scale = begins.scale;
+  if (end_known > 0.0) ends.scale_to(end_known * std::sqrt(modulus));
+  tip.scale = ends.scale;
+  if (begin_known > 0.0) begins.intensities.clear();
 }
 
 void MovingTips::begin(const TimeWindow& window) {
   const bool again = window.begin == window_.begin;
   window_ = window;
   if (moving_.empty()) return;
-  for (Tip& tip : moving_) {
+  for (MovingTip& tip : moving_) {
     const double rate = again && tip.expected_rate > 0.0 ? tip.expected_rate : tip.rate;
     const double next = tip.part + rate * window.length();
     // Of a facet that a tip ends with it leaves nothing.
@@ -147,133 +208,28 @@ void MovingTips::begin(const TimeWindow& window) {
   hold();
 }
 
-TipLaw MovingTips::law(const Tip& tip) const {
-  CrackedBody<2>& cracked = equilibrium_.body();
-  return {cracked.elastic().law(tip.nearest).plane_strain_modulus(),
-          tips_.energy_to_cut(cracked.facets()[tip.facet])};
-}
-
-/// That of the last facet that is whole.
-TipFluid MovingTips::fluid(const Tip& tip) const {
-  const CrackState<2> state = equilibrium_.state();
-  const auto at = static_cast<std::size_t>(tip.at.facet);
-  return {at < state.viscosity.size() ? state.viscosity[at] : 0.0,
-          at < state.leak_off.size() ? state.leak_off[at] : 0.0};
-}
-
-double MovingTips::speed(const Tip& tip, double part) const {
-  return body_.spacing() * std::max(part - tip.part, 1e-12) / window_.length();
-}
-
-double MovingTips::within_crack(const Tip& tip, double s) const {
-  return perifrac::within_crack(s, tip.per_spacing / body_.spacing());
-}
-
-/// By an even load, the tip being where it is tried; 0: not known.
-double MovingTips::root_of_j(const Tip& tip) const {
-  return tip.root_of_j[0] + tip.search.trial() * (tip.root_of_j[1] - tip.root_of_j[0]);
-}
-
-/// By loads that would set `released` free by the whole facet, twice [J/m^2].
-double MovingTips::energy_release(const Tip& tip, double released) const {
-  const double even = root_of_j(tip);
-  if (even > 0.0 && tip.release > 0.0) return even * even * released / tip.release;
-  const double slope = 1.0 + tip.per_spacing * (tip.search.trial() - 0.5);
-  return 0.5 * slope * released / equilibrium_.body().jumps()[tip.facet].area;
-}
-
-/// The opening `behind` (0: the last whole facet, 1: the one before), over what holds the tip.
-double MovingTips::by_law(const Tip& tip, int behind) const {
-  const Index facet = behind == 0 ? tip.at.facet : tip.at.before;
-  const double s = (tip.search.trial() + 0.5 + behind) * body_.spacing();
-  const double share = opened(tip, tip.search.trial());
-  const double even = (1.0 - share) * tip.held[behind] + share * tip.cut[behind];
-  const TipLaw held = law(tip);
-  const TipLaw unit{held.plane_strain_modulus, 1.0};
-  const double root = root_of_j(tip);
-  const double over =
-      root > 0.0 ? even / (root * unit.opening(within_crack(tip, s), 0.0, {}, 1.0)) : 1.0;
-  CrackTip at = end_of(tip);
-  at.place = at.place - (1.0 - tip.search.trial()) * body_.spacing() * at.direction;
-  const double open = equilibrium_.faces().opening[facet] / over -
-                      tips_.opening_by_layers(at, s, held, std::min(tip.search.trial(), 1.0));
-  return open / held.opening(within_crack(tip, s), s, fluid(tip), speed(tip, tip.search.trial()));
-}
-
-/// The logarithm of K over what holds the tip.
-double MovingTips::excess(const Tip& tip, std::size_t k, const CutLoad& load,
-                          std::span<const Vector<2>> jumps) const {
-  const auto& faces = equilibrium_.faces();
-  const PartialCuts& partial = equilibrium_.body().partial();
-  const bool has_viscosity = fluid(tip).viscosity > 0.0 && tip.at.before != no_facet;
-  CutLoad away = load;
-  if (has_viscosity) {
-    const double pressure = faces.pressure[tip.facet];
-    away.traction[0] -= pressure;
-    away.apart -= pressure * partial.whole_compliance(k).col(0);
-  }
-  const double released = away.apart[0] > 0.0 ? partial.release(k, away, away) : 0.0;
-  const double dry =
-      std::sqrt(std::max(0.0, energy_release(tip, released)) / law(tip).fracture_energy);
-  if (!has_viscosity) return std::log(std::max(dry, 1e-6));
-  const double opening =
-      (1.0 - tip.search.trial()) * by_law(tip, 1) + tip.search.trial() * by_law(tip, 0);
-  const double ratio = mode_ratio(tip, 0, energy_release_.jump(tip.at, jumps));
-  const double followed = opening > 0.0 ? kink_intensity({opening, opening * ratio}) : 0.0;
-  return std::log(std::max({followed, dry, 1e-6}));
-}
-
-/// K_II / K_I by the jumps behind the begin (0) or the end (1) of its facet.
-double MovingTips::mode_ratio(const Tip& tip, std::size_t place, const TipJump& jump) const {
-  if (!(jump.opening > 0.0)) return 0.0;
-  const double known = tip.sliding[place];
-  const double sliding = known > 0.0 ? jump.sliding / known : modes_of(jump).sliding;
-  return sliding / jump.opening;
-}
-
 bool MovingTips::find() {
   if (moving_.empty() || !(window_.length() > 0.0)) return true;
   CrackedBody<2>& cracked = equilibrium_.body();
   const auto& faces = equilibrium_.faces();
   const auto loads = cracked.cut_loads(faces.pressure, faces.shear);
   const auto jumps = cracked.jumps_under(faces.pressure, faces.shear);
+  const TipCriterion criterion(body_, equilibrium_, tips_, energy_release_, jumps,
+                               window_.length());
   bool settled = true;
   for (std::size_t k = 0; k < moving_.size(); ++k) {
-    Tip& tip = moving_[k];
+    MovingTip& tip = moving_[k];
     if (tip.ends) continue;
-    const double beyond = excess(tip, k, loads[k], jumps);
-    settled = !tip.search.look_further(beyond, foretold(tip, beyond)) && settled;
+    const double excess = criterion.excess(tip, k, loads[k]);
+    settled = !tip.search.look_further(excess, criterion.foretold(tip, excess)) && settled;
   }
   if (!settled) hold();
   return settled;
 }
 
-/// What the tip would meet there under fluid of fixed volume: intensity falls as the crack grows.
-double MovingTips::foretold(const Tip& tip, double excess) const {
-  const TipLaw held = law(tip);
-  const TipFluid follows = fluid(tip);
-  const auto holds = [&](double part) {
-    const double s = (part + 0.5) * body_.spacing(), dry = within_crack(tip, s);
-    const TipFluid none{0.0, 0.0};
-    return std::log(held.opening(dry, s, follows, speed(tip, part)) /
-                    held.opening(dry, s, none, 1.0));
-  };
-  const double now = holds(tip.search.trial());
-  const auto left = [&](double part) {
-    return excess + now - holds(part) - 1.5 * tip.per_spacing * (part - tip.search.trial());
-  };
-  double low = tip.part, high = TipSearch::farthest;
-  if (left(high) >= 0.0) return high;
-  for (int n = 0; n < 40; ++n) {
-    const double middle = 0.5 * (low + high);
-    (left(middle) > 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 double MovingTips::first_crossed() {
   double share = 1.0;
-  for (Tip& tip : moving_) {
+  for (MovingTip& tip : moving_) {
     tip.expected_rate = 0.0;
     const double trial = tip.search.trial();
     if (trial <= 1.0 + crossed) continue;
@@ -290,17 +246,17 @@ void MovingTips::book() {
   const auto& faces = equilibrium_.faces();
   const auto loads = cracked.cut_loads(faces.pressure, faces.shear);
   for (std::size_t k = 0; k < moving_.size(); ++k) {
-    Tip& tip = moving_[k];
+    MovingTip& tip = moving_[k];
     const double part = std::min(tip.search.trial(), 1.0);
-    const double spent =
-        cracked.jumps()[tip.facet].area * (part - tip.part) * law(tip).fracture_energy;
+    const double spent = cracked.jumps()[tip.facet].area * (part - tip.part) *
+                         tips_.energy_to_cut(cracked.facets()[tip.facet]);
     if (tip.part == 0.0) {
       // Nothing was done on its faces yet: fluid follows the tip, and opens it at what it comes to.
       tip.load.apart +=
           cracked.partial().whole_compliance(k) * (loads[k].traction - tip.load.traction);
       tip.load.traction = loads[k].traction;
     }
-    const double released = 0.5 * (opened(tip, tip.search.trial()) - opened(tip, tip.part)) *
+    const double released = 0.5 * (tip.opened(tip.search.trial()) - tip.opened(tip.part)) *
                             cracked.partial().release(k, tip.load, loads[k]);
     work_.spend(spent);
     if (tip.search.trial() > tip.part) work_.radiate(released - spent);
@@ -311,29 +267,39 @@ void MovingTips::book() {
   }
 }
 
-double MovingTips::turn(const Tip& tip, std::span<const Vector<2>> jumps) const {
-  const CrackTip end = end_of(tip);
-  const TipJump jump = energy_release_.jump(end, jumps);
-  return tips_.turn_of(end, {1.0, mode_ratio(tip, 1, jump)}, jump.turn_to, law(tip), 1.0);
+double MovingTips::turn(const MovingTip& tip, std::span<const Vector<2>> jumps) const {
+  const CrackedBody<2>& cracked = equilibrium_.body();
+  const CrackTip end = tip.end(cracked);
+  const TipLaw law = tips_.law(cracked.facets()[tip.facet], tip.nearest);
+  const CrackShape& shape = tip.shapes[1];
+  if (!shape.is_known()) {
+    const TipJump jump = energy_release_.jump(end, jumps);
+    return tips_.turn_of(end, {1.0, tip.modes[1].ratio(jump)}, jump.turn_to, law, 1.0);
+  }
+  const TipModes modes =
+      shape.modes(stress_of(shape, shape, 1.0, jumps, cracked.stress_at_rest(end.place),
+                            equilibrium_.faces().pressure[tip.at.facet]));
+  return tips_.turn_of(end, {1.0, ratio_of(modes)}, 0.0, law, 1.0);
 }
 
 bool MovingTips::conclude() {
   if (moving_.empty()) return false;
   book();
-  const auto done = [](const Tip& tip) { return tip.part >= 1.0 - crossed; };
+  const auto done = [](const MovingTip& tip) { return tip.part >= 1.0 - crossed; };
   if (std::ranges::none_of(moving_, done)) return false;
   std::vector<std::pair<CrackTip, double>> going_on;
-  std::vector<double> rates;
+  std::vector<double> rates, scales;
   const std::vector<Vector<2>> jumps = equilibrium_.state().jumps();
-  for (const Tip& tip : moving_) {
+  for (MovingTip& tip : moving_) {
     if (!done(tip) || tip.ends) continue;
-    going_on.emplace_back(end_of(tip), turn(tip, jumps));
+    going_on.emplace_back(tip.end(equilibrium_.body()), turn(tip, jumps));
     rates.push_back(tip.rate);
+    scales.push_back(tip.scale);
   }
   std::erase_if(moving_, done);
   hold();
   const std::size_t first = moving_.size();
-  add(going_on);
+  add(going_on, scales);
   if (moving_.size() == first + rates.size()) {
     for (std::size_t k = 0; k < rates.size(); ++k) moving_[first + k].rate = rates[k];
   }
@@ -350,62 +316,11 @@ void MovingTips::note_loads() {
 
 std::vector<double>& MovingTips::parts() {
   parts_.assign(equilibrium_.body().facets().size(), 1.0);
-  for (const Tip& tip : moving_) parts_[tip.facet] = std::min(1.0, tip.search.trial());
+  for (const MovingTip& tip : moving_) parts_[tip.facet] = std::min(1.0, tip.search.trial());
   return parts_;
 }
 
-void MovingTips::visit_state(StateVisitor& visitor) {
-  const std::vector<Tip> before = moving_;
-  visit_each(visitor, "moving_tips", moving_,  //
-             FieldOfEach("x", [](Tip& tip) -> double& { return tip.at.place[0]; }),
-             FieldOfEach("y", [](Tip& tip) -> double& { return tip.at.place[1]; }),
-             FieldOfEach("direction_x", [](Tip& tip) -> double& { return tip.at.direction[0]; }),
-             FieldOfEach("direction_y", [](Tip& tip) -> double& { return tip.at.direction[1]; }),
-             FieldOfEach("facet_behind", [](Tip& tip) -> Index& { return tip.at.facet; }),
-             FieldOfEach("facet_before", [](Tip& tip) -> Index& { return tip.at.before; }),
-             FieldOfEach("facet", [](Tip& tip) -> Index& { return tip.facet; }),
-             FieldOfEach("ends", [](Tip& tip) -> bool& { return tip.ends; }),
-             FieldOfEach("nearest", [](Tip& tip) -> Index& { return tip.nearest; }),
-             FieldOfEach("part", [](Tip& tip) -> double& { return tip.part; }),
-             FieldOfEach("per_spacing", [](Tip& tip) -> double& { return tip.per_spacing; }),
-             FieldOfEach("rate", [](Tip& tip) -> double& { return tip.rate; }),
-             FieldOfEach("intensity_begin", [](Tip& tip) -> double& { return tip.root_of_j[0]; }),
-             FieldOfEach("intensity_end", [](Tip& tip) -> double& { return tip.root_of_j[1]; }),
-             FieldOfEach("release", [](Tip& tip) -> double& { return tip.release; }),
-             FieldOfEach("sliding_begin", [](Tip& tip) -> double& { return tip.sliding[0]; }),
-             FieldOfEach("sliding_end", [](Tip& tip) -> double& { return tip.sliding[1]; }),
-             FieldOfEach("held", [](Tip& tip) -> double& { return tip.held[0]; }),
-             FieldOfEach("held_before", [](Tip& tip) -> double& { return tip.held[1]; }),
-             FieldOfEach("cut", [](Tip& tip) -> double& { return tip.cut[0]; }),
-             FieldOfEach("cut_before", [](Tip& tip) -> double& { return tip.cut[1]; }));
-  visit_loads(visitor);
-  // What the passes of a window look for outlasts their going back.
-  for (std::size_t k = 0; k < moving_.size(); ++k) {
-    if (k < before.size() && before[k].facet == moving_[k].facet) continue;
-    moving_[k].search.put(moving_[k].part);
-  }
-}
-
-/// One after the other: how many numbers, and these.
-void MovingTips::visit_loads(StateVisitor& visitor) {
-  std::vector<double> all;
-  for (const Tip& tip : moving_) {
-    all.push_back(static_cast<double>(tip.load.borne.size()));
-    all.insert(all.end(), tip.load.borne.begin(), tip.load.borne.end());
-    all.insert(all.end(), tip.load.apart.begin(), tip.load.apart.end());
-    all.insert(all.end(), tip.load.traction.begin(), tip.load.traction.end());
-  }
-  visitor.visit("tip_loads", all);
-  Eigen::Index next = 0;
-  const Eigen::VectorXd values = view(all);
-  for (Tip& tip : moving_) {
-    const auto count = static_cast<Eigen::Index>(values[next++]);
-    tip.load.borne = values.segment(next, count);
-    tip.load.apart = values.segment(next + count, 2);
-    tip.load.traction = values.segment(next + count + 2, 2);
-    next += count + 4;
-  }
-}
+void MovingTips::visit_state(StateVisitor& visitor) { visit_moving_tips(visitor, moving_); }
 
 void MovingTips::on_restored() { hold(); }
 

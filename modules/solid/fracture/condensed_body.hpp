@@ -39,7 +39,7 @@ class CondensedBody final : public CrackedBody<D> {
   using Held = typename CrackedBody<D>::Held;
   Held held(std::span<const double> unknowns, const Eigen::VectorXd& pressure,
             std::span<const double> shear) override;
-  std::vector<Vector<D>> jumps_by(std::span<const Index> faces, const Vector<D>& traction) override;
+  std::vector<Vector<D>> jumps_by(std::span<const Vector<D>> tractions) override;
 
   using Faces = typename CrackedBody<D>::Faces;
   using Energies = typename CrackedBody<D>::Energies;

@@ -6,7 +6,6 @@
 
 #include "core/base/small_vector.hpp"
 #include "core/state/visit_each.hpp"
-#include "modules/solid/fracture/even_loads.hpp"
 #include "modules/solid/fracture/loose_piece.hpp"
 
 namespace perifrac {
@@ -31,6 +30,13 @@ constexpr double least_turn = 1e-6;
 
 /// A piece of so few points lies within two spacings.
 constexpr std::size_t chip = 4;
+
+/// K_I by an even pressure of 1 Pa on a straight crack in an infinite body [m^0.5].
+double line_intensity(const CutBody<2>& body, std::span<const Index> crack) {
+  double length = 0.0;
+  for (const Index f : crack) length += body.jumps()[f].area;
+  return std::sqrt(0.5 * M_PI * length);
+}
 
 }  // namespace
 
@@ -90,6 +96,10 @@ double CrackTips::energy_to_cut(const CrackFacet<2>& facet) const {
   return fracture_energy_.at(middle<2>(facet));
 }
 
+TipLaw CrackTips::law(const CrackFacet<2>& facet, Index nearest) const {
+  return {cracked_.elastic().law(nearest).plane_strain_modulus(), energy_to_cut(facet)};
+}
+
 double CrackTips::readiness(Tip& tip, const CrackState<2>& state,
                             std::span<const Vector<2>> jumps) const {
   if (is_followed(tip, state) && tip.even.opening == 0.0) ask_even_loads(tip);
@@ -97,8 +107,8 @@ double CrackTips::readiness(Tip& tip, const CrackState<2>& state,
   // what counts is the mean of its beginning and end.
   const double needed =
       state.has_fluid() ? 2.0 / (1.0 + tip.intensity_ratio * tip.intensity_ratio) : 1.0;
-  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(),
-                       needed * energy_to_cut(next_facet(tip.at, 0.0))};
+  TipLaw tip_law = law(next_facet(tip.at, 0.0), tip.nearest);
+  tip_law.fracture_energy *= needed;
   if (!is_followed(tip, state)) {
     tip.modes.reset();
     const double readiness = dry_readiness(tip, tip_law, state, 0.0);
@@ -107,7 +117,11 @@ double CrackTips::readiness(Tip& tip, const CrackState<2>& state,
     return leaks ? readiness / beyond_mean(tip, state) : readiness;
   }
   tip.modes = followed_modes(tip, tip_law, state, jumps);
-  return std::max(kink_intensity(*tip.modes), lagging_readiness(tip, tip_law, state));
+  TipModes own = *tip.modes;
+  if (!tip.shape.is_known()) {
+    own.sliding += own.opening * energy_release_.jump(tip.at, jumps).more_at_tip();
+  }
+  return std::max(kink_intensity(own), lagging_readiness(tip, tip_law, state));
 }
 
 /// Viscous fluid is at the tip.
@@ -133,7 +147,8 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
   // A tip that is closed may go on where its faces slide under friction.
   const bool may_go = (load.opening > 0.0 || !state.shear.empty()) && !is_closed(tip.at, state);
   const bool opens = may_go && load.energy_release > 0.0;
-  const TipModes modes = modes_of(load);
+  TipModes modes = modes_of(load);
+  modes.sliding += modes.opening * load.more_at_tip();
   const double straight_on = std::hypot(modes.opening, modes.sliding);
   const double turned = straight_on > 0.0 ? kink_intensity(modes) / straight_on : 1.0;
   tip.asked = opens ? turned * std::sqrt(load.energy_release / tip_law.fracture_energy) : 0.0;
@@ -163,17 +178,28 @@ TipModes CrackTips::followed_modes(Tip& tip, const TipLaw& tip_law, const CrackS
   const TipFluid fluid{state.viscosity[at.facet],
                        state.leak_off.empty() ? 0.0 : state.leak_off[at.facet]};
   const double s = behind(at);
-  const bool is_known = tip.even.sliding > 0.0;
+  const TipJump jump = energy_release_.jump(at, jumps);
+  const CrackShape& its = tip.shape;
+  const bool is_bent = its.is_known();
+  TipModes by_shape{};
+  if (is_bent)
+    by_shape = its.modes(stress_of(its, its, 1.0, jumps, cracked_.stress_at_rest(at.place),
+                                   state.pressure[at.facet]));
+  double open = energy_release_.opening_across(at.direction, at.before, jumps[at.before]);
+  if (is_bent && !tip.even.is_known) {
+    open = by_shape.opening / tip_law.toughness() *
+           tip_law.opening(within_crack(tip, s), 0.0, {}, 1.0);
+  } else if (jump.is_open() && open > 0.0) {
+    open -= tip.even.opens * tip.even.modes.without_teeth(jump).sliding;
+  }
   const double opening =
-      (state.opening[at.before] / tip.even.opening - opening_by_layers(at, s, tip_law)) /
+      (open / tip.even.opening - opening_by_layers(at, s, tip_law)) /
       tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed) /
       beyond_mean(tip, state);
   // The ratio is that of the faces as far behind as a facet resolves, of fluid that is viscous too.
-  const TipJump jump = energy_release_.jump(at, jumps);
-  const double apart = jump.opening;
-  if (!(apart > 0.0)) return {opening, 0.0};
-  const double sliding = is_known ? jump.sliding / tip.even.sliding : modes_of(jump).sliding;
-  return {opening, opening * sliding / apart};
+  const double toughness = std::sqrt(tip_law.fracture_energy);
+  return {opening, is_bent ? opening * ratio_of(by_shape)
+                           : tip.even.modes.mode_two(jump, opening, toughness)};
 }
 
 /// A facet that has just been cut leaks most: the crack's volume sags meanwhile and comes back, so
@@ -199,18 +225,30 @@ double CrackTips::beyond_mean(const Tip& tip, const CrackState<2>& state) const 
 /// What faces do under even loads, beside what K_I and K_II of that J do by the law.
 void CrackTips::ask_even_loads(Tip& tip) const {
   tip.even = {.opening = 1.0};
-  const auto even =
-      perifrac::ask_even_loads(cracked_, energy_release_, tip.at, crack_of(tip.at.facet));
-  if (!even || !(std::min({even->sliding, even->opening, even->volume}) > 0.0)) return;
+  const std::vector<Index> crack = crack_of(tip.at.facet);
+  const double modulus = cracked_.elastic().law(tip.nearest).plane_strain_modulus();
+  tip.shape = {};
+  if (!energy_release_.is_straight(tip.at, bent)) {
+    tip.shape = crack_shape(cracked_, tip.at, crack, crack,
+                            facets_near(cracked_, crack, tip.at.place), modulus);
+    if (tip.scale > 0.0) tip.shape.scale = tip.scale;
+  }
+  const auto even = perifrac::ask_even_loads(cracked_, energy_release_, tip.at, crack);
+  if (!even) return;
+  if (!(std::min({even->root_of_j, even->opening, even->volume, even->modes.sliding}) > 0.0))
+    return;
+  tip.even.is_known = true;
   tip.even.intensity = even->root_of_j / even->volume;
   if (tip.intensity_before > 0.0) {
     tip.intensity_ratio = std::min(1.0, tip.even.intensity / tip.intensity_before);
   }
   // Of any toughness: what is asked are ratios.
-  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(), 1.0};
+  const TipLaw tip_law{modulus, 1.0};
   const double dry = tip_law.opening(within_crack(tip, behind(tip.at)), 0.0, {}, 1.0);
   tip.even.opening = even->opening / (dry * even->root_of_j);
-  tip.even.sliding = even->sliding;
+  tip.scale = even->root_of_j * std::sqrt(modulus) / line_intensity(cracked_, crack);
+  tip.even.modes = even->modes;
+  if (even->slid != 0.0) tip.even.opens = even->opening_by_shear / even->slid;
 }
 
 std::vector<Index> CrackTips::crack_of(Index facet) const {
@@ -315,10 +353,10 @@ double CrackTips::turn_of(const CrackTip& tip, const TipModes& modes, double tur
 
 double CrackTips::turn_of(const Tip& tip, std::span<const Vector<2>> jumps) const {
   const TipJump jump = energy_release_.jump(tip.at, jumps);
-  const TipLaw tip_law{cracked_.elastic().law(tip.nearest).plane_strain_modulus(),
-                       energy_to_cut(next_facet(tip.at, 0.0))};
-  return turn_of(tip.at, tip.modes ? *tip.modes : modes_of(jump), jump.turn_to, tip_law,
-                 tip.readiness);
+  const TipLaw tip_law = law(next_facet(tip.at, 0.0), tip.nearest);
+  const bool by_shape = tip.modes && tip.shape.is_known();
+  return turn_of(tip.at, tip.modes ? *tip.modes : modes_of(jump), by_shape ? 0.0 : jump.turn_to,
+                 tip_law, tip.readiness);
 }
 
 std::vector<std::pair<CrackTip, double>> CrackTips::take_ready(const CrackState<2>& state) {
@@ -378,6 +416,7 @@ double CrackTips::advance(Tip& tip, double turn, double t) {
   tip.asked = tip.asked_opening = 0.0;
   tip.intensity_before = tip.even.intensity;
   tip.even = {};
+  tip.shape = {};
   tip.nearest = body_.nearest_point(tip.at.place);
   if (std::abs(turn) < bent) {
     tip.intensity_ratio =
@@ -422,8 +461,19 @@ void CrackTips::visit_state(StateVisitor& visitor) {
       FieldOfEach("asked_opening", [](Tip& tip) -> double& { return tip.asked_opening; }),
       FieldOfEach("intensity_before", [](Tip& tip) -> double& { return tip.intensity_before; }),
       FieldOfEach("even_opening", [](Tip& tip) -> double& { return tip.even.opening; }),
-      FieldOfEach("even_sliding", [](Tip& tip) -> double& { return tip.even.sliding; }),
-      FieldOfEach("even_intensity", [](Tip& tip) -> double& { return tip.even.intensity; }));
+      FieldOfEach("even_sliding", [](Tip& tip) -> double& { return tip.even.modes.sliding; }),
+      FieldOfEach("even_opens", [](Tip& tip) -> double& { return tip.even.modes.opens; }),
+      FieldOfEach("even_slides", [](Tip& tip) -> double& { return tip.even.modes.slides; }),
+      FieldOfEach("even_root", [](Tip& tip) -> double& { return tip.even.modes.root_of_j; }),
+      FieldOfEach("even_behind", [](Tip& tip) -> double& { return tip.even.opens; }),
+      FieldOfEach("even_known", [](Tip& tip) -> bool& { return tip.even.is_known; }),
+      FieldOfEach("even_intensity", [](Tip& tip) -> double& { return tip.even.intensity; }),
+      FieldOfEach("scale", [](Tip& tip) -> double& { return tip.scale; }),
+      FieldOfEach("shape_scale", [](Tip& tip) -> double& { return tip.shape.scale; }),
+      FieldOfEach("shape_facets", [](Tip& tip) -> std::vector<Index>& { return tip.shape.facets; }),
+      FieldOfEach("shape_jumps", [](Tip& tip) -> std::vector<double>& { return tip.shape.jumps; }),
+      FieldOfEach("shape_modes",
+                  [](Tip& tip) -> std::vector<double>& { return tip.shape.intensities; }));
   for (std::size_t k = 0; k < tips_.size(); ++k) {
     Tip& tip = tips_[k];
     const bool is_known = k < before.size() && before[k].at.place == tip.at.place;

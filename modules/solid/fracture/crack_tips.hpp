@@ -9,6 +9,7 @@
 #include "modules/solid/fracture/crack_state.hpp"
 #include "modules/solid/fracture/cut_body.hpp"
 #include "modules/solid/fracture/energy_release.hpp"
+#include "modules/solid/fracture/even_loads.hpp"
 #include "modules/solid/fracture/fracture_energy.hpp"
 #include "modules/solid/fracture/tip_law.hpp"
 
@@ -41,6 +42,8 @@ class CrackTips {
 
   /// Per length of it [J/m^2].
   double energy_to_cut(const CrackFacet<2>& facet) const;
+  /// What holds a tip that crosses the facet; `nearest`: point, whose rock it is in.
+  TipLaw law(const CrackFacet<2>& facet, Index nearest) const;
   CrackFacet<2> next_facet(const CrackTip& tip, double turn) const;
   /// Cuts a facet ahead of a tip; false, and nothing done, where the tip ends: where the facet
   /// meets no bond, or would cut a chip free, too small for the lattice to tell two cracks apart.
@@ -60,10 +63,12 @@ class CrackTips {
 
  private:
   /// Of even loads on the crack's faces: how far they open behind the tip, over the law of the K_I
-  /// there is then; how far they slide for a K_II, over how far they open for a K_I; and K_I at
-  /// fixed volume, up to a factor that stays. 0: not known.
+  /// there is then; and K_I at fixed volume, up to a factor that stays. 0: not known.
   struct EvenLoads {
-    double opening = 0.0, sliding = 0.0, intensity = 0.0;
+    double opening = 0.0, intensity = 0.0;
+    ModeAnswer modes = {};
+    double opens = 0.0;  ///< what `opening` is of, by K_II alone, over how far the faces slide
+    bool is_known = false;
   };
   struct Tip {
     CrackTip at{};
@@ -79,6 +84,8 @@ class CrackTips {
     double readiness = 0.0;
     std::optional<TipModes> modes = {};  ///< of a tip that fluid follows, over the toughness
     EvenLoads even = {};
+    CrackShape shape = {};  ///< empty where it does not turn sharply near it
+    double scale = 0.0;     ///< of its crack's shape when that was known last; 0: it never was
     double intensity_before = 0.0;  ///< as even.intensity, before the last step; 0: not known
     /// The last facet's energy, 0 if it is not of the last growth, and what J would have made of it
     /// at its beginning [J/m].

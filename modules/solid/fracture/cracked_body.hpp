@@ -93,12 +93,6 @@ class CrackedBody : public CutBody<D> {
 
   // Of a pressure on the faces and, unless it is empty, a shear along their (first) tangent:
 
-  /// Jumps of all facets by the same traction on the faces named and nothing else [m]; where it may
-  /// be partly cut.
-  virtual std::vector<Vector<D>> jumps_by(std::span<const Index> /*faces*/,
-                                          const Vector<D>& /*traction*/) {
-    return {};
-  }
   /// Openings of all facets, and how far they slide along their tangents [m].
   virtual std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure,
                                              std::span<const double> shear = {}) = 0;

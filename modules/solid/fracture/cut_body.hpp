@@ -44,9 +44,17 @@ class CutBody {
                                             std::span<const Index> named,
                                             std::span<double> all) = 0;
 
+  /// Jumps of all facets by tractions on them, along normal and tangents [Pa], and nothing else
+  /// [m]. Of a body that may be partly cut; empty of others.
+  virtual std::vector<Vector<D>> jumps_by(std::span<const Vector<D>> /*tractions*/) { return {}; }
+
   std::span<const FaceJump<D>> jumps() const { return jumps_; }
   /// Normal and tangential stress that facet f is relieved of [Pa].
   Vector<D> relief(Index f) const;
+  /// Stress at rest along the axes [Pa].
+  Vector<D> stress_at_rest(const Vector<D>& x) const {
+    return initial_stress_ ? initial_stress_->at(x) : Vector<D>{};
+  }
   /// Stress at rest along facet f less that across it, in 2D [Pa].
   double stress_along(Index f) const;
   bool relief_varies() const { return initial_stress_ && initial_stress_->varies(); }

@@ -251,9 +251,7 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
     const FaceJump<2>& face = body_.jumps()[f];
     const double cosine = dot(face.tangents[0], tip.direction);
     if (is_other_leg(std::abs(cosine))) continue;
-    // From the right face to the left.
-    const double sign = cross(tip.direction, face.normal) > 0.0 ? 1.0 : -1.0;
-    apart += sign * (jumps[f][0] * face.normal + jumps[f][1] * face.tangents[0]);
+    apart += parted(tip.direction, static_cast<Index>(f), jumps[f]);
     ahead += (cosine > 0.0 ? 1.0 : -1.0) * face.tangents[0];
     ++count;
   }
@@ -262,6 +260,18 @@ TipJump EnergyRelease::jump(const CrackTip& tip, std::span<const Vector<2>> jump
   ahead = ahead / length(ahead);
   const double turn_to = std::atan2(cross(tip.direction, ahead), dot(tip.direction, ahead));
   return {cross(ahead, apart), dot(ahead, apart), turn_to};
+}
+
+/// From the face on the right to that on the left.
+Vector<2> EnergyRelease::parted(const Vector<2>& ahead, Index facet, const Vector<2>& jump) const {
+  const FaceJump<2>& face = body_.jumps()[facet];
+  const double sign = cross(ahead, face.normal) > 0.0 ? 1.0 : -1.0;
+  return sign * (jump[0] * face.normal + jump[1] * face.tangents[0]);
+}
+
+double EnergyRelease::opening_across(const Vector<2>& ahead, Index facet,
+                                     const Vector<2>& jump) const {
+  return cross(ahead, parted(ahead, facet, jump));
 }
 
 /// Where facets meet: the mean of theirs, 0 at the tip.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -27,6 +28,11 @@ struct TipJump {
   double opening;        ///< [m]
   double sliding;        ///< positive turns the crack to its right [m]
   double turn_to = 0.0;  ///< from the tip's direction to that of the frame, to the left [rad]
+
+  /// Faces that touch are apart by rounding.
+  bool is_open() const { return opening > 1e-9 * std::abs(sliding); }
+  /// What K_II / K_I of the tip itself is beyond that in the frame.
+  double more_at_tip() const { return -0.5 * turn_to; }
 };
 
 /// Stress intensities of the modes at a tip, in a common unit.
@@ -74,10 +80,14 @@ class EnergyRelease {
   std::vector<Index> looks_at(const CrackTip& tip) const;
   /// The jumps alone, from those of all facets along their normal and tangent.
   TipJump jump(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
+  /// Of the jump of a facet along its normal and tangent, what parts the faces of a tip that runs
+  /// in this direction: across a kink faces slide apart.
+  double opening_across(const Vector<2>& ahead, Index facet, const Vector<2>& jump) const;
   /// Another tip that is as open, or the image of this one beyond a plane of symmetry, meets() it.
   bool meets_another(const CrackTip& tip, const Eigen::VectorXd& opening) const;
 
  private:
+  Vector<2> parted(const Vector<2>& ahead, Index facet, const Vector<2>& jump) const;
   double largest_radius(const CrackTip& tip) const;
   double radius(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
   struct OtherTip {
@@ -123,6 +133,11 @@ constexpr bool meets(double clear, double cosine) { return clear < 1.75 && cosin
 
 /// As far as their ratio goes: of a tip on a lattice, whose faces slide further than they open.
 TipModes modes_of(const TipJump& jump);
+
+/// K_II / K_I; 0 of a tip that is closed.
+inline double ratio_of(const TipModes& modes) {
+  return modes.opening > 0.0 ? modes.sliding / modes.opening : 0.0;
+}
 
 /// The angle by which a crack turns, to the left positive, in the direction of largest hoop stress
 /// (Erdogan & Sih 1963); at most 70 degrees. `along`, in the unit of the modes: of a stress T

@@ -112,11 +112,8 @@ std::vector<CutLoad> CondensedBody<D>::cut_loads(const Eigen::VectorXd& pressure
 }
 
 template <int D>
-std::vector<Vector<D>> CondensedBody<D>::jumps_by(std::span<const Index> faces,
-                                                  const Vector<D>& traction) {
-  std::vector<Vector<D>> loads(modes_.size(), Vector<D>{});
-  for (const Index f : faces) loads[f] = traction;
-  return jumps_at(moved_by(force_of(loads)), loads);
+std::vector<Vector<D>> CondensedBody<D>::jumps_by(std::span<const Vector<D>> tractions) {
+  return jumps_at(moved_by(force_of(tractions)), tractions);
 }
 
 template <int D>
