@@ -178,8 +178,23 @@ Eigen::VectorXd IteratedBody<D>::first_contact(const Eigen::VectorXd& pressure) 
   return contact;
 }
 
-/// Contact by the slope, whose own error each solve shows: what it says of a pressure on closed
-/// faces is put right until openings agree.
+/// What a change of pressure did to the openings, put into the slope: the change of least rank that
+/// leaves it symmetric (times the faces' areas) and positive definite (BFGS).
+template <int D>
+void IteratedBody<D>::learn(Eigen::MatrixXd& slope, const Eigen::VectorXd& pressure,
+                            const Eigen::VectorXd& opening) const {
+  Eigen::VectorXd area(pressure.size());
+  for (Eigen::Index f = 0; f < area.size(); ++f) area[f] = jumps_[f].area;
+  const Eigen::VectorXd guess = slope * pressure;
+  const double work = area.cwiseProduct(opening).dot(pressure);
+  const double guessed = area.cwiseProduct(guess).dot(pressure);
+  if (work <= 0.0 || guessed <= 0.0) return;
+  slope -= guess * (area.cwiseProduct(guess) / guessed).transpose();
+  slope += opening * (area.cwiseProduct(opening) / work).transpose();
+}
+
+/// Contact by the slope, which learns from each solve: what it says of a pressure on closed faces
+/// is put right until openings agree.
 template <int D>
 auto IteratedBody<D>::faces(const Eigen::VectorXd& pressure) -> Faces {
   const Eigen::Index count = pressure.size();
@@ -187,19 +202,28 @@ auto IteratedBody<D>::faces(const Eigen::VectorXd& pressure) -> Faces {
   Eigen::VectorXd& contact = answer_.contact;
   contact = first_contact(pressure);
   Faces faces{Eigen::VectorXd::Zero(count), pressure + contact, std::vector<bool>(count, false)};
+  Eigen::MatrixXd slope;
+  Eigen::VectorXd last_opening, last_contact;
   for (int tries = 0;; ++tries) {
     if (!is_of(answer_, faces.pressure)) solve(answer_, faces.pressure);
     const Eigen::VectorXd opening = openings(answer_);
     faces.opening = opening.cwiseMax(0.0);
     if (count == 0 || (contact.isZero(0.0) && opening.minCoeff() >= 0.0)) return faces;
-    ready_slope();
-    const Eigen::VectorXd free = opening - opening_slope() * contact;
+    if (tries == 0) {
+      ready_slope();
+      slope = opening_slope();
+    } else {
+      learn(slope, contact - last_contact, opening - last_opening);
+    }
+    const Eigen::VectorXd free = opening - slope * contact;
     const double size = std::max(free.lpNorm<Eigen::Infinity>(), 1e-14 * spacing_);
-    const Complementarity found = solve_complementarity(slope_, free, 1e-14 * spacing_);
-    const double change = (slope_ * (found.x - contact)).template lpNorm<Eigen::Infinity>();
+    const Complementarity found = solve_complementarity(slope, free, 1e-14 * spacing_);
+    const double change = (slope * (found.x - contact)).template lpNorm<Eigen::Infinity>();
     faces.closed = found.held;
     if (change <= contact_tolerance * tolerance_ * size) return faces;
     if (tries == most_contact_solves) throw NoContact("contact is not found by iteration");
+    last_opening = opening;
+    last_contact = contact;
     contact = found.x;
     faces.pressure = pressure + contact;
   }

@@ -92,6 +92,8 @@ class IteratedBody final : public CrackedBody<D> {
 
   std::int64_t facet_count() const { return static_cast<std::int64_t>(jumps_.size()); }
   Eigen::VectorXd first_contact(const Eigen::VectorXd& pressure) const;
+  void learn(Eigen::MatrixXd& slope, const Eigen::VectorXd& pressure,
+             const Eigen::VectorXd& opening) const;
   bool is_of(const Answer& answer, const Eigen::VectorXd& pressure) const;
   void solve(const Eigen::VectorXd& force, double tolerance, Eigen::VectorXd& move);
   void solve(Answer& answer, const Eigen::VectorXd& pressure);

@@ -64,7 +64,7 @@ struct ShearedPlate {
   /// At the end of the crack.
   double energy_release() const {
     return EnergyRelease(*plate.cracked, 1.0)
-        .at(CrackedPlate::tip(exact(0.0, 0.0).sheared, 1), {u.data(), std::size_t(u.size())},
+        .at(plate.tip(exact(0.0, 0.0).sheared, 1), {u.data(), std::size_t(u.size())},
             faces.pressure, {}, {}, faces.shear)
         .energy_release;
   }

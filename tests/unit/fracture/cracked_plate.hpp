@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -140,14 +141,12 @@ struct CrackedPlate {
 
   /// The tip of a straight crack at its end (1) or its beginning (0).
   template <class Crack>
-  static CrackTip tip(const Crack& exact, int end) {
+  CrackTip tip(const Crack& exact, int end) const {
     const double sign = end == 1 ? 1.0 : -1.0;
     const Vector<2> ahead = {sign * std::cos(exact.angle), sign * std::sin(exact.angle)};
-    return {{exact.centre[0] + exact.half_length * ahead[0],
-             exact.centre[1] + exact.half_length * ahead[1]},
-            ahead,
-            no_facet,
-            no_facet};
+    const Vector<2> place = {exact.centre[0] + exact.half_length * ahead[0],
+                             exact.centre[1] + exact.half_length * ahead[1]};
+    return {place, ahead, nearest_facet(place - 0.5 * ahead), nearest_facet(place - 1.5 * ahead)};
   }
   template <class Crack>
   TipLoad tip_load(const Crack& exact, int end, const Eigen::VectorXd& u) const {
@@ -156,6 +155,14 @@ struct CrackedPlate {
   }
 
  private:
+  Index nearest_facet(const Vector<2>& place) const {
+    const std::span<const CrackFacet<2>> facets = cracked->facets();
+    if (facets.empty()) return no_facet;
+    const auto distance = [&](const CrackFacet<2>& facet) {
+      return norm(0.5 * (facet[0] + facet[1]) - place);
+    };
+    return static_cast<Index>(std::ranges::min_element(facets, {}, distance) - facets.begin());
+  }
   Eigen::VectorXd inner_force(std::span<const double> u, const PoreStress& pore) {
     Eigen::VectorXd force(prescribed.size());
     std::vector<double> theta(family->point_count);

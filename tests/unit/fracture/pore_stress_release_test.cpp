@@ -12,14 +12,12 @@ constexpr int n = 60, half = 10;
 /// J at the tip that grows, by domain integral.
 double release(CrackedPlate& plate, const std::vector<double>& pore_stress, double angle,
                double half_length, const Eigen::VectorXd& u) {
-  const Vector<2> ahead = {std::cos(angle), std::sin(angle)};
-  const CrackTip tip{
-      {plate.middle()[0] + half_length * ahead[0], plate.middle()[1] + half_length * ahead[1]},
-      ahead,
-      no_facet,
-      no_facet};
+  const ExactCrack crack{
+      plate.middle(),     angle, half_length, 0.0, 0.0, 0.0, 0.0, plate.shear_modulus(),
+      plate.poisson_ratio};
   return EnergyRelease(*plate.cracked, 1.0)
-      .at(tip, {u.data(), static_cast<std::size_t>(u.size())}, plate.pressure, pore_stress)
+      .at(plate.tip(crack, 1), {u.data(), static_cast<std::size_t>(u.size())}, plate.pressure,
+          pore_stress)
       .energy_release;
 }
 
