@@ -180,10 +180,8 @@ void add_export_options(CLI::App& verb, ExportRequest& request) {
 void add_writing_verbs(CLI::App& app, Request& request) {
   CLI::App& fresh =
       *app.add_subcommand("new", "write a commented scene, a module or a material to begin with");
-  fresh
-      .add_option("kind", request.kind,
-                  "what it is of; a wrong word lists them; module or material: code")
-      ->required();
+  fresh.add_option("kind", request.kind,
+                   "what it is of; left out, they are listed; module or material: code");
   fresh.add_option("name", request.name, "of a module or material of your own, as in my_rock");
   fresh.add_option("--output", request.new_scene, "its file, KIND.yaml; of code its folder, NAME")
       ->type_name("PATH");
@@ -217,6 +215,11 @@ void find_scene(const CLI::App& app, Request& request) {
 
 int write_new(const std::string& kind, const std::string& name, const std::string& output) {
   const std::vector<std::string> code = code_kinds();
+  if (kind.empty() && output.empty()) {
+    fmt::print("perifrac new KIND writes a scene:\n{}or code:\n  {} NAME\n", scene_kinds_by_line(),
+               fmt::join(code, " NAME\n  "));
+    return 0;
+  }
   if (std::ranges::find(code, kind) != code.end()) return write_new_code(kind, name, output);
   if (name.empty()) return write_new_scene(kind, output);
   throw InputError(

@@ -14,7 +14,8 @@ namespace perifrac {
 
 namespace {
 
-constexpr double least_filled = 2.0;   // spacings
+constexpr double least_filled = 2.5;   // spacings an inlet
+constexpr double least_wet = 2.0;      // spacings
 constexpr double most_residual = 0.5;  // of the widest opening; volumes are 3 % off then
 
 /// Of a field; 0 where there is none.
@@ -31,6 +32,15 @@ double largest_of(const Simulation& simulation, const std::string& name) {
 double wetted_size(const Section& scene, const Simulation& simulation) {
   return scene.integer("dimension") == 2 ? largest_of(simulation, "wetted_length")
                                          : std::sqrt(largest_of(simulation, "wetted_area") / M_PI);
+}
+
+/// Where fluid goes into cracks: inlets, and clusters of wells.
+std::size_t count_inlets(const Section& scene) {
+  std::size_t count = scene.count("crack_fluid.inlets");
+  for (std::size_t k = 0; k < scene.count("crack_fluid.wells"); ++k) {
+    count += scene.count(fmt::format("crack_fluid.wells[{}].clusters", k));
+  }
+  return count;
 }
 
 bool pumps_at_a_rate(const Section& scene) {
@@ -96,23 +106,25 @@ Seepage where_fluid_seeps(const Section& scene) {
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("crack_fluid")) return {};
   const double spacing = scene.number("body.spacing");
-  const double filled = wetted_size(scene, simulation);
+  const auto inlets = static_cast<double>(std::max<std::size_t>(1, count_inlets(scene)));
+  const double share = scene.integer("dimension") == 2 ? 1.0 / inlets : std::sqrt(1.0 / inlets);
+  const double filled = share * wetted_size(scene, simulation);
   const double dry = scene.integer("dimension") == 2
                          ? largest_of(simulation, "fluid_lag")
                          : std::sqrt(largest_of(simulation, "dry_area"));
   if (!(filled > 0.0) || filled >= least_filled * spacing || !(dry > spacing)) return {};
   return fmt::format(
-      "fluid fills {:.2g} m of the cracks in the end, {:.1f} spacings: its pressure and what it "
+      "fluid fills {:.2g} m of the cracks in the end{}, {:.1f} spacings: its pressure and what it "
       "opens are those of facets as long as body.spacing, not of a crack; a later time.end or a "
       "finer body.spacing",
-      filled, filled / spacing);
+      filled, inlets > 1.0 ? " for each inlet" : "", filled / spacing);
 }
 
 std::optional<std::string> residual_aperture_warning(const Section& scene,
                                                      const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("crack_fluid.residual_aperture")) return {};
   if (!writes(scene, "damage") || !pumps_at_a_rate(scene)) return {};
-  if (wetted_size(scene, simulation) < least_filled * scene.number("body.spacing")) return {};
+  if (wetted_size(scene, simulation) < least_wet * scene.number("body.spacing")) return {};
   const double residual = scene.number("crack_fluid.residual_aperture");
   const double widest = largest_of(simulation, "crack_opening");
   if (residual <= most_residual * widest) return {};

@@ -18,6 +18,7 @@ namespace {
 constexpr double large_strain = 0.1;
 constexpr double large_rotation = 0.1;  ///< [rad]; taken for strains, it makes half its square
 constexpr double far_density = 0.1;     ///< relative
+constexpr double large_fall = 0.05;     ///< of all energy that there is or was
 constexpr double large_swing = 0.02;    ///< of all that pressures range over
 
 std::optional<Field> find_field(const Simulation& simulation, const std::string& name) {
@@ -54,6 +55,7 @@ ValidityWatch::ValidityWatch(const Section& scene, const Simulation& simulation)
   watch_pores(scene, simulation);
   watch_swings(scene, simulation);
   watch_density(scene, simulation);
+  watch_rubble(scene, simulation);
 }
 
 std::vector<std::string> ValidityWatch::look() {
@@ -169,6 +171,27 @@ void ValidityWatch::watch_density(const Section& scene, const Simulation& simula
         "fluid_density is {:.4g} kg/m^3 at {}, far from fluid.density, {:g} kg/m^3; raise "
         "`fluid.bulk_modulus`, so that loads change it by a hundredth",
         *farthest, place_of(density->points(), farthest - values.begin()), reference);
+  });
+}
+
+/// Points with few bonds left take strains from what is left of their families, and breaking the
+/// rest may release less than nothing.
+void ValidityWatch::watch_rubble(const Section& scene, const Simulation& simulation) {
+  if (!scene.has("damage.type") || scene.word("damage.type") != "critical_stretch") return;
+  limits_.push_back([&ledger = simulation.manager->ledger(),
+                     most = 0.0]() mutable -> std::optional<std::string> {
+    const auto columns = ledger.columns();
+    const auto broken = std::ranges::find(columns, "fracture_energy", &LedgerColumn::name);
+    const auto energy = ledger.energy();
+    if (broken == columns.end() || !energy) return {};
+    most = std::max(most, broken->value);
+    const double all = std::max(std::abs(energy->stored), std::abs(energy->gained));
+    if (most - broken->value <= large_fall * all) return {};
+    return fmt::format(
+        "fracture_energy falls from {:.3g} to {:.3g} {}: rock has come apart into points that hold "
+        "to few others, for which bonds say nothing of a crack; lower the loads, end before that, "
+        "or take `damage.type: energy_release`",
+        most, broken->value, broken->unit);
   });
 }
 

@@ -78,6 +78,21 @@ bool ends(const Segments& key, const Segments& written) {
   return written.size() <= key.size() && std::equal(written.rbegin(), written.rend(), key.rbegin());
 }
 
+/// The groups within keys whose last name is the one written, as crack_fluid.inlets of `inlets`;
+/// each once.
+std::vector<Segments> groups_named(const Segments& written, const std::vector<ListedKey>& keys) {
+  std::vector<Segments> groups;
+  for (const ListedKey& listed : keys) {
+    for (std::size_t length = 1; length < listed.segments.size(); ++length) {
+      Segments group(listed.segments.begin(), listed.segments.begin() + std::ptrdiff_t(length));
+      if (ends(group, written) && std::ranges::find(groups, group) == groups.end()) {
+        groups.push_back(std::move(group));
+      }
+    }
+  }
+  return groups;
+}
+
 /// A scene, or a part of it, writes the key.
 bool writes(const YamlNode& node, std::span<const std::string> segments) {
   if (segments.empty()) return true;
@@ -198,6 +213,11 @@ int explain(const std::string& written) {
   if (exact.empty() && is_group) {
     print_group(keys, segments);
     return 0;
+  }
+  if (exact.empty() && ending.empty() && !written.empty()) {
+    const std::vector<Segments> groups = groups_named(segments, keys);
+    for (const Segments& group : groups) print_group(keys, group);
+    if (!groups.empty()) return 0;
   }
   const std::vector<ListedKey>& found = exact.empty() ? ending : exact;
   if (found.empty() || written.empty()) refuse(written, keys);

@@ -55,6 +55,16 @@ def least_sizes(answer, scene):
             "fluid_mass_gained": NOTHING * largest(answer.columns.get("fluid_mass_stored", numpy.zeros(1)))}
 
 
+def energy_of_height(answer, scene):
+    """What free fluid's weight does over its height: what falls differs by part of that, not of the little that its
+    energy is then beyond that at the start."""
+    blocks = scene.get("fluid", {}).get("blocks", [])
+    gravity = scene.get("gravity", [])
+    work = max((abs(sum(g * (to - at) for g, to, at in zip(gravity, block["to"], block["from"]))) for block in blocks),
+               default=0.0)
+    return work * largest(answer.columns.get("fluid_mass_stored", numpy.zeros(1)))
+
+
 def largest(column):
     return numpy.abs(column[numpy.isfinite(column)]).max(initial=0.0)
 
@@ -65,6 +75,8 @@ def sizes_of(one, other, scene):
     for answer in (one, other):
         for name, column in answer.columns.items():
             sizes[quantity(name)] = max(sizes.get(quantity(name), 0.0), largest(column))
+    if "energy" in sizes:
+        sizes["energy"] = max(sizes["energy"], energy_of_height(one, scene))
     # What moves is pressed upon by its own weight in motion; less is the noise of sound.
     moving = scene.get("fluid", {}).get("density", 1000.0) * sizes.get("fluid_velocity", 0.0)**2
     sizes["fluid_pressure"] = max(sizes["fluid_pressure"], moving)

@@ -10,6 +10,7 @@ sys.path[:0] = [os.path.join(os.path.dirname(os.path.abspath(__file__)), *folder
 import answers  # noqa: E402
 
 WATER = {"fluid": {"bulk_modulus": 1e6, "density": 1000.0}}
+FALLING = {"gravity": [0.0, -10.0], "fluid": {"bulk_modulus": 1e6, "blocks": [{"from": [0.0, 1.0], "to": [1.0, 3.0]}]}}
 ANSWER = ("last_spacing", "mean")
 
 
@@ -33,6 +34,11 @@ def main():
         wrong.append("what sound stirs in water at rest counts as flow")
     if not far(0.5, 1.0, 1e3) > 0.4:
         wrong.append("flow faster than sound of its pressure does not count")
+    # A tonne a metre, two metres high: 20 kJ.
+    for difference, counts in ((100.0, False), (5e3, True)):
+        runs = (history(energy_stored=[0.0, 1e3 + more], fluid_mass_stored=[1e3, 1e3]) for more in (0.0, difference))
+        if (answers.farthest(*runs, FALLING)[0] > 0.05) != counts:
+            wrong.append(f"{difference} J of water that falls: counts ought to be {counts}")
     sys.exit("\n".join(wrong) if wrong else 0)
 
 

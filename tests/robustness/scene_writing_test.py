@@ -47,6 +47,19 @@ class New(unittest.TestCase):
         schema = (self.folder / "perifrac.schema.json").read_text(encoding="utf-8")
         self.assertEqual(schema, perifrac("schema").stdout)
 
+    def test_names_all_that_it_wrote(self):
+        said = perifrac("new", "own_points", cwd=self.folder).stdout
+        self.assertEqual(said, "wrote own_points.yaml, own_points.csv, perifrac.schema.json; next: perifrac check own_points.yaml\n")
+        self.assertEqual(perifrac("new", "kgd", cwd=self.folder).stdout, "wrote kgd.yaml; next: perifrac check kgd.yaml\n")
+
+    def test_lists_its_kinds(self):
+        done = perifrac("new", cwd=self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for kind in KINDS:
+            self.assertRegex(done.stdout, rf"(?m)^  {kind} +\S")
+        self.assertIn("  material NAME\n", done.stdout)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_keeps_a_schema_that_is_there(self):
         (self.folder / "perifrac.schema.json").write_text("{}", encoding="utf-8")
         self.assertEqual(perifrac("new", "kgd", cwd=self.folder).returncode, 0)
@@ -95,6 +108,10 @@ class Explain(unittest.TestCase):
     def test_finds_a_key_by_its_end_and_lists_a_section(self):
         self.assertTrue(self.said("leak_off_coefficient").startswith("crack_fluid.leak_off_coefficient\n"))
         self.assertIn("  crack_fluid.inlets[].rate: ", self.said("crack_fluid"))
+
+    def test_lists_a_group_by_its_last_name(self):
+        self.assertIn("  crack_fluid.inlets[].rate: ", self.said("inlets"))
+        self.assertIn("  coupling.window.largest: ", self.said("window"))
 
     def test_names_what_is_near(self):
         for key, near in (("porosty", "pore_flow.porosity"), ("solid.material.young", "solid.material.youngs_modulus"),

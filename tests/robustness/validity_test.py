@@ -86,6 +86,13 @@ class Validity(RunTest):
         self.assert_warns(beam, soft, "rotations reach")
         self.assert_warns(beam, soft | {"solid.kinematics": "corotational"})
 
+    def test_rubble(self):
+        """Struck four times as fast, the plate flies to pieces."""
+        coarse = {"body.spacing": "5 mm", "time.end": "100 us"}
+        for speed, warns in (("-16.5 m/s", False), ("-60 m/s", True)):
+            warned = self.warnings(CONFIGS / "kalthoff.yaml", coarse | {"solid.boundary.left.normal_velocity": speed})
+            self.assertEqual(any("fracture_energy falls" in warning for warning in warned), warns, warned)
+
     def test_suction(self):
         self.assert_warns(MANDEL, SHORT | {"pore_flow.fluid.cavitation_pressure": "1 kPa"},
                           "below pore_flow.fluid.cavitation_pressure")
@@ -141,6 +148,20 @@ class Validity(RunTest):
         del soon["cracks[1]"]
         self.assert_warns(FLUID, soon, "fluid fills")
         self.assert_warns(FLUID, soon | {"time.end": "1 ms"})
+
+    def test_each_of_several_inlets_is_to_be_filled(self):
+        """Fluid that fills enough for one of them."""
+        soon = {"time.end": "2 s", "output.interval": "2 s", "coupling.window.largest": "1 s"}
+        for spacing, warns in (("4 m", True), ("2 m", False)):
+            warned = self.warnings(CONFIGS / "two_fractures.yaml", soon | {"body.spacing": spacing})
+            self.assertEqual(any("for each inlet" in warning for warning in warned), warns, warned)
+
+    def test_a_crack_across_the_larger_stress(self):
+        for across, warns in (("3.8 MPa", True), ("3.6 MPa", False)):
+            said = perifrac("check", CONFIGS / "kgd_toughness.yaml", "--json", "--trial", "0",
+                            "--set", f"solid.confining_stress=[3 MPa, {across}]")
+            warned = json.loads(said.stdout)["warnings"]
+            self.assertEqual(any("cracks[0] lies across the larger stress" in warning for warning in warned), warns, warned)
 
     def test_a_round_crack_that_fluid_has_hardly_entered(self):
         soon = {"body.size": "[12 mm, 12 mm, 16 mm]", "cracks[0].centre": "[0 mm, 0 mm, 8 mm]",
