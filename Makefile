@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install install-tests configure configure-tests package install-package perifrac build run test test-slow check-style tidy docs site tutorials scenes gallery paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
+.PHONY: help install install-tests configure configure-tests package install-package perifrac build run test test-slow check-style tidy docs site tutorials scenes experiments gallery paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -23,6 +23,7 @@ help:
 	@echo 'make tutorials  runs the tutorials and takes their pictures anew'
 	@echo 'make gallery    docs/gallery.md: twelve scenes with picture, command and time (some minutes)'
 	@echo 'make scenes     errors that all shipped scenes reach: docs/scenes.md (some twenty minutes, 5 GB)'
+	@echo 'make experiments  scenes beside measurements: docs/experiments.md'
 	@echo 'make toughness  K_app / K_IC of both fracture criteria (docs/fracture.md), some minutes'
 	@echo 'make study-quick  error against wall time of explicit and implicit pore flow'
 	@echo 'make study  every study of configs/studies; writes the pictures of docs/studies.md anew'
@@ -107,6 +108,10 @@ tutorials: perifrac
 # Goes on where it was stopped, as studies do.
 scenes: perifrac
 	@/usr/bin/python3 docs/collect_scenes.py $(PERIFRAC) $(FRESH)
+
+# Goes on where it was stopped; runs/experiments holds the runs.
+experiments: perifrac
+	@/usr/bin/python3 -B tests/verification/experiments.py $(PERIFRAC) --page
 
 # Twelve scenes with pictures; some ten minutes. Goes on where it was stopped.
 gallery: perifrac
