@@ -49,14 +49,13 @@ std::string Link::path() const {
 }
 
 void Link::join(std::shared_ptr<SummedInput> sum) {
-  sum_ = std::move(sum);
-  place_ = sum_->add(source_.module_name);
+  share_.sum = std::move(sum);
+  share_.place = share_.sum->add(source_.module_name);
 }
 
 void Link::use_slope_of(const Link& total) {
   use_slope(total.target_.port);
-  counter_sum_ = total.sum_;
-  counter_place_ = total.place_;
+  counter_share_ = total.share_;
 }
 
 void Link::start() {
@@ -74,10 +73,10 @@ void Link::predict(double length) {
   // The source stands where the last window left it, though its points may have a new version.
   const PortView out = source_.module->port(source_.port);
   if (is_foretold_) {
-    sent_points_ = freeze(*out.points, sent_points_);
-    value_.assign(out.forecast.begin(), out.forecast.end());
-    rate_.assign(value_.size(), 0.0);
-    slope_.assign(out.slope.begin(), out.slope.end());
+    sent_.points = freeze(*out.points, sent_.points);
+    sent_.value.assign(out.forecast.begin(), out.forecast.end());
+    sent_.rate.assign(sent_.value.size(), 0.0);
+    sent_.slope.assign(out.slope.begin(), out.slope.end());
     return;
   }
   if (out.value.size() == accepted_.output.size()) {
@@ -91,13 +90,13 @@ void Link::predict(double length) {
   read_slope(out);
   form_value(accepted_);
   if (kind_ == PortKind::extensive) {
-    for (std::size_t i = 0; i < value_.size(); ++i) {
-      rate_[i] = length > 0.0 ? value_[i] / length : 0.0;
+    for (std::size_t i = 0; i < sent_.value.size(); ++i) {
+      sent_.rate[i] = length > 0.0 ? sent_.value[i] / length : 0.0;
     }
   } else if (hold_ || !extrapolates_) {
-    std::ranges::fill(rate_, 0.0);
+    std::ranges::fill(sent_.rate, 0.0);
   } else {
-    for (std::size_t i = 0; i < value_.size(); ++i) value_[i] += rate_[i] * length;
+    for (std::size_t i = 0; i < sent_.value.size(); ++i) sent_.value[i] += sent_.rate[i] * length;
   }
 }
 
@@ -110,28 +109,28 @@ void Link::start_counter() {
 
 void Link::accept() {
   if (!is_foretold_) std::swap(accepted_, reached_);
-  if (sum_) sum_->accept(place_);
+  if (share_.sum) share_.sum->accept(share_.place);
   start_counter();
 }
 
 void Link::deliver() {
   const PortView input = target_.module->port(target_.port);
   const std::size_t components = target_.module->ports()[target_.port].components;
-  if (value_.size() != components * sent_points_->set().count ||
+  if (sent_.value.size() != components * sent_.points->set().count ||
       input.value.size() != components * input.points->count) {
     throw std::logic_error(fmt::format("{}: values and points differ in number", path()));
   }
-  if (sum_) return deliver_sum();
-  mapping_.update(sent_points_->set(), *input.points);
-  const bool has_earlier = counter_sum_ && counter_place_ > 0;
+  if (share_.sum) return deliver_sum();
+  mapping_.update(sent_.points->set(), *input.points);
+  const bool has_earlier = counter_share_.sum && counter_share_.place > 0;
   if (has_earlier) add_earlier_shares();
-  mapping_.apply(has_earlier ? told_ : value_, input.value);
-  if (!input.rate.empty()) mapping_.apply(has_earlier ? told_rate_ : rate_, input.rate);
-  if (uses_slope() && slope_.size() != value_.size()) {
+  mapping_.apply(has_earlier ? told_.value : sent_.value, input.value);
+  if (!input.rate.empty()) mapping_.apply(has_earlier ? told_.rate : sent_.rate, input.rate);
+  if (uses_slope() && sent_.slope.size() != sent_.value.size()) {
     if (!mapping_.is_identity()) throw std::logic_error(path() + ": a slope between other points");
-    std::ranges::copy(slope_, input.slope.begin());
+    std::ranges::copy(sent_.slope, input.slope.begin());
   } else if (uses_slope()) {
-    mapping_.apply(slope_, input.slope);
+    mapping_.apply(sent_.slope, input.slope);
   } else {
     std::fill(input.slope.begin(), input.slope.end(), 0.0);
   }
@@ -140,16 +139,16 @@ void Link::deliver() {
 /// Maps what is handed over to the target's present points.
 void Link::find_share() {
   const PortView input = target_.module->port(target_.port);
-  mapping_.update(sent_points_->set(), *input.points);
-  sum_->share(place_).resize(input.value.size());
-  mapping_.apply(value_, sum_->share(place_));
+  mapping_.update(sent_.points->set(), *input.points);
+  share_.sum->share(share_.place).resize(input.value.size());
+  mapping_.apply(sent_.value, share_.sum->share(share_.place));
 }
 
 /// The last of the links to an in-port makes it whole.
 void Link::deliver_sum() {
   find_share();
   const PortView input = target_.module->port(target_.port);
-  sum_->add_up(0, place_ + 1, input.value);
+  share_.sum->add_up(0, share_.place + 1, input.value);
   for (std::size_t i = 0; i < input.rate.size(); ++i) {
     input.rate[i] = length_ > 0.0 ? input.value[i] / length_ : 0.0;
   }
@@ -158,40 +157,40 @@ void Link::deliver_sum() {
 
 /// What modules before the target have handed over in this window, its source will answer.
 void Link::add_earlier_shares() {
-  told_ = value_;
-  told_rate_ = rate_;
-  earlier_.resize(value_.size());
-  counter_sum_->add_up(0, counter_place_, earlier_);
-  for (std::size_t i = 0; i < value_.size(); ++i) {
-    const double answer = slope_[i] * earlier_[i];
-    told_[i] += answer;
-    if (length_ > 0.0) told_rate_[i] += answer / length_;
+  told_.value = sent_.value;
+  told_.rate = sent_.rate;
+  told_.earlier.resize(sent_.value.size());
+  counter_share_.sum->add_up(0, counter_share_.place, told_.earlier);
+  for (std::size_t i = 0; i < sent_.value.size(); ++i) {
+    const double answer = sent_.slope[i] * told_.earlier[i];
+    told_.value[i] += answer;
+    if (length_ > 0.0) told_.rate[i] += answer / length_;
   }
 }
 
 void Link::collect(double length) {
   if (is_foretold_) return;
-  std::swap(used_, value_);
+  std::swap(used_, sent_.value);
   const PortView out = source_.module->port(source_.port);
   read_source(out, reached_);
   find_rates(length);
   read_slope(out);
-  if (lagged_ && !sent_points_->set().same_points(reached_.points->set())) {
+  if (lagged_ && !sent_.points->set().same_points(reached_.points->set())) {
     Mapping moved(kind_);
-    moved.update(sent_points_->set(), reached_.points->set());
+    moved.update(sent_.points->set(), reached_.points->set());
     std::vector<double> mapped(reached_.output.size());
     moved.apply(used_, mapped);
     used_ = std::move(mapped);
   }
   form_value(reached_);
-  if (sum_ && !lagged_) find_share();
+  if (share_.sum && !lagged_) find_share();
   if (lagged_) compare();
 }
 
 void Link::relax(std::span<const double> value, double length) {
-  for (std::size_t i = 0; i < value_.size(); ++i) {
-    if (length > 0.0) rate_[i] += (value[i] - value_[i]) / length;
-    value_[i] = value[i];
+  for (std::size_t i = 0; i < sent_.value.size(); ++i) {
+    if (length > 0.0) sent_.rate[i] += (value[i] - sent_.value[i]) / length;
+    sent_.value[i] = value[i];
   }
 }
 
@@ -205,7 +204,7 @@ void Link::visit_state(StateVisitor& visitor) {
   visitor.visit("output_rate", accepted_.output_rate);
   visitor.visit("counter", accepted_.counter);
   visitor.visit("counter_rate", accepted_.counter_rate);
-  if (sum_) sum_->visit_state(visitor, place_);
+  if (share_.sum) share_.sum->visit_state(visitor, share_.place);
   visitor.leave();
 }
 
@@ -216,9 +215,9 @@ void Link::read_source(const PortView& out, Sample& sample) {
 }
 
 void Link::read_counter(Sample& sample) const {
-  if (counter_sum_) {
+  if (counter_share_.sum) {
     sample.counter.resize(sample.output.size());
-    return counter_sum_->add_up(0, counter_place_ + 1, sample.counter);
+    return counter_share_.sum->add_up(0, counter_share_.place + 1, sample.counter);
   }
   const PortView in = source_.module->port(*counter_);
   sample.counter.assign(in.value.begin(), in.value.end());
@@ -231,7 +230,7 @@ void Link::read_counter(Sample& sample) const {
 }
 
 void Link::read_slope(const PortView& out) {
-  if (uses_slope()) slope_.assign(out.slope.begin(), out.slope.end());
+  if (uses_slope()) sent_.slope.assign(out.slope.begin(), out.slope.end());
 }
 
 void Link::find_rates(double length) {
@@ -259,26 +258,26 @@ void Link::rate_since(const std::vector<double>& now, const std::vector<double>&
 }
 
 void Link::form_value(const Sample& sample) {
-  sent_points_ = sample.points;
-  value_ = sample.output;
-  rate_ = sample.output_rate;
+  sent_.points = sample.points;
+  sent_.value = sample.output;
+  sent_.rate = sample.output_rate;
   for (std::size_t i = 0; i < sample.counter.size(); ++i) {
-    value_[i] -= slope_times(slope_, sample.counter, i);
-    rate_[i] -= slope_times(slope_, sample.counter_rate, i);
+    sent_.value[i] -= slope_times(sent_.slope, sample.counter, i);
+    sent_.rate[i] -= slope_times(sent_.slope, sample.counter_rate, i);
   }
 }
 
 void Link::compare() {
-  std::vector<double> difference(value_.size());
-  for (std::size_t i = 0; i < value_.size(); ++i) difference[i] = value_[i] - used_[i];
+  std::vector<double> difference(sent_.value.size());
+  for (std::size_t i = 0; i < sent_.value.size(); ++i) difference[i] = sent_.value[i] - used_[i];
   mismatch_.absolute = norm(difference);
   const double negligible = source_.module->ports()[source_.port].negligible;
-  const double root = std::sqrt(static_cast<double>(value_.size()));
+  const double root = std::sqrt(static_cast<double>(sent_.value.size()));
   if (mismatch_.absolute <= root * negligible) mismatch_.absolute = 0.0;
   mismatch_.scale = mismatch_.output = norm(reached_.output);
   if (!uses_slope()) return;
-  for (std::size_t i = 0; i < value_.size(); ++i) {
-    difference[i] = slope_times(slope_, reached_.counter, i);
+  for (std::size_t i = 0; i < sent_.value.size(); ++i) {
+    difference[i] = slope_times(sent_.slope, reached_.counter, i);
   }
   mismatch_.scale = std::max(mismatch_.scale, norm(difference));
 }

@@ -84,8 +84,8 @@ class Link {
   /// The target's in-port gets the sum of what the links at `sum` hand over; this one is the next.
   void join(std::shared_ptr<SummedInput> sum);
   /// Null where it has the in-port to itself.
-  std::shared_ptr<const SummedInput> sum() const { return sum_; }
-  bool is_first_of_sum() const { return sum_ && place_ == 0; }
+  std::shared_ptr<const SummedInput> sum() const { return share_.sum; }
+  bool is_first_of_sum() const { return share_.sum && share_.place == 0; }
   /// Predict from now on that the intercept stays, over a window, what it is at its beginning.
   void predict_no_change() { extrapolates_ = false; }
   bool holds() const { return hold_; }
@@ -106,7 +106,7 @@ class Link {
 
   /// What the target was sent in this pass, and what it would be sent now: on the source's points.
   std::span<const double> used() const { return used_; }
-  std::span<const double> answer() const { return value_; }
+  std::span<const double> answer() const { return sent_.value; }
   /// Sends `value` in place of the answer in the next pass of this window, of `length` > 0 or 0
   /// [s].
   void relax(std::span<const double> value, double length);
@@ -124,6 +124,20 @@ class Link {
     std::vector<double> output_rate;
     std::vector<double> counter;  ///< x*, empty without slope
     std::vector<double> counter_rate;
+  };
+
+  /// One of several totals for one in-port; without a sum, there is one.
+  struct Share {
+    std::shared_ptr<SummedInput> sum;
+    std::size_t place = 0;
+  };
+  struct Message {
+    SharedPoints points;
+    std::vector<double> value, rate, slope;
+  };
+  /// The message with what modules before the target handed over.
+  struct Told {
+    std::vector<double> earlier, value, rate;
   };
 
   void read_source(const PortView& out, Sample& sample);
@@ -145,11 +159,9 @@ class Link {
   LinkEnd target_;
   bool lagged_;
   std::optional<PortId> counter_;
-  std::shared_ptr<SummedInput> sum_;          ///< that this link adds to
-  std::size_t place_ = 0;                     ///< in sum_
-  std::shared_ptr<SummedInput> counter_sum_;  ///< that the slope refers to
-  std::size_t counter_place_ = 0;             ///< in counter_sum_, of the target's own share
-  double length_ = 0.0;                       ///< of the window at hand [s]
+  Share share_;          ///< that this link adds
+  Share counter_share_;  ///< the target's own of what the slope refers to
+  double length_ = 0.0;  ///< of the window at hand [s]
   bool hold_ = false;
   bool extrapolates_ = true;
   bool is_foretold_ = false;
@@ -157,13 +169,9 @@ class Link {
   Sample accepted_;
   Sample reached_;
 
-  SharedPoints sent_points_;
-  std::vector<double> value_;
-  std::vector<double> rate_;
-  std::vector<double> slope_;
+  Message sent_;
   std::vector<double> used_;
-  std::vector<double> earlier_, told_,
-      told_rate_;  // workspace: earlier shares, the value with them
+  Told told_;  ///< workspace
   Mismatch mismatch_;
 
   Mapping mapping_;

@@ -35,11 +35,11 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
       prescribed_(elastic_->size()),
       loads_(elastic_->size()),
       moved_(lumped(body, boundary, density)),
-      prescribed_now_(elastic_->size()),
-      load_now_(elastic_->size()),
-      trial_(elastic_->size()),
-      inner_(elastic_->size()),
-      scratch_(body.points().size()) {
+      now_{Eigen::VectorXd(elastic_->size()),
+           Eigen::VectorXd(elastic_->size()),
+           {},
+           std::vector<double>(elastic_->size())},
+      inner_(elastic_->size()) {
   const auto mirror = boundary.mirror_condition(*body.family(boundary.mirrored()));
   prescribed_ = boundary.prescribed(mirror);
   loads_ = boundary.loads(
@@ -52,9 +52,9 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
     plate_unknowns_.push_back(
         static_cast<Index>(Eigen::SparseMatrix<double>::InnerIterator(free, plate.column).row()));
   }
-  prescribed_.at(0.0, prescribed_now_);
-  prescribes_ = !prescribed_.is_constant() || !prescribed_now_.isZero(0.0);
-  loads_.at(0.0, load_now_);
+  prescribed_.at(0.0, now_.prescribed);
+  prescribes_ = !prescribed_.is_constant() || !now_.prescribed.isZero(0.0);
+  loads_.at(0.0, now_.load);
   initial_force_ = elastic_->initial_force();
   if (std::ranges::all_of(initial_force_, [](double f) { return f == 0.0; })) initial_force_ = {};
   find_acted_on();
@@ -81,22 +81,22 @@ void ElasticDynamics<D>::note_reference() {
 
 template <int D>
 void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<double> force) {
-  if (!prescribed_.is_constant()) prescribed_.at(t, prescribed_now_);
+  if (!prescribed_.is_constant()) prescribed_.at(t, now_.prescribed);
   if (!loads_.is_constant()) find_loads(t);
   pore_stress_.find(t);
-  before_.swap(unknowns_);
+  now_.before.swap(unknowns_);
   unknowns_.resize(moved_.unknowns());
-  moved_.expand(y, prescribes_ ? view(std::as_const(prescribed_now_)) : std::span<const double>(),
+  moved_.expand(y, prescribes_ ? view(std::as_const(now_.prescribed)) : std::span<const double>(),
                 unknowns_);
-  place_plates(view(std::as_const(load_now_)), pore_stress_.now().value, unknowns_);
+  place_plates(view(std::as_const(now_.load)), pore_stress_.now().value, unknowns_);
   apply(unknowns_, pore_stress_.now(), inner_,
         pore_stress_.is_there() ? std::span(dilatation_) : std::span<double>());
   inner_is_elastic_ = !pore_stress_.is_there() && fracture_ == nullptr;
   if (fracture_ != nullptr) fracture_->add(t, unknowns_, inner_);
-  work_.book(before_, unknowns_, [&](Index k) {
-    return moved_.owner(k) == LumpedMass::none ? inner_[k] : load_now_[k];
+  work_.book(now_.before, unknowns_, [&](Index k) {
+    return moved_.owner(k) == LumpedMass::none ? inner_[k] : now_.load[k];
   });
-  moved_.gather([&](Index k) { return load_now_[k] - inner_[k]; }, force);
+  moved_.gather([&](Index k) { return now_.load[k] - inner_[k]; }, force);
 }
 
 /// The inner force, less what bears the initial stress from outside.
@@ -124,10 +124,10 @@ void ElasticDynamics<D>::take_initial_force(std::span<double> force) const {
 
 template <int D>
 void ElasticDynamics<D>::stiffness_times(std::span<const double> v, std::span<double> product) {
-  moved_.expand(v, {}, trial_);
-  place_plates({}, {}, trial_);
+  moved_.expand(v, {}, now_.trial);
+  place_plates({}, {}, now_.trial);
   inner_is_elastic_ = false;
-  apply_small(trial_, pore_stress_.reference(), inner_, {});
+  apply_small(now_.trial, pore_stress_.reference(), inner_, {});
   moved_.gather([&](Index k) { return inner_[k]; }, product);
 }
 
@@ -156,8 +156,8 @@ void ElasticDynamics<D>::set_interface_force(std::span<const double> force) {
 
 template <int D>
 void ElasticDynamics<D>::find_loads(double t) {
-  loads_.at(t, load_now_);
-  for (std::size_t k = 0; k < interface_force_.size(); ++k) load_now_[k] += interface_force_[k];
+  loads_.at(t, now_.load);
+  for (std::size_t k = 0; k < interface_force_.size(); ++k) now_.load[k] += interface_force_[k];
 }
 
 template <int D>
@@ -229,7 +229,7 @@ void ElasticDynamics<D>::point_velocity(double t, double step, std::span<const d
     result[k] = owner >= 0 ? velocity[owner] : 0.0;
   }
   if (prescribed_.is_constant()) return;
-  Eigen::VectorXd now(prescribed_now_.size()), before(now.size());
+  Eigen::VectorXd now(now_.prescribed.size()), before(now.size());
   prescribed_.at(t, now);
   prescribed_.at(t - step, before);
   for (std::size_t k = 0; k < result.size(); ++k) result[k] += (now[k] - before[k]) / step;

@@ -112,6 +112,13 @@ class ElasticDynamics final : public SecondOrderSystem {
   void find_loads(double t);
   void find_acted_on();
 
+  /// Of every unknown, at the time of a force: what is prescribed and the load; the displacements
+  /// before it, and others tried.
+  struct Now {
+    Eigen::VectorXd prescribed, load;
+    std::vector<double> before, trial;
+  };
+
   const Body<D>& body_;
   std::shared_ptr<ElasticOperator<D>> elastic_;
   NonlinearResponse* memory_;  ///< of the rock; nullptr: it has none
@@ -133,8 +140,8 @@ class ElasticDynamics final : public SecondOrderSystem {
 
   /// inner_ is the force of the bonds at unknowns_, without anything else.
   bool inner_is_elastic_ = false;
-  Eigen::VectorXd prescribed_now_, load_now_;             // workspace
-  std::vector<double> before_, trial_, inner_, scratch_;  // workspace
+  Now now_;
+  std::vector<double> inner_;  // workspace
 };
 
 }  // namespace perifrac
