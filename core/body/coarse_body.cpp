@@ -7,6 +7,14 @@
 
 namespace perifrac {
 
+namespace {
+
+/// Of a coarse body, in its spacings: what wider horizons add is smooth, and of no use to a
+/// correction that is worth their cost.
+constexpr double most_horizon_ratio = 4.0;
+
+}  // namespace
+
 template <int D>
 Vector<D> low_corner(const Body<D>& body) {
   Vector<D> corner;
@@ -61,8 +69,9 @@ CoarseBody<D> coarsen(const Body<D>& fine, const Vector<D>& corner) {
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < points.size(); ++i) points.position[a][i] /= points.volume[i];
   }
-  auto body = std::make_shared<Body<D>>(std::move(points), fine.faces(), coarse.size,
-                                        2.0 * fine.horizon(), fine.influence());
+  const double horizon = std::min(2.0 * fine.horizon(), most_horizon_ratio * coarse.size);
+  auto body = std::make_shared<Body<D>>(std::move(points), fine.faces(), coarse.size, horizon,
+                                        fine.influence());
   body->set_cutouts(fine.cutouts());
   coarse.body = std::move(body);
   return coarse;

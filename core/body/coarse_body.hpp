@@ -24,7 +24,8 @@ struct CoarseBody {
   std::array<Index, D> cell_at(const Vector<D>& x) const;
 };
 
-/// Of a body on a lattice, whose low corner is `corner`: the finest body's.
+/// Of a body on a lattice, whose low corner is `corner`: the finest body's. It sees as far, but for
+/// no more than four of its spacings.
 template <int D>
 CoarseBody<D> coarsen(const Body<D>& fine, const Vector<D>& corner);
 

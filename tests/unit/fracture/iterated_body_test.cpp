@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/body/coarse_body.hpp"
 #include "modules/solid/fracture/condensed_body.hpp"
 #include "tests/unit/fracture/rock.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
@@ -122,6 +123,15 @@ TEST(IteratedBody, IsWhatTheFactorSaysIn3D) {
 TEST(IteratedBody, SolvesForTheLinearPeridynamicSolid) {
   Both<2> both({48, 40}, 3.0, straight_crack({20.0, 20.0}, 0.0, 12), {}, test::Rock::lps);
   both.expect_same(falling(12));
+}
+
+/// Coarse levels see no farther than four of their spacings, which their answer bears.
+TEST(IteratedBody, SolvesWithWideHorizons) {
+  const auto body = test::box_body<2>({48, 40}, 1.0, test::Cloud::lattice, 6.0);
+  EXPECT_EQ(coarsen<2>(*body, low_corner(*body)).body->horizon(), 8.0);
+  Both<2> both({48, 40}, 6.0, straight_crack({20.0, 20.0}, 0.4, 12));
+  both.expect_same(falling(12));
+  EXPECT_LT(both.iterated->iterations(), 40);
 }
 
 /// Two thirds of the crack are pressed shut. Off the lattice's axes the slope of a body without end
