@@ -138,16 +138,18 @@ std::optional<std::string> residual_aperture_warning(const Section& scene,
 std::optional<std::string> seepage_warning(const Section& scene, double time) {
   const auto [through, least_depth] = where_fluid_seeps(scene);
   if (through.empty() || !scene.has("body.spacing")) return {};
-  const double spacing = scene.number("body.spacing");
+  // Points that see farther than 2.5 spacings tell depths as if they lay as much farther apart.
+  const double blur = std::max(1.0, scene.number("body.horizon_ratio") / 2.5);
+  const double resolved = blur * scene.number("body.spacing");
   const bool is_flat = scene.integer("dimension") == 2;
   const double c = is_flat ? diffusivity<2>(scene) : diffusivity<3>(scene);
   const double depth = std::sqrt(c * time);
-  if (!(depth < least_depth * spacing)) return {};
+  if (!(depth < least_depth * resolved)) return {};
   return fmt::format(
-      "pressure goes {:.2g} m into the pores by t = {:.3g} s, less than {:g} body.spacing: what "
+      "pressure goes {:.2g} m into the pores by t = {:.3g} s, less than {:.3g} body.spacing: what "
       "flows through {} depends on the spacing; bring points closer together, or look at later "
       "times",
-      depth, time, least_depth, through);
+      depth, time, least_depth * blur, through);
 }
 
 }  // namespace perifrac

@@ -131,6 +131,10 @@ class Validity(RunTest):
         soon = {"time.end": "1 ms", "output.times": "[]", "output.probes": "[]"}
         self.assert_warns(CONFIGS / "aquifer.yaml", soon, "through face 'left' depends on the spacing")
         self.assert_warns(CONFIGS / "aquifer.yaml", soon | {"time.end": "1 s"})
+        wide = {"time.end": "0.1 s", "output.times": "[]", "output.probes": "[]"}  # a depth of 1.3 spacings
+        for ratio, warns in (("2.5", False), ("6", True)):
+            warned = self.warnings(MANDEL, wide | {"body.horizon_ratio": ratio, "body.spacing": "0.5 m"})
+            self.assertEqual(any("depends on the spacing" in warning for warning in warned), warns, warned)
         # A depth of 1.9 spacings, and 2.7.
         for end, warns in (("5 s", True), ("10 s", False)):
             keys = {"time.end": end, "output.times": "[]", "output.interval": end}
