@@ -109,7 +109,6 @@ tutorials: perifrac
 scenes: perifrac
 	@/usr/bin/python3 docs/collect_scenes.py $(PERIFRAC) $(FRESH)
 
-# Goes on where it was stopped; runs/experiments holds the runs.
 experiments: perifrac
 	@/usr/bin/python3 -B tests/verification/experiments.py $(PERIFRAC) --page
 

@@ -7,6 +7,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/rock.hpp"
+#include "app/warnings/inlet_places.hpp"
 #include "modules/pore_flow/material/mobility.hpp"
 #include "modules/pore_flow/material/pore_material.hpp"
 
@@ -32,15 +33,6 @@ double largest_of(const Simulation& simulation, const std::string& name) {
 double wetted_size(const Section& scene, const Simulation& simulation) {
   return scene.integer("dimension") == 2 ? largest_of(simulation, "wetted_length")
                                          : std::sqrt(largest_of(simulation, "wetted_area") / M_PI);
-}
-
-/// Where fluid goes into cracks: inlets, and clusters of wells.
-std::size_t count_inlets(const Section& scene) {
-  std::size_t count = scene.count("crack_fluid.inlets");
-  for (std::size_t k = 0; k < scene.count("crack_fluid.wells"); ++k) {
-    count += scene.count(fmt::format("crack_fluid.wells[{}].clusters", k));
-  }
-  return count;
 }
 
 bool pumps_at_a_rate(const Section& scene) {
@@ -106,7 +98,7 @@ Seepage where_fluid_seeps(const Section& scene) {
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("crack_fluid")) return {};
   const double spacing = scene.number("body.spacing");
-  const auto inlets = static_cast<double>(std::max<std::size_t>(1, count_inlets(scene)));
+  const auto inlets = static_cast<double>(std::max<std::size_t>(1, inlet_places(scene).size()));
   const double share = scene.integer("dimension") == 2 ? 1.0 / inlets : std::sqrt(1.0 / inlets);
   const double filled = share * wetted_size(scene, simulation);
   const double dry = scene.integer("dimension") == 2

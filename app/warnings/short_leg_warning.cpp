@@ -27,28 +27,22 @@ double to_sharp_turn(const std::vector<Vector<2>>& corners) {
   return INFINITY;
 }
 
-/// There a crack is open, and has no tip.
-bool is_on_face(const Section& scene, const Vector<2>& place, double spacing) {
-  if (scene.text("body.shape") != "box") return false;
-  const auto [low, high] = body_box(scene);
-  for (std::size_t a = 0; a < 2; ++a) {
-    if (std::min(place[a] - low[a], high[a] - place[a]) < 0.25 * spacing) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::optional<std::string> short_leg_warning(const Section& scene) {
   if (scene.integer("dimension") != 2 || !scene.has("damage.type")) return {};
   if (scene.text("damage.type") != "energy_release" || !scene.has("body.spacing")) return {};
   const double spacing = scene.number("body.spacing");
+  // On a face a crack has no tip.
+  const auto is_open_there = [&](const Vector<2>& place) {
+    return distance_to_faces(scene, place) < 0.25 * spacing;
+  };
   for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
     std::vector<Vector<2>> corners = read_crack_corners(scene, k);
     for (int end = 0; end < 2; ++end, std::ranges::reverse(corners)) {
       const Vector<2>& place = corners.front();
       const double length = to_sharp_turn(corners);
-      if (length >= largest_ring * spacing || is_on_face(scene, place, spacing)) continue;
+      if (length >= largest_ring * spacing || is_open_there(place)) continue;
       return fmt::format(
           "cracks[{}] turns sharply {:.2g} spacings before it ends at ({:.6g}, {:.6g}) m: too near "
           "to know when and where to it goes on there; let its last leg be longer, or take a "

@@ -47,6 +47,13 @@ class Installed(unittest.TestCase):
             self.assertTrue((package / "perifrac/py.typed").exists())
             self.assertTrue(all(not file.is_symlink() for file in (package / "perifrac").iterdir()))
 
+    def test_a_system_that_says_nothing_of_its_processor(self):
+        """As in a chroot without /proc: the build for any processor."""
+        code = "from pathlib import Path; from perifrac._instructions import _features; print(_features(Path('/nowhere')))"
+        environment = os.environ | {"PYTHONPATH": str(self.folder / "python" / PLACES["python"])}
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=environment)
+        self.assertEqual((done.returncode, done.stdout), (0, "set()\n"), done.stderr)
+
     def test_a_virtual_environment_with_the_systems_packages(self):
         place = self.folder / "environment"
         subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", place], check=True)

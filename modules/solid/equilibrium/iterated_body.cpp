@@ -276,17 +276,8 @@ const Eigen::MatrixXd& IteratedBody<D>::opening_slope() {
   EvenAnswer aside =
       known != nullptr ? *known : EvenAnswer{-1, 0, -1, Eigen::VectorXd::Zero(answer_.move.size())};
   if (aside.facets != facet_count()) solve(aside, all_faces());
-  const Eigen::VectorXd exact = openings(aside);
-  Eigen::VectorXd area(count);
-  for (Eigen::Index f = 0; f < count; ++f) area[f] = jumps_[f].area;
   slope_ = endless_;
-  // What is symmetric is area times slope.
-  const Eigen::VectorXd guess = slope_.rowwise().sum();
-  const double volume = area.dot(exact), guessed = area.dot(guess);
-  if (volume > 0.0 && guessed > 0.0) {
-    slope_ -= guess * (area.cwiseProduct(guess) / guessed).transpose();
-    slope_ += exact * (area.cwiseProduct(exact) / volume).transpose();
-  }
+  learn(slope_, Eigen::VectorXd::Ones(count), openings(aside));
   slope_facets_ = facet_count();
   return slope_;
 }
