@@ -16,7 +16,7 @@ help:
 	@echo 'make test-slow  the slow verification runs'
 	@echo 'make package    a Debian package, and a folder that runs from anywhere (docs/install.md)'
 	@echo 'make install-package  makes the package and installs it'
-	@echo 'make paper      the figures of the paper, its scheme beside ours (some 15 minutes)'
+	@echo 'make paper      the figures of the paper, its scheme beside ours (some 40 minutes)'
 	@echo 'make bench      kernels, timed'
 	@echo 'make docs       write docs/configuration.md and configs/perifrac.schema.json anew'
 	@echo 'make site       the pages as a site to read and search offline: build/release/site/docs/index.html'

@@ -39,17 +39,21 @@ double spectral_radius(std::string_view field, double t, std::size_t size, std::
   std::vector<double> v(size, 0.0), product(size);
   fill_without_structure(std::span(v).first(coupled));
   double length = norm(v);
-  double checked = 0.0;
+  double checked = 0.0, of_block = 0.0, largest = 0.0;
   for (int iteration = 1; iteration <= max_iterations; ++iteration) {
     for (double& value : v) value /= length;
     times(v, product);
     const double radius = norm(std::span(product).first(coupled));
     if (radius == 0.0) return 0.0;
     if (!std::isfinite(radius)) break;
+    of_block = std::max(of_block, radius);
     if (iteration % settled_iterations == 0) {
-      if (std::abs(radius - checked) <= tolerance * radius) return margin * radius;
-      checked = radius;
+      if (std::abs(of_block - checked) <= tolerance * of_block) return margin * of_block;
+      if (iteration > max_iterations / 2) largest = std::max(largest, of_block);
+      checked = of_block;
+      of_block = 0.0;
     }
+    if (iteration == max_iterations) return margin * largest;
     std::copy_n(product.begin(), coupled, v.begin());
     length = radius;
   }

@@ -12,8 +12,10 @@ using MatrixProduct = std::function<void(std::span<const double> v, std::span<do
 /// Upper bound of the largest |eigenvalue| of a matrix J of `size` rows by power iteration, of its
 /// first `coupled` rows and columns alone: the others must not act on them. The top of a lattice
 /// operator's spectrum is crowded: the vector hardly converges, but the growth per iteration does,
-/// from below, so the bound adds a margin over the tolerance and what slow convergence hides.
-/// Throws NumericalError, in the name of the field, where it is not found.
+/// from below, so the bound adds a margin over the tolerance and what slow convergence hides. A
+/// pair of complex eigenvalues makes it go to and fro about their size: what counts is the largest
+/// of ten, and, where that does not settle, of many. Throws NumericalError, in the name of the
+/// field, where it is not found.
 double spectral_radius(std::string_view field, double t, std::size_t size, std::size_t coupled,
                        const MatrixProduct& times);
 

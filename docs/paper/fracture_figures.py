@@ -1,6 +1,5 @@
-"""The paper's figures of its hydraulic fractures, 18 to 25, from runs of perifrac alone.
-
-The paper's own scheme, with points of fluid that are to enter the crack, has one of its own: `points`.
+"""The paper's figures of its hydraulic fractures, 18 to 25: 18 to 24 by perifrac and by the paper's scheme, 25 by
+perifrac alone. `points` has the paper's scheme without pores.
 """
 
 from __future__ import annotations
@@ -11,10 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from drawing import Errors, panels, plt, save
-from runs import CONFIGS, Frame, Runs
+from runs import CONFIGS, SCHEMES, Frame, Runs
 
 TIMES = [0.005, 0.025, 0.050, 0.100]  # [s] of figures 18 and 19
 NOTCH = 0.014  # [m], the slit it begins with
+FLOOR = 0.190  # [m], of the notch that points of fluid fill
 
 
 def table(name: str) -> dict[str, np.ndarray]:
@@ -24,15 +24,21 @@ def table(name: str) -> dict[str, np.ndarray]:
     return {c.split(" [")[0]: v for c, v in zip(header, np.array(rows, dtype=float).T)}
 
 
+def nearest_frame(runs: Runs, name: str, points: str, when: float) -> Frame:
+    return min(runs.frames(name, points), key=lambda frame: abs(frame.time - when))
+
+
 def cracks_at(runs: Runs, name: str, when: float) -> Frame:
-    return min(runs.frames(name, "crack"), key=lambda frame: abs(frame.time - when))
+    return nearest_frame(runs, name, "crack", when)
 
 
-def maps(title: str):
-    """Four maps of the specimen side by side."""
-    figure, axes = plt.subplots(1, 4, figsize=(13.0, 4.8), layout="constrained")
+def maps(title: str, names: list[str]):
+    """Four maps of the specimen side by side for each run, by its name."""
+    figure, axes = plt.subplots(len(names), 4, figsize=(13.0, 4.8 * len(names)), layout="constrained", squeeze=False)
     figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
-    return figure, list(axes)
+    for name, row in zip(names, axes):
+        row[0].set_ylabel(SCHEMES[name].label)
+    return figure, dict(zip(names, axes))
 
 
 def draw_field(axis, frame: Frame, value: np.ndarray, limits: tuple[float, float], colours: str):
@@ -43,18 +49,28 @@ def draw_field(axis, frame: Frame, value: np.ndarray, limits: tuple[float, float
     return axis.scatter(x, y, c=value, s=4e4 / x.size, marker="s", linewidths=0, vmin=limits[0], vmax=limits[1], cmap=colours)
 
 
+def came_so_far(runs: Runs, name: str, when: float) -> bool:
+    return runs.frames(name)[-1].time > when - 1e-3
+
+
 def draw_pressure(runs: Runs, name: str, images: Path, figure_name: str, title: str) -> None:
-    figure, axes = maps(title)
-    image = None
-    for axis, when in zip(axes, TIMES):
-        body, crack = runs.frame_at(name, when), cracks_at(runs, name, when)
-        limits = (0.0, 1e-3 * float(max(f.fields["crack_pressure"].max() for f in runs.frames(name, "crack")[1:])))
-        draw_field(axis, body, 1e-3 * body.fields["pore_pressure"], limits, "viridis")
-        image = axis.scatter(*(1e3 * crack.points[:, :2].T), c=1e-3 * crack.fields["crack_pressure"], s=7,
-                             vmin=limits[0], vmax=limits[1], cmap="viridis", linewidths=0)  # fmt: skip
-        axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
-    figure.colorbar(image, ax=axes, shrink=0.8, label="kPa")
-    figure.savefig(images / f"{figure_name}.png", dpi=130)
+    figure, rows = maps(title, [name, name + "_paper"])
+    for run, axes in rows.items():
+        # What is free of the rock: fluid on the facets, or points of it.
+        fluid, field = ("crack", "crack_pressure") if run == name else ("fluid", "fluid_pressure")
+        shown = [f.fields[field].max() for f in runs.frames(run, fluid) if TIMES[0] <= f.time <= TIMES[-1]]
+        limits, image = (0.0, 1e-3 * float(max(shown))), None
+        for axis, when in zip(axes, TIMES):
+            axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
+            if not came_so_far(runs, run, when):
+                axis.set_axis_off()
+                continue
+            body, free = nearest_frame(runs, run, "body", when), nearest_frame(runs, run, fluid, when)
+            draw_field(axis, body, 1e-3 * body.fields["pore_pressure"], limits, "viridis")
+            image = axis.scatter(*(1e3 * free.points[:, :2].T), c=1e-3 * free.fields[field], s=7,
+                                 vmin=limits[0], vmax=limits[1], cmap="viridis", linewidths=0)  # fmt: skip
+        figure.colorbar(image, ax=list(axes), shrink=0.8, label="kPa")
+    figure.savefig(images / f"{figure_name}.png", dpi=110)
     print(images / f"{figure_name}.png")
 
 
@@ -65,26 +81,59 @@ def fig18(runs: Runs, images: Path, errors: Errors) -> None:
 
 def fig19(runs: Runs, images: Path, errors: Errors) -> None:
     """Damage, storage-dominated."""
-    figure, axes = maps("Fig 19: damage, storage-dominated")
-    image = None
-    for axis, when in zip(axes, TIMES):
-        body = runs.frame_at("storage", when)
-        image = draw_field(axis, body, body.fields["damage"], (0.0, 0.6), "magma_r")
-        axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
-    figure.colorbar(image, ax=axes, shrink=0.8)
-    figure.savefig(images / "fig19.png", dpi=130)
+    figure, rows = maps("Fig 19: damage, storage-dominated", ["storage", "storage_paper"])
+    for run, axes in rows.items():
+        image = None
+        for axis, when in zip(axes, TIMES):
+            axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
+            if not came_so_far(runs, run, when):
+                axis.set_axis_off()
+                continue
+            body = nearest_frame(runs, run, "body", when)
+            image = draw_field(axis, body, body.fields["damage"], (0.0, 0.6), "magma_r")
+        figure.colorbar(image, ax=list(axes), shrink=0.8)
+    figure.savefig(images / "fig19.png", dpi=110)
     print(images / "fig19.png")
 
 
-def leak_off_velocity(history: dict[str, np.ndarray]) -> np.ndarray:
-    """Mean over both faces of what is wet [m/s]."""
-    return history["leak_off_rate"] / (2.0 * np.maximum(history["wetted_length"], 1e-6))
+def leak_off_velocity(history: dict[str, np.ndarray], sealed: float) -> np.ndarray:
+    """Mean over both faces of what is wet [m/s], the sealed length [m] left out."""
+    return history["leak_off_rate"] / (2.0 * np.maximum(history["wetted_length"] - sealed, 1e-3))
 
 
-def carter_velocity(history: dict[str, np.ndarray], conductance: float) -> np.ndarray:
+def draw_paper_velocity(axis, runs: Runs, name: str) -> None:
+    """Of the paper's scheme: what the pores took since the pump began, over the wet faces below the notch's mouth."""
+    history, fluids = runs.history(name), runs.frames(name, "fluid")
+    wet = [0.2 - frame.points[:, 1].min() + 1e-3 for frame in fluids]  # half a spacing beyond the deepest point
+    depth = np.interp(history["time"], [frame.time for frame in fluids], wet)
+    rate = np.gradient(history["pore_fluid_mass"], history["time"]) / 1000.0
+    pumped = history["time"] > 1e-3
+    axis.plot(1e3 * history["time"][pumped], 1e3 * (rate / (2.0 * depth))[pumped], color="C3", lw=1.0,
+              label=SCHEMES[name].label)  # fmt: skip
+
+
+def depth_of_damage(runs: Runs, name: str, least: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times [s] and how deep below the top damage of at least so much goes [m]; the notch where there is none. Only
+    in the middle: rock that breaks elsewhere is no crack."""
+    times, depths = [], []
+    for frame in runs.frames(name):
+        broken = (frame.fields["damage"] > least) & (np.abs(frame.points[:, 0] - 0.076) < 0.02)
+        times.append(frame.time)
+        depths.append(0.2 - frame.points[broken, 1].min() if broken.any() else 0.2 - FLOOR)
+    return np.array(times), np.array(depths)
+
+
+def draw_paper_length(axis, runs: Runs, name: str) -> None:
+    """As the paper measures it: from the notch's floor to the furthest point with a damage beyond 0.4."""
+    times, depths = depth_of_damage(runs, name, 0.4)
+    pumped = times >= 0.0
+    axis.plot(1e3 * times[pumped], 1e3 * (depths[pumped] - (0.2 - FLOOR)), color="C3", lw=1.0, label=SCHEMES[name].label)
+
+
+def carter_velocity(history: dict[str, np.ndarray], conductance: float, sealed: float) -> np.ndarray:
     """Of Carter's law for the mean pressure of the moment, as the paper has it: the mean over the crack, each
     part since it was wetted. `conductance`: sqrt(mobility * storage / pi) [m/(Pa sqrt(s))]."""
-    when, length, pressure = history["time"], history["wetted_length"], history["mean_crack_pressure"]
+    when, length, pressure = history["time"], np.maximum(history["wetted_length"], sealed), history["mean_crack_pressure"]
     velocity = np.full(when.size, np.nan)
     for n in range(2, when.size):
         since = when[n] - 0.5 * (when[1 : n + 1] + when[:n])
@@ -94,13 +143,14 @@ def carter_velocity(history: dict[str, np.ndarray], conductance: float) -> np.nd
     return velocity
 
 
-def compare_velocities(axis, runs: Runs, name: str, conductance: float, errors: Errors, figure: str) -> None:
+def compare_velocities(axis, runs: Runs, name: str, conductance: float, errors: Errors, figure: str, sealed: float = 0.0) -> None:
     history = runs.history(name)
     ms = 1e3 * history["time"]
-    computed, carter = leak_off_velocity(history), carter_velocity(history, conductance)
-    axis.plot(ms, 1e3 * computed, color="C0", lw=1.2, label="perifrac")
+    computed, carter = leak_off_velocity(history, sealed), carter_velocity(history, conductance, sealed)
+    axis.semilogy(ms, 1e3 * computed, color="C0", lw=1.2, label="perifrac")
     axis.plot(ms, 1e3 * carter, "k--", lw=1.0, label="Carter at the mean pressure")
-    axis.set_ylim(0.0, 1.5e3 * np.nanmax(computed[ms > 10.0]))
+    axis.set_ylim(0.5e3 * np.nanmin(computed[ms > 10.0]), 20.0)
+    draw_paper_velocity(axis, runs, name + "_paper")
     axis.set_xlabel("time [ms]")
     axis.set_ylabel("mean leak-off velocity [mm/s]")
     axis.legend(fontsize=8, frameon=False)
@@ -128,6 +178,8 @@ def fig20(runs: Runs, images: Path, errors: Errors) -> None:
     figure, axes = panels(2, "Fig 20: leak-off velocity and growth, storage-dominated")
     compare_velocities(axes[0], runs, "storage", STORAGE_CONDUCTANCE, errors, "20")
     compare_lengths(axes[1], runs, "storage", table("hf_storage_reference.csv"), errors, "20")
+    draw_paper_length(axes[1], runs, "storage_paper")
+    axes[1].legend(fontsize=8, frameon=False)
     save(figure, images, "fig20")
 
 
@@ -143,7 +195,12 @@ def fig21(runs: Runs, images: Path, errors: Errors) -> None:
     axes[0].plot(ms, in_pores, label="leaked into the pores")
     axes[0].set_ylabel("mass [kg/m]")
     axes[0].legend(fontsize=8, frameon=False)
-    axes[1].plot(ms, history["fluid_mass_error"], "k-", lw=1.0)
+    axes[1].semilogy(ms, np.maximum(history["fluid_mass_error"], 1e-17), "k-", lw=1.0, label="perifrac")
+    published = runs.history("storage_paper")
+    pumped_in = published["time"] > 0.0
+    axes[1].semilogy(1e3 * published["time"][pumped_in], published["fluid_mass_error"][pumped_in], color="C3", lw=1.0,
+                     label=SCHEMES["storage_paper"].label)  # fmt: skip
+    axes[1].legend(fontsize=8, frameon=False)
     axes[1].set_ylabel("mass made or lost, over all that flowed")
     for axis in axes:
         axis.set_xlabel("time [ms]")
@@ -162,7 +219,7 @@ LEAK_OFF_CONDUCTANCE = np.sqrt(1.02e-11 * (0.1 / 22e6 + 1.0 / 4.8e9) / np.pi)
 def fig23(runs: Runs, images: Path, errors: Errors) -> None:
     """Leak-off velocity over time, leak-off dominated: into pores, and by Carter's law."""
     figure, axes = panels(1, "Fig 23: leak-off velocity, leak-off dominated")
-    compare_velocities(axes[0], runs, "leak_off", LEAK_OFF_CONDUCTANCE, errors, "23")
+    compare_velocities(axes[0], runs, "leak_off", LEAK_OFF_CONDUCTANCE, errors, "23", sealed=NOTCH)
     save(figure, images, "fig23")
 
 
@@ -177,6 +234,7 @@ def fig24(runs: Runs, images: Path, errors: Errors) -> None:
                                 ("stiff_water", "C2", "perifrac, Carter's law, water of 2.2 GPa")):  # fmt: skip
         history = runs.history(name)
         axes[0].plot(1e3 * history["time"], 1e3 * (history["crack_length"] - NOTCH), color=colour, lw=1.2, label=label)
+    draw_paper_length(axes[0], runs, "leak_off_paper")
     axes[0].legend(fontsize=8, frameon=False)
     save(figure, images, "fig24")
 
@@ -221,7 +279,6 @@ def fig25(runs: Runs, images: Path, errors: Errors) -> None:
 
 
 BROKEN = 0.35  # damage; beside a straight crack it is 0.4
-FLOOR = 0.190  # [m], of the notch
 
 
 def points(runs: Runs, images: Path, errors: Errors) -> None:

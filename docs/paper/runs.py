@@ -45,15 +45,17 @@ for _dx in (2.0, 1.0, 0.5):
 # 100 s of steady head after the load, as in the paper, and on until the flow is steady (perifrac).
 _SHOWN = ["output.times=[70 s, 140 s, 500 s, 1000 s, 2000 s]", "output.history_interval=1 s"]
 SCHEMES["head"] = Scheme("perifrac", "constant_head.yaml", _SHOWN, 20.0)
-SCHEMES["head_exchange"] = Scheme("exchange: paper", "constant_head.yaml", [*_SHOWN, "interface.exchange=paper", "ledger.mass_error=10"], 20.0)  # fmt: skip
+SCHEMES["head_exchange"] = Scheme("the paper's exchange, C = 1", "constant_head.yaml", [*_SHOWN, "interface.exchange=paper", "interface.smoothing=1", "ledger.mass_error=10"], 20.0)  # fmt: skip
 SCHEMES["head_force"] = Scheme("force: one_sided", "constant_head.yaml", [*_SHOWN, "interface.force=one_sided"], 20.0, "500 s")  # fmt: skip
-# Hydraulic fracture; by the paper's own points once, from the start of the pump.
+# Hydraulic fracture; by the paper's own points from the start of the pump.
 SCHEMES["storage"] = Scheme("perifrac", "hf_storage_pores.yaml", ["output.interval=1 ms"])
 SCHEMES["leak_off"] = Scheme("into pores", "hf_leakoff_pores.yaml")
 SCHEMES["carter"] = Scheme("Carter's law", "hf_leakoff.yaml")
 SCHEMES["stiff_water"] = Scheme("Carter's law, stiff water", "hf_leakoff_stiff_water.yaml")
 SCHEMES["no_leak_off"] = Scheme("nothing leaks", "hf_leakoff.yaml", ["crack_fluid.leak_off_coefficient=0"])
 SCHEMES["network"] = Scheme("network", "hf_storage.yaml")
+SCHEMES["storage_paper"] = Scheme("the paper's scheme (2 mm)", "paper/hf_storage.yaml", loaded_at=0.005)
+SCHEMES["leak_off_paper"] = Scheme("the paper's scheme (2 mm)", "paper/hf_leakoff.yaml", loaded_at=0.005)
 SCHEMES["points"] = Scheme("the paper's points", "hf_storage_points.yaml", loaded_at=0.005)
 SCHEMES["natural"] = Scheme("perifrac", "hf_natural_fracture.yaml")
 

@@ -189,7 +189,7 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
   exchange_.mass_rate.assign(points_.count, 0.0);
   walls_.mass_rate.assign(walls_.count, 0.0);
   for (auto& values : walls_.momentum_rate) values.assign(walls_.count, 0.0);
-  exchange_.law->find(step_view(), exchange_.pores, t, walls_, exchange_.mass_rate);
+  exchange_.law->find(step_view(), exchange_.pores, t, length, walls_, exchange_.mass_rate);
   for (Index i = 0; i < points_.count; ++i) {
     const double gained = length * exchange_.mass_rate[i];
     points_.density[i] += gained / points_.volume[i];

@@ -53,8 +53,8 @@ std::unique_ptr<Exchange<D>> make_exchange(const Section& scene, const Body<D>* 
   }
   const double smoothing = scene.number("interface.smoothing");
   if (smoothing == 0.0) return exchange;
-  return std::make_unique<SmoothedExchange<D>>(std::move(exchange), smoothing, scheme.spacing,
-                                               scheme.horizon, influence);
+  return std::make_unique<SmoothedExchange<D>>(std::move(exchange), smoothing, *body, walls.cloud,
+                                               walls.period, scheme.horizon, influence);
 }
 
 /// Null where damaged points of the body are walls as intact ones; else all its points are.
@@ -70,9 +70,9 @@ std::unique_ptr<DamagedWalls<D>> make_damaged_walls(const Section& scene, const 
     scene.fail("interface.damaged_rock", "'open' beside crack_fluid, which fills the same cracks",
                "one of the two");
   }
-  if (scene.has("pore_flow") && scene.word("interface.exchange") != "none") {
+  if (scene.has("pore_flow") && scene.word("interface.exchange") == "bond_flux") {
     scene.fail("interface.damaged_rock", "'open' beside fluid that seeps through surfaces",
-               "wall, or exchange: none");
+               "wall, or exchange: paper or none");
   }
   add_inner_points(*body, scene.word("interface.slip") == "free", cloud);
   return std::make_unique<DamagedWalls<D>>(cloud);
@@ -108,8 +108,8 @@ std::unique_ptr<PhysicsModule> make_fluid(const FluidMethodType& type, const Sec
   FluidWalls<D> walls =
       read_fluid_walls<D>(section, body.get(), body_slips, spacing, scheme.horizon);
   const std::size_t body_points = body ? body->points().size() : 0;
-  auto exchange = make_exchange<D>(scene, body.get(), walls, scheme, method->influence());
   auto damaged_walls = make_damaged_walls<D>(scene, body.get(), walls.cloud);
+  auto exchange = make_exchange<D>(scene, body.get(), walls, scheme, method->influence());
   const bool exchanges = exchange != nullptr;
   const std::vector<Vector<D>> mouths = read_mouths<D>(scene, body.get());
   if (exchanges || !mouths.empty()) scheme.merge_below = scene.number("interface.merge_below");
@@ -210,8 +210,9 @@ const KeyTable& interface_keys() {
       {.path = "smoothing",
        .range = "[0, 1]",
        .fallback = "0",
-       .meaning = "Coefficient C of the published smoothing of density across the interface, here "
-                  "an exchange that keeps mass: a leak that permeability has no say in."},
+       .meaning = "Coefficient C of the published smoothing of density across the interface, in "
+                  "every step; what a point of the body gains the fluid points of its mean give: a "
+                  "leak that permeability has no say in."},
       {.path = "force",
        .type = KeyType::word,
        .fallback = "two_sided",

@@ -119,7 +119,15 @@ void DarcySystem<D>::smooth(double t, std::span<double> y) {
     const double p = fluid_.pressure_of(smoothed[k] - gravity(i));
     const double change = storage_->content(t, i, p) - zeta[i];
     y[i] += change;
+    smoothing_->gained()[k] = volume()[i] * change;
     made += volume()[i] * change;
+  }
+  if (smoothing_->is_compensated()) {
+    const std::span<const double> given = smoothing_->given();
+    for (Index i = 0; i < points_; ++i) {
+      y[i] -= given[i] / volume()[i];
+      made -= given[i];
+    }
   }
   y.back() += made;
 }

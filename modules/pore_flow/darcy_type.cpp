@@ -53,16 +53,16 @@ std::optional<PressureSmoothing<D>> read_smoothing(const Section& section, const
                                                    std::span<const HeldPoint> held) {
   const std::string where = section.word("nested.smoothing");
   if (section.word("operator") != "nested" || where == "none") return std::nullopt;
-  std::vector<Index> points;
+  std::vector<Index> points, held_points;
   if (where == "boundary") {
-    points = points_near_faces(body);
+    points = points_near_surfaces(body);
   } else {
     points.resize(family->point_count);
     std::iota(points.begin(), points.end(), 0);
   }
-  std::erase_if(
-      points, [&](Index i) { return std::ranges::binary_search(held, i, {}, &HeldPoint::point); });
-  return PressureSmoothing<D>(std::move(family), mirror, std::move(points));
+  for (const HeldPoint& point : held) held_points.push_back(point.point);
+  return PressureSmoothing<D>(std::move(family), mirror, std::move(points), held_points,
+                              section.word("nested.compensation") == "neighbours");
 }
 
 template <int D, class Law>
@@ -148,8 +148,16 @@ KeyTable darcy_operator_keys() {
        .type = KeyType::word,
        .fallback = "boundary",
        .words = {"none", "boundary", "everywhere"},
-       .meaning = "nested: points whose pressure is averaged over their neighbours after each "
-                  "explicit step; boundary: within a horizon of a face."},
+       .meaning =
+           "nested: points whose pressure is averaged over their neighbours after each "
+           "explicit step; boundary: within a horizon of a face or a cutout, and the ends of "
+           "broken bonds."},
+      {.path = "nested.compensation",
+       .type = KeyType::word,
+       .fallback = "neighbours",
+       .words = {"neighbours", "none"},
+       .meaning = "Who gives what a smoothed point gains. neighbours: those of its mean, by their "
+                  "weights in it. none: nobody; fluid is made and lost."},
   };
 }
 

@@ -201,13 +201,15 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
         section.number("integrator.safety"), std::move(breaking));
   };
   if (!has_cracks(section)) return make(read_material<D>(section, *body, boundary), nullptr);
-  if (section.word("material.type") != "linear_exact") {
-    section.fail(
-        "material.type",
-        fmt::format("'{}' beside cracks in a solid with inertia", section.word("material.type")),
-        "linear_exact, or type: quasi_static");
+  if (!names_critical_stretch(section.scene())) {
+    if (section.word("material.type") != "linear_exact") {
+      section.fail(
+          "material.type",
+          fmt::format("'{}' beside cracks in a solid with inertia", section.word("material.type")),
+          "linear_exact, damage.type: critical_stretch, or type: quasi_static");
+    }
+    return make_dynamic_fracture(section, body);
   }
-  if (!names_critical_stretch(section.scene())) return make_dynamic_fracture(section, body);
   auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
   std::shared_ptr<BreakableElasticity<D>> elastic =
       read_breakable_material<D>(section, *body, family, boundary.mirror_condition(*family));

@@ -78,17 +78,18 @@ void PaperExchange<D>::find_fluid_flux(const FluidStep<D>& step, const PoreInput
   for_each_point(points.count, [&](Index i) {
     if (near.offset[i] == near.offset[i + 1]) return;
     double mobility = 0.0, weights = 0.0;
-    auto gradient =
-        sum_over_neighbours<D, D>(near, i, points.at(i), walls.position, step.influence,
-                                  [&](Index w, Vector<D> y, double omega) {
-                                    const Index wall = walls.wall[w];
-                                    if (step.cloud.is_rigid(wall)) return Vector<D>{};
-                                    const double weight = omega * walls.volume[w];
-                                    mobility += weight * pores.mobility[step.cloud.owner[wall]];
-                                    weights += weight;
-                                    const double fall = head<D>(step, pores, t, walls, i, w, y);
-                                    return -weight * fall * y;
-                                  });
+    auto gradient = sum_over_neighbours<D, D>(near, i, points.at(i), walls.position, step.influence,
+                                              [&](Index w, Vector<D> y, double omega) {
+                                                const Index wall = walls.wall[w];
+                                                if (step.cloud.is_rigid(wall)) return Vector<D>{};
+                                                const Index j = step.cloud.owner[wall];
+                                                const double weight = omega * solid_.volume[j];
+                                                mobility += weight * pores.mobility[j];
+                                                weights += weight;
+                                                const double fall =
+                                                    head<D>(step, pores, t, walls, i, w, y);
+                                                return -weight * fall * y;
+                                              });
     if (weights == 0.0) return;
     const auto of_fluid = sum_over_neighbours<D, D>(
         step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, step.influence,
@@ -149,7 +150,7 @@ void PaperExchange<D>::find_body_flux(const FluidStep<D>& step, const PoreInput&
 /// Eqs 26, 27 and the second term of Eq 31.
 template <int D>
 void PaperExchange<D>::find(const FluidStep<D>& step, const PoreInput& pores, double t,
-                            NearWalls<D>& walls, std::vector<double>& rate) {
+                            double /*length*/, NearWalls<D>& walls, std::vector<double>& rate) {
   find_fluid_flux(step, pores, t, walls);
   find_body_flux(step, pores, t, walls);
   const FluidPoints<D>& points = step.points;
@@ -159,18 +160,19 @@ void PaperExchange<D>::find(const FluidStep<D>& step, const PoreInput& pores, do
         -points.mass[i] * sum_over_neighbours<1, D>(
                               step.neighbours.walls_of_fluid(), i, points.at(i), walls.position,
                               step.influence, [&](Index w, const Vector<D>& y, double omega) {
-                                const bool rigid = step.cloud.is_rigid(walls.wall[w]);
-                                return std::array{rigid ? 0.0
-                                                        : divergence<D>(fluid_flux_, i, body_flux_,
-                                                                        w, times<D>(inverted, y),
-                                                                        omega * walls.volume[w])};
+                                const Index wall = walls.wall[w];
+                                if (step.cloud.is_rigid(wall)) return std::array{0.0};
+                                const double weight = omega * solid_.volume[step.cloud.owner[wall]];
+                                return std::array{divergence<D>(fluid_flux_, i, body_flux_, w,
+                                                                times<D>(inverted, y), weight)};
                               })[0];
   });
   for_each_point(walls.count, [&](Index w) {
-    if (step.cloud.is_rigid(walls.wall[w])) return;
+    const Index wall = walls.wall[w];
+    if (step.cloud.is_rigid(wall)) return;
     const SymmetricTensor<D> inverted = tensor_at<D>(body_inverse_, w);
     walls.mass_rate[w] =
-        -step.fluid.density * walls.volume[w] *
+        -step.fluid.density * solid_.volume[step.cloud.owner[wall]] *
         sum_over_neighbours<1, D>(
             step.neighbours.fluid_of_walls(), w, walls.at(w), points.position, step.influence,
             [&](Index i, const Vector<D>& y, double omega) {

@@ -10,7 +10,8 @@ namespace perifrac {
 /// with its own shape tensor (Eqs 25, 28, 30), and then its density's rate from the q of those of
 /// the other phase (Eq 26, second term of Eq 31),
 ///   rho V_i sum_j omega (q_j - q_i).(M_i^-1 Y) V_j  [kg/s] lost.
-/// The two ends of a bond see one (q_j - q_i) Y: both lose, or both gain. Mass is not kept.
+/// The two ends of a bond see one (q_j - q_i) Y: both lose, or both gain. Mass is not kept. Damaged
+/// points of the body count whole here: Eq 23 alone knows of damage.
 template <int D>
 class PaperExchange final : public Exchange<D> {
  public:
@@ -18,8 +19,8 @@ class PaperExchange final : public Exchange<D> {
                 double horizon, const PairInfluence& influence);
 
   bool keeps_mass() const override { return false; }
-  void find(const FluidStep<D>& step, const PoreInput& pores, double t, NearWalls<D>& walls,
-            std::vector<double>& rate) override;
+  void find(const FluidStep<D>& step, const PoreInput& pores, double t, double length,
+            NearWalls<D>& walls, std::vector<double>& rate) override;
 
  private:
   void find_fluid_flux(const FluidStep<D>& step, const PoreInput& pores, double t,

@@ -62,7 +62,7 @@ BondFluxExchange<D>::BondFluxExchange(const Body<D>& body, const WallCloud<D>& c
 
 template <int D>
 void BondFluxExchange<D>::find(const FluidStep<D>& step, const PoreInput& pores, double t,
-                               NearWalls<D>& walls, std::vector<double>& rate) {
+                               double /*length*/, NearWalls<D>& walls, std::vector<double>& rate) {
   find_fluid_moments(step, walls);
   add_pair_flux(step, walls, rate, [&](Index i, Index w, const Vector<D>& y, double omega) {
     const Index wall = walls.wall[w];

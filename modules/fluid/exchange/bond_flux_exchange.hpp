@@ -25,8 +25,8 @@ class BondFluxExchange final : public Exchange<D> {
                    std::span<const RigidWall<D>> rigid, const Period<D>& period, double horizon,
                    const PairInfluence& influence);
 
-  void find(const FluidStep<D>& step, const PoreInput& pores, double t, NearWalls<D>& walls,
-            std::vector<double>& rate) override;
+  void find(const FluidStep<D>& step, const PoreInput& pores, double t, double length,
+            NearWalls<D>& walls, std::vector<double>& rate) override;
 
  private:
   /// The share that body and walls at rest have in tr M, of every point of the cloud.

@@ -31,11 +31,11 @@ class Exchange {
   /// What the fluid loses, the body gets, and nothing else.
   virtual bool keeps_mass() const { return true; }
 
-  /// Sets the mass per time that every fluid point gets [kg/s], at its own velocity, and every near
-  /// wall point: those of the body take from the fluid, or give to it; rigid ones do nothing. All
-  /// rates are 0 before.
-  virtual void find(const FluidStep<D>& step, const PoreInput& pores, double t, NearWalls<D>& walls,
-                    std::vector<double>& rate) = 0;
+  /// Sets the mass per time that every fluid point gets [kg/s] in a step of this length [s] from t
+  /// on, at its own velocity, and every near wall point: those of the body take from the fluid, or
+  /// give to it; rigid ones do nothing. All rates are 0 before.
+  virtual void find(const FluidStep<D>& step, const PoreInput& pores, double t, double length,
+                    NearWalls<D>& walls, std::vector<double>& rate) = 0;
 };
 
 }  // namespace perifrac

@@ -35,8 +35,4 @@ struct FluidMoments {
 template <int D>
 double lattice_trace(double spacing, double horizon, const PairInfluence& influence);
 
-/// sum of omega V about a point of the same lattice [m^D].
-template <int D>
-double lattice_weight(double spacing, double horizon, const PairInfluence& influence);
-
 }  // namespace perifrac

@@ -93,12 +93,12 @@ struct FluidOverBody {
     neighbours.images().copy(moments.trace, points.count);
   }
 
-  /// What the fluid's points get per time.
-  std::vector<double> find(Exchange<D>& exchange, double t = 0.0) {
+  /// What the fluid's points get per time in a step of this length [s].
+  std::vector<double> find(Exchange<D>& exchange, double t = 0.0, double length = 1e-3) {
     std::vector<double> rate(points.count);
     walls.mass_rate.assign(walls.count, 0.0);
     for (auto& values : walls.momentum_rate) values.assign(walls.count, 0.0);
-    exchange.find(step(), pores(), t, walls, rate);
+    exchange.find(step(), pores(), t, length, walls, rate);
     return rate;
   }
 

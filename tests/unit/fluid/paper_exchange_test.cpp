@@ -132,6 +132,18 @@ TEST(PaperExchange, PassesNothingInASteadyFlow) {
   EXPECT_NEAR(sum(scene.walls.mass_rate), 0.0, 1e-12 * darcy);
 }
 
+/// Of the printed equations Eq 23 alone, the shape tensor of the fluid, knows of damage.
+TEST(PaperExchange, CountsDamagedPointsWhole) {
+  FluidOverBody<2> scene(6, 6, 0.5, 0.1);
+  scene.prepare([](const Vector<2>& x) { return 2e4 + 3e3 * std::sin(x[0]) - 1e3 * x[1]; });
+  PaperExchange<2> exchange = exchange_of(scene);
+  const std::vector<double> rate = scene.find(exchange);
+  const std::vector<double> mass_rate = scene.walls.mass_rate;
+  for (Index w = 0; w < scene.walls.count; w += 2) scene.walls.volume[w] *= 0.4;
+  EXPECT_EQ(scene.find(exchange), rate);
+  EXPECT_EQ(scene.walls.mass_rate, mass_rate);
+}
+
 TEST(PaperExchange, TakesFromBothSides) {
   // Still water over rock through which it seeps steadily: the pores should get what the fluid
   // loses.

@@ -25,12 +25,13 @@ struct Breakable {
 template <int D>
 struct Breaking : Moving<D> {
   double limit = 1e-3;
+  Rock rock = Rock::linear_exact;
   std::vector<CrackFacet<D>> seeds{};
 
   using Moving<D>::Moving;
 
   void start() {
-    const Breakable<D> parts(*this->body, this->boundary, this->law);
+    const Breakable<D> parts(*this->body, this->boundary, this->law, rock);
     this->module = std::make_unique<DynamicSolid<D>>(
         this->body, parts.elastic, this->boundary, density, this->damping, this->safety,
         std::make_unique<CriticalStretch<D>>(parts.family, parts.elastic,
