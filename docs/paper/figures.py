@@ -11,7 +11,6 @@ drawn (--only) stay.
 from __future__ import annotations
 
 import argparse
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 

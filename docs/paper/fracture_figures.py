@@ -53,22 +53,30 @@ def came_so_far(runs: Runs, name: str, when: float) -> bool:
     return runs.frames(name)[-1].time > when - 1e-3
 
 
+def free_fluid(runs: Runs, name: str) -> list[tuple[str, str]]:
+    """Frames and field of what is free of the rock: points of fluid, fluid on the facets of cracks."""
+    kinds = [("fluid", "fluid_pressure"), ("crack", "crack_pressure")]
+    return [(points, field) for points, field in kinds if (runs.of(name) / f"frames/{points}.hdf.series").exists()]
+
+
 def draw_pressure(runs: Runs, name: str, images: Path, figure_name: str, title: str) -> None:
     figure, rows = maps(title, [name, name + "_paper"])
     for run, axes in rows.items():
-        # What is free of the rock: fluid on the facets, or points of it.
-        fluid, field = ("crack", "crack_pressure") if run == name else ("fluid", "fluid_pressure")
-        shown = [f.fields[field].max() for f in runs.frames(run, fluid) if TIMES[0] <= f.time <= TIMES[-1]]
+        free = free_fluid(runs, run)
+        shown = [f.fields[field].max() for points, field in free for f in runs.frames(run, points)
+                 if TIMES[0] <= f.time <= TIMES[-1]]  # fmt: skip
         limits, image = (0.0, 1e-3 * float(max(shown))), None
         for axis, when in zip(axes, TIMES):
             axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
             if not came_so_far(runs, run, when):
                 axis.set_axis_off()
                 continue
-            body, free = nearest_frame(runs, run, "body", when), nearest_frame(runs, run, fluid, when)
-            draw_field(axis, body, 1e-3 * body.fields["pore_pressure"], limits, "viridis")
-            image = axis.scatter(*(1e3 * free.points[:, :2].T), c=1e-3 * free.fields[field], s=7,
-                                 vmin=limits[0], vmax=limits[1], cmap="viridis", linewidths=0)  # fmt: skip
+            body = nearest_frame(runs, run, "body", when)
+            image = draw_field(axis, body, 1e-3 * body.fields["pore_pressure"], limits, "viridis")
+            for points, field in free:
+                frame = nearest_frame(runs, run, points, when)
+                axis.scatter(*(1e3 * frame.points[:, :2].T), c=1e-3 * frame.fields[field], s=7,
+                             vmin=limits[0], vmax=limits[1], cmap="viridis", linewidths=0)  # fmt: skip
         figure.colorbar(image, ax=list(axes), shrink=0.8, label="kPa")
     figure.savefig(images / f"{figure_name}.png", dpi=110)
     print(images / f"{figure_name}.png")
@@ -143,14 +151,14 @@ def carter_velocity(history: dict[str, np.ndarray], conductance: float, sealed: 
     return velocity
 
 
-def compare_velocities(axis, runs: Runs, name: str, conductance: float, errors: Errors, figure: str, sealed: float = 0.0) -> None:
+def compare_velocities(axis, runs: Runs, name: str, conductance: float, errors: Errors, figure: str, published: str, sealed: float = 0.0) -> None:
     history = runs.history(name)
     ms = 1e3 * history["time"]
     computed, carter = leak_off_velocity(history, sealed), carter_velocity(history, conductance, sealed)
     axis.semilogy(ms, 1e3 * computed, color="C0", lw=1.2, label="perifrac")
     axis.plot(ms, 1e3 * carter, "k--", lw=1.0, label="Carter at the mean pressure")
     axis.set_ylim(0.5e3 * np.nanmin(computed[ms > 10.0]), 20.0)
-    draw_paper_velocity(axis, runs, name + "_paper")
+    draw_paper_velocity(axis, runs, published)
     axis.set_xlabel("time [ms]")
     axis.set_ylabel("mean leak-off velocity [mm/s]")
     axis.legend(fontsize=8, frameon=False)
@@ -176,8 +184,15 @@ STORAGE_CONDUCTANCE = np.sqrt(1.02e-12 * (0.1 / 2.2e9 + 1.0 / 840e6) / np.pi)
 def fig20(runs: Runs, images: Path, errors: Errors) -> None:
     """Leak-off velocity and growth over time, storage-dominated."""
     figure, axes = panels(2, "Fig 20: leak-off velocity and growth, storage-dominated")
-    compare_velocities(axes[0], runs, "storage", STORAGE_CONDUCTANCE, errors, "20")
-    compare_lengths(axes[1], runs, "storage", table("hf_storage_reference.csv"), errors, "20")
+    compare_velocities(axes[0], runs, "storage_slit", STORAGE_CONDUCTANCE, errors, "20", published="storage_paper")
+    compare_lengths(axes[1], runs, "storage_slit", table("hf_storage_reference.csv"), errors, "20")
+    axes[0].lines[0].set_label(SCHEMES["storage_slit"].label)
+    axes[0].legend(fontsize=8, frameon=False)
+    axes[1].lines[0].set_label(SCHEMES["storage_slit"].label)
+    axes[1].lines[1].set_label("that slit, marched by other means")
+    notch = runs.history("storage")
+    axes[1].plot(1e3 * notch["time"], 1e3 * (notch["crack_length"] - notch["crack_length"][0]), color="C0", lw=1.2,
+                 label="perifrac, a notch full of points, soft water")  # fmt: skip
     draw_paper_length(axes[1], runs, "storage_paper")
     axes[1].legend(fontsize=8, frameon=False)
     save(figure, images, "fig20")
@@ -188,11 +203,11 @@ def fig21(runs: Runs, images: Path, errors: Errors) -> None:
     history = runs.history("storage")
     figure, axes = panels(2, "Fig 21: mass of fluid, storage-dominated")
     ms = 1e3 * history["time"]
-    pumped = history["injected_crack_fluid_mass"]
-    in_pores = -history["leaked_crack_fluid_mass"]
-    axes[0].plot(ms, pumped, "k-", lw=1.0, label="pumped in")
+    axes[0].plot(ms, history["injected_fluid_mass"], "k-", lw=1.0, label="pumped in")
+    axes[0].plot(ms, history["free_fluid_mass"] - history["free_fluid_mass"][0], label="more than at first in the notch")
     axes[0].plot(ms, history["crack_fluid_stored_mass"], label="in the crack")
-    axes[0].plot(ms, in_pores, label="leaked into the pores")
+    axes[0].plot(ms, history["exchanged_mass_from_crack_fluid"], label="leaked from the crack")
+    axes[0].plot(ms, history["exchanged_mass_from_fluid"], label="seeped from the notch")
     axes[0].set_ylabel("mass [kg/m]")
     axes[0].legend(fontsize=8, frameon=False)
     axes[1].semilogy(ms, np.maximum(history["fluid_mass_error"], 1e-17), "k-", lw=1.0, label="perifrac")
@@ -219,7 +234,7 @@ LEAK_OFF_CONDUCTANCE = np.sqrt(1.02e-11 * (0.1 / 22e6 + 1.0 / 4.8e9) / np.pi)
 def fig23(runs: Runs, images: Path, errors: Errors) -> None:
     """Leak-off velocity over time, leak-off dominated: into pores, and by Carter's law."""
     figure, axes = panels(1, "Fig 23: leak-off velocity, leak-off dominated")
-    compare_velocities(axes[0], runs, "leak_off", LEAK_OFF_CONDUCTANCE, errors, "23", sealed=NOTCH)
+    compare_velocities(axes[0], runs, "leak_off", LEAK_OFF_CONDUCTANCE, errors, "23", published="leak_off_paper", sealed=NOTCH)
     save(figure, images, "fig23")
 
 

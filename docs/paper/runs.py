@@ -48,7 +48,8 @@ SCHEMES["head"] = Scheme("perifrac", "constant_head.yaml", _SHOWN, 20.0)
 SCHEMES["head_exchange"] = Scheme("the paper's exchange, C = 1", "constant_head.yaml", [*_SHOWN, "interface.exchange=paper", "interface.smoothing=1", "ledger.mass_error=10"], 20.0)  # fmt: skip
 SCHEMES["head_force"] = Scheme("force: one_sided", "constant_head.yaml", [*_SHOWN, "interface.force=one_sided"], 20.0, "500 s")  # fmt: skip
 # Hydraulic fracture; by the paper's own points from the start of the pump.
-SCHEMES["storage"] = Scheme("perifrac", "hf_storage_pores.yaml", ["output.interval=1 ms"])
+SCHEMES["storage"] = Scheme("perifrac (1 mm)", "../docs/paper/hf_storage_notch.yaml")
+SCHEMES["storage_slit"] = Scheme("perifrac, a slit full of stiff water", "hf_storage_pores.yaml")
 SCHEMES["leak_off"] = Scheme("into pores", "hf_leakoff_pores.yaml")
 SCHEMES["carter"] = Scheme("Carter's law", "hf_leakoff.yaml")
 SCHEMES["stiff_water"] = Scheme("Carter's law, stiff water", "hf_leakoff_stiff_water.yaml")
@@ -57,7 +58,10 @@ SCHEMES["network"] = Scheme("network", "hf_storage.yaml")
 SCHEMES["storage_paper"] = Scheme("the paper's scheme (2 mm)", "paper/hf_storage.yaml", loaded_at=0.005)
 SCHEMES["leak_off_paper"] = Scheme("the paper's scheme (2 mm)", "paper/hf_leakoff.yaml", loaded_at=0.005)
 SCHEMES["points"] = Scheme("the paper's points", "hf_storage_points.yaml", loaded_at=0.005)
-SCHEMES["natural"] = Scheme("perifrac", "hf_natural_fracture.yaml")
+SCHEMES["natural"] = Scheme("perifrac", "hf_natural_fracture.yaml", [
+    "pore_flow={type: darcy, permeability: 1.02e-15 m^2, biot_coefficient: 1, porosity: 0.1, integrator: {type: explicit}, "
+    "fluid: {density: 1000 kg/m^3, viscosity: 1 cP, bulk_modulus: 2.2 GPa}}",
+    "crack_fluid.leak_off=pores", "coupling.iterations={max: 100, tolerance: 3e-3}", "coupling.acceleration=quasi_newton"])  # fmt: skip
 
 
 @dataclass

@@ -7,21 +7,54 @@
 
 namespace perifrac {
 
+/// Where a fluid point is over a wall point: `normal` is that of the wall's surface, `height` [m]
+/// the point's above it, and `aside` [m] where along it the point lies, off the wall point.
+template <int D>
+struct PlaceOverWall {
+  Index w;
+  Vector<D> normal;
+  double height;
+  Vector<D> aside;
+
+  PlaceOverWall(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index near)
+      : w(near), normal(vector_at(step.cloud.normal, walls.wall[near])) {
+    const Vector<D> y = step.points.at(i) - walls.at(w);
+    const double distance = dot(normal, y);
+    height = std::max(0.0, distance - step.cloud.depth[walls.wall[w]]);
+    aside = y - distance * normal;
+  }
+};
+
 /// Calls use(w, normal, height) for the near wall points right below fluid point i: w may be an
-/// image, `normal` is that of the wall's surface, and `height` [m] that of the point above it.
+/// image. Where there is none but a crack has parted the surface below, for those on either side of
+/// it: cracks take fluid by their own rules, not its points.
 template <int D, class Use>
 void for_walls_below(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Use&& use) {
-  // A point in front of a wall has one of its points this near along the surface.
-  const double aside = (D == 2 ? 0.51 : 0.72) * step.scheme.spacing;
+  // A point in front of a wall has one of its points this near along the surface, or lies between
+  // two that are not much farther.
+  const double below = (D == 2 ? 0.51 : 0.72) * step.scheme.spacing;
+  const double beside = 0.9 * step.scheme.spacing;
   const Neighbours& near = step.neighbours.walls_of_fluid();
+  bool found = false;
   for (Index k = near.offset[i]; k < near.offset[i + 1]; ++k) {
-    const Index w = near.other[k];
-    const Index wall = walls.wall[w];
-    const Vector<D> normal = vector_at(step.cloud.normal, wall);
-    const Vector<D> y = step.points.at(i) - walls.at(w);
-    const double square = squared_norm(y), normal_distance = dot(normal, y);
-    if (square - normal_distance * normal_distance > aside * aside) continue;
-    use(w, normal, std::max(0.0, normal_distance - step.cloud.depth[wall]));
+    const PlaceOverWall<D> one(step, walls, i, near.other[k]);
+    if (squared_norm(one.aside) > below * below) continue;
+    use(one.w, one.normal, one.height);
+    found = true;
+  }
+  if (found) return;
+  for (Index k = near.offset[i]; k < near.offset[i + 1]; ++k) {
+    const PlaceOverWall<D> one(step, walls, i, near.other[k]);
+    if (squared_norm(one.aside) > beside * beside) continue;
+    for (Index n = near.offset[i]; n < k; ++n) {
+      const PlaceOverWall<D> other(step, walls, i, near.other[n]);
+      if (squared_norm(other.aside) > beside * beside || dot(one.aside, other.aside) >= 0.0 ||
+          dot(one.normal, other.normal) < 0.99) {
+        continue;
+      }
+      use(one.w, one.normal, one.height);
+      use(other.w, other.normal, other.height);
+    }
   }
 }
 
