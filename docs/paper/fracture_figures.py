@@ -271,6 +271,7 @@ def fig25(runs: Runs, images: Path, errors: Errors) -> None:
     for row, when in zip(axes, moments):
         body, crack = runs.frame_at("natural", when), cracks_at(runs, "natural", when)
         x, y = 1e3 * body.points[:, 0], 1e3 * body.points[:, 1]
+        draw_field(row[0], body, 1e-6 * body.fields["pore_pressure"], (0.0, highest), "viridis")
         pressure = row[0].scatter(*(1e3 * crack.points[:, :2].T), c=1e-6 * crack.fields["crack_pressure"], s=5,
                                   vmin=0.0, vmax=highest, cmap="viridis", linewidths=0)  # fmt: skip
         damage = draw_field(row[1], body, body.fields["damage"], (0.0, 0.6), "magma_r")
