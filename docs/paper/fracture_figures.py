@@ -49,8 +49,15 @@ def draw_field(axis, frame: Frame, value: np.ndarray, limits: tuple[float, float
     return axis.scatter(x, y, c=value, s=4e4 / x.size, marker="s", linewidths=0, vmin=limits[0], vmax=limits[1], cmap=colours)
 
 
-def came_so_far(runs: Runs, name: str, when: float) -> bool:
-    return runs.frames(name)[-1].time > when - 1e-3
+def moments(runs: Runs, name: str, axes):
+    """The axes of the moments that a run came to, each with its time [s]; the others stay empty."""
+    last = runs.frames(name)[-1].time
+    for axis, when in zip(axes, TIMES):
+        axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
+        if last > when - 1e-3:
+            yield axis, when
+        else:
+            axis.set_axis_off()
 
 
 def free_fluid(runs: Runs, name: str) -> list[tuple[str, str]]:
@@ -66,11 +73,7 @@ def draw_pressure(runs: Runs, name: str, images: Path, figure_name: str, title: 
         shown = [f.fields[field].max() for points, field in free for f in runs.frames(run, points)
                  if TIMES[0] <= f.time <= TIMES[-1]]  # fmt: skip
         limits, image = (0.0, 1e-3 * float(max(shown))), None
-        for axis, when in zip(axes, TIMES):
-            axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
-            if not came_so_far(runs, run, when):
-                axis.set_axis_off()
-                continue
+        for axis, when in moments(runs, run, axes):
             body = nearest_frame(runs, run, "body", when)
             image = draw_field(axis, body, 1e-3 * body.fields["pore_pressure"], limits, "viridis")
             for points, field in free:
@@ -92,11 +95,7 @@ def fig19(runs: Runs, images: Path, errors: Errors) -> None:
     figure, rows = maps("Fig 19: damage, storage-dominated", ["storage", "storage_paper"])
     for run, axes in rows.items():
         image = None
-        for axis, when in zip(axes, TIMES):
-            axis.set_title(f"{1e3 * when:g} ms", fontsize=9)
-            if not came_so_far(runs, run, when):
-                axis.set_axis_off()
-                continue
+        for axis, when in moments(runs, run, axes):
             body = nearest_frame(runs, run, "body", when)
             image = draw_field(axis, body, body.fields["damage"], (0.0, 0.6), "magma_r")
         figure.colorbar(image, ax=list(axes), shrink=0.8)

@@ -16,7 +16,8 @@ TEMPLATES = ROOT / "app/writing/templates"  # `perifrac new` writes the schema b
 
 
 def shipped_scenes():
-    return sorted([*ROOT.glob("configs/*.yaml"), *ROOT.glob("configs/paper/*.yaml"), *TEMPLATES.glob("*.yaml")])
+    return sorted([*ROOT.glob("configs/*.yaml"), *ROOT.glob("configs/paper/*.yaml"), *ROOT.glob("docs/paper/*.yaml"),
+                   *TEMPLATES.glob("*.yaml")])
 
 
 def schema_of(scene):

@@ -7,21 +7,26 @@
 
 namespace perifrac {
 
-/// Where a fluid point is over a wall point: `normal` is that of the wall's surface, `height` [m]
-/// the point's above it, and `aside` [m] where along it the point lies, off the wall point.
+/// Where a fluid point is over a wall point: `normal` is that of the wall's surface.
 template <int D>
 struct PlaceOverWall {
   Index w;
   Vector<D> normal;
-  double height;
-  Vector<D> aside;
+  Vector<D> y;      ///< from the wall point [m]
+  double distance;  ///< along the normal [m]
 
   PlaceOverWall(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index near)
-      : w(near), normal(vector_at(step.cloud.normal, walls.wall[near])) {
-    const Vector<D> y = step.points.at(i) - walls.at(w);
-    const double distance = dot(normal, y);
-    height = std::max(0.0, distance - step.cloud.depth[walls.wall[w]]);
-    aside = y - distance * normal;
+      : w(near),
+        normal(vector_at(step.cloud.normal, walls.wall[near])),
+        y(step.points.at(i) - walls.at(near)),
+        distance(dot(normal, y)) {}
+
+  double aside_square() const { return squared_norm(y) - distance * distance; }
+  /// Where along the surface the point lies, off the wall point [m].
+  Vector<D> aside() const { return y - distance * normal; }
+  /// Above the surface [m].
+  double height(const FluidStep<D>& step, const NearWalls<D>& walls) const {
+    return std::max(0.0, distance - step.cloud.depth[walls.wall[w]]);
   }
 };
 
@@ -38,22 +43,22 @@ void for_walls_below(const FluidStep<D>& step, const NearWalls<D>& walls, Index 
   bool found = false;
   for (Index k = near.offset[i]; k < near.offset[i + 1]; ++k) {
     const PlaceOverWall<D> one(step, walls, i, near.other[k]);
-    if (squared_norm(one.aside) > below * below) continue;
-    use(one.w, one.normal, one.height);
+    if (one.aside_square() > below * below) continue;
+    use(one.w, one.normal, one.height(step, walls));
     found = true;
   }
   if (found) return;
   for (Index k = near.offset[i]; k < near.offset[i + 1]; ++k) {
     const PlaceOverWall<D> one(step, walls, i, near.other[k]);
-    if (squared_norm(one.aside) > beside * beside) continue;
+    if (one.aside_square() > beside * beside) continue;
     for (Index n = near.offset[i]; n < k; ++n) {
       const PlaceOverWall<D> other(step, walls, i, near.other[n]);
-      if (squared_norm(other.aside) > beside * beside || dot(one.aside, other.aside) >= 0.0 ||
-          dot(one.normal, other.normal) < 0.99) {
+      if (other.aside_square() > beside * beside || dot(one.normal, other.normal) < 0.99 ||
+          dot(one.aside(), other.aside()) >= 0.0) {
         continue;
       }
-      use(one.w, one.normal, one.height);
-      use(other.w, other.normal, other.height);
+      use(one.w, one.normal, one.height(step, walls));
+      use(other.w, other.normal, other.height(step, walls));
     }
   }
 }
