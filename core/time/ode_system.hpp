@@ -43,6 +43,10 @@ class OdeSystem {
   /// one is derived anew at the next reset.
   virtual std::uint64_t jacobian_version() const = 0;
 
+  /// An upper bound of the |eigenvalues| of the J of the state of reference; by power iteration,
+  /// which takes some fifty products.
+  virtual double fastest_rate(double t);
+
   /// Others answer y, and what they answer comes only when y is asked to go on: a mode must not
   /// come back from an advance with its sign turned, or the two feed each other.
   virtual bool is_answered_late() const { return false; }

@@ -61,32 +61,33 @@ double spectral_radius(std::string_view field, double t, std::size_t size, std::
                        "the stable time step could not be found");
 }
 
-double symmetric_spectral_radius(std::string_view field, double t, std::span<const double> mass,
-                                 const MatrixProduct& times) {
+double symmetric_spectral_radius(std::string_view field, double t, std::size_t size,
+                                 const MatrixProduct& times, const MatrixProduct& divide) {
   constexpr int steps = 9;
   constexpr double settled = 1e-3;  // of the bound
   constexpr double margin = 1.02;
-  const std::size_t size = mass.size();
-  std::vector<double> v(size), last(size, 0.0), product(size);
+  std::vector<double> v(size), mv(size), last(size, 0.0), next(size);  // mv = M v
   std::vector<double> sums;
-  // By the masses, for which M^-1 K is symmetric.
   const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) {
-    return block_sum(static_cast<Index>(size), sums,
-                     [&](Index i) { return mass[i] * a[i] * b[i]; });
+    return block_sum(static_cast<Index>(size), sums, [&](Index i) { return a[i] * b[i]; });
   };
-  fill_without_structure(v);
-  double length = std::sqrt(dot(v, v));
+  fill_without_structure(mv);
+  divide(mv, v);
+  double length = std::sqrt(dot(mv, v));
   if (length == 0.0) return 0.0;
-  for (double& value : v) value /= length;
   Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(steps, steps);
   double beside = 0.0;  // the part of the next vector in the last one's image
   for (int n = 0;; ++n) {
-    times(v, product);
-    for (std::size_t i = 0; i < size; ++i) product[i] /= mass[i];
-    const double own = dot(v, product);
-    for (std::size_t i = 0; i < size; ++i) product[i] -= own * v[i] + beside * last[i];
+    for (std::size_t i = 0; i < size; ++i) {
+      v[i] /= length;
+      mv[i] /= length;
+    }
+    times(v, next);
+    const double own = dot(v, next);
+    for (std::size_t i = 0; i < size; ++i) next[i] -= own * mv[i] + beside * last[i];
+    divide(next, v);
     projected(n, n) = own;
-    beside = std::sqrt(dot(product, product));
+    beside = std::sqrt(dot(next, v));
     if (!std::isfinite(own) || !std::isfinite(beside)) break;
     const SymmetricSpectrum spectrum = symmetric_spectrum(projected.topLeftCorner(n + 1, n + 1));
     const double largest = spectrum.values[n];
@@ -94,11 +95,21 @@ double symmetric_spectral_radius(std::string_view field, double t, std::span<con
     if (largest + rest <= 0.0) return 0.0;
     if (n + 1 == steps || rest <= settled * largest) return margin * (largest + rest);
     projected(n, n + 1) = projected(n + 1, n) = beside;
-    last.swap(v);
-    for (std::size_t i = 0; i < size; ++i) v[i] = product[i] / beside;
+    last.swap(mv);
+    mv.swap(next);
+    length = beside;
   }
   throw NumericalError(std::string(field), "the explicit integrator", t,
                        "the stable time step could not be found");
+}
+
+double symmetric_spectral_radius(std::string_view field, double t, std::span<const double> mass,
+                                 const MatrixProduct& times) {
+  return symmetric_spectral_radius(field, t, mass.size(), times,
+                                   [&](std::span<const double> mv, std::span<double> v) {
+                                     for (std::size_t i = 0; i < mass.size(); ++i)
+                                       v[i] = mv[i] / mass[i];
+                                   });
 }
 
 }  // namespace perifrac

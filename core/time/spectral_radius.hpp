@@ -19,11 +19,15 @@ using MatrixProduct = std::function<void(std::span<const double> v, std::span<do
 double spectral_radius(std::string_view field, double t, std::size_t size, std::size_t coupled,
                        const MatrixProduct& times);
 
-/// Upper bound of the largest eigenvalue of M^-1 K, M the masses on a diagonal, K symmetric: by
-/// nine steps of Lanczos' method, whose largest value lies below it, and what their rest may add. A
-/// mode that they do not see, because a few points alone take part in it, exceeds the bound by few
-/// per cent: what stands out more comes out after nine steps however small it was in the first.
-/// `times` is K's. Throws NumericalError, in the name of the field, where it is not found.
+/// Upper bound of the largest eigenvalue of M^-1 K, of `size` rows, K symmetric, M symmetric and
+/// positive definite: by nine steps of Lanczos' method, whose largest value lies below it, and what
+/// their rest may add. A mode that they do not see, because a few points alone take part in it,
+/// exceeds the bound by few per cent: what stands out more comes out after nine steps however small
+/// it was in the first. `times` is K's, `divide` M^-1's. Throws NumericalError, in the name of the
+/// field, where it is not found.
+double symmetric_spectral_radius(std::string_view field, double t, std::size_t size,
+                                 const MatrixProduct& times, const MatrixProduct& divide);
+/// The same with masses, M's diagonal.
 double symmetric_spectral_radius(std::string_view field, double t, std::span<const double> mass,
                                  const MatrixProduct& times);
 

@@ -187,13 +187,16 @@ template <int D>
 double DarcyFlow<D>::advance(const TimeWindow& window) {
   follow_bonds();
   system_->set_dilatation({dilatation_, dilatation_rate_, dilatation_slope_, window.end});
-  if (window.length() > 0.0) integrate(window);
+  if (window.length() > 0.0) {
+    integrate(window);
+  } else {
+    find_pressure(window.end);
+  }
   // A window of no length changes pressures at once, which no history survives.
   restart_integrator_ = !(window.length() > 0.0);
   if (restart_integrator_) note_jump(window.end);
   time_ = window.end;
   update_content();
-  system_->pressure(time_, unknowns_, pressure_);
   update_pore_stress();
   find_pressure_slope();
   return window.end;
@@ -203,14 +206,22 @@ template <int D>
 void DarcyFlow<D>::integrate(const TimeWindow& window) {
   if (restart_integrator_) system_->renew(unknowns_);
   MassExchange& exchange = system_->exchange();
-  if (!exchange.is_linked()) return flow(window);
+  if (!exchange.is_linked()) {
+    flow(window);
+    return find_pressure(window.end);
+  }
   const auto way =
       integrator_->is_multistep() ? MassExchange::Way::beside : MassExchange::Way::by_rate;
   exchange.begin(window, way, system_->volume(), system_->fluid().density);
-  double energy = 0.5 * system_->exchanged_energy(window.begin, unknowns_);
+  const double energy = system_->exchanged_energy(pressure_);  // at the potentials of its beginning
   flow(window);
-  energy += 0.5 * system_->exchanged_energy(window.end, unknowns_);
-  exchange.end(energy);
+  find_pressure(window.end);
+  exchange.end(0.5 * (energy + system_->exchanged_energy(pressure_)));
+}
+
+template <int D>
+void DarcyFlow<D>::find_pressure(double t) {
+  system_->pressure(t, unknowns_, pressure_);
 }
 
 /// In parts between which schedules are smooth: no step, and no history, goes across a kink. What

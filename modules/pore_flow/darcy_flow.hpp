@@ -63,6 +63,7 @@ class DarcyFlow final : public PhysicsModule {
   void follow_bonds();
   void integrate(const TimeWindow& window);
   void flow(const TimeWindow& window);
+  void find_pressure(double t);
   void note_jump(double t);
   void update_content();
   std::span<double> content();

@@ -9,6 +9,7 @@
 #include "core/bonds/bond_traversal.hpp"
 #include "core/profile/profile.hpp"
 #include "core/state/compensated_sum.hpp"
+#include "core/time/spectral_radius.hpp"
 
 namespace perifrac {
 
@@ -139,11 +140,10 @@ std::span<const double> DarcySystem<D>::fluid_content(double t, std::span<const 
 }
 
 template <int D>
-double DarcySystem<D>::exchanged_energy(double t, std::span<const double> y) {
-  pressure(t, y, potential_);
+double DarcySystem<D>::exchanged_energy(std::span<const double> p) const {
   double sum = 0.0;
   for (Index i = 0; i < points_; ++i) {
-    const double potential = fluid_.potential(potential_[i]) + gravity(i);
+    const double potential = fluid_.potential(p[i]) + gravity(i);
     sum += volume()[i] * exchange_.added()[i] * potential;
   }
   return sum;
@@ -249,6 +249,28 @@ void DarcySystem<D>::jacobian_times(double t, std::span<const double> y, std::sp
     if (face_value >= 0) product[points_ + face_value] += outflow_[i];
     product[i] = 0.0;
   }
+}
+
+/// J is that of M dp/dt = -H p, M = volume d(zeta)/d(potential): both are symmetric.
+template <int D>
+double DarcySystem<D>::fastest_rate(double t) {
+  if (!flow_->is_symmetric()) return OdeSystem::fastest_rate(t);
+  if (!fluid_.is_linear()) scale_mobility({});
+  std::vector<double> change(points_);
+  return symmetric_spectral_radius(
+      name(), t, points_,
+      [&](std::span<const double> p, std::span<double> outflow) {
+        std::ranges::fill(potential_, 0.0);
+        std::ranges::copy(p, potential_.begin());
+        for (const HeldPoint& held : held_) potential_[held.point] = 0.0;
+        flow_->apply(potential_, outflow_);
+        std::copy_n(outflow_.begin(), points_, outflow.begin());
+        for (const HeldPoint& held : held_) outflow[held.point] = 0.0;
+      },
+      [&](std::span<const double> content, std::span<double> p) {
+        for (Index i = 0; i < points_; ++i) change[i] = content[i] / volume()[i];
+        storage_->pressure_change(t, {}, change, p);
+      });
 }
 
 template <int D>

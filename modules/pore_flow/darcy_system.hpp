@@ -58,6 +58,7 @@ class DarcySystem final : public OdeSystem {
   void jacobian_times(double t, std::span<const double> y, std::span<const double> v,
                       std::span<double> product) override;
   std::uint64_t jacobian_version() const override { return version_; }
+  double fastest_rate(double t) override;
   double jacobian_growth(double t, std::span<const double> y) override;
   bool is_answered_late() const override { return is_answered_late_; }
   void magnitudes(double t, std::span<const double> y, std::span<double> magnitude) override;
@@ -81,8 +82,8 @@ class DarcySystem final : public OdeSystem {
   MassExchange& exchange() { return exchange_; }
   /// zeta at the points. Valid until the next call.
   std::span<const double> fluid_content(double t, std::span<const double> y);
-  /// Energy that comes with the fluid handed over in this window, at the potentials of time t [J].
-  double exchanged_energy(double t, std::span<const double> y);
+  /// Energy that comes with the fluid handed over in this window, at these pressures [J].
+  double exchanged_energy(std::span<const double> p) const;
 
   /// Takes y at the window's beginning, after its dilatation: the rates of held points follow.
   void lead_held_points(const TimeWindow& window, std::span<const double> y);

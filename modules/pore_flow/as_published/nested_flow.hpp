@@ -24,6 +24,8 @@ class NestedFlow final : public GradientFlow<D, Law> {
     face_gradient_ = face_gradient();
   }
 
+  bool is_symmetric() const override { return false; }
+
   void apply(std::span<const double> p, std::span<double> outflow) override {
     const Family<D>& family = this->family();
     const Index points = family.point_count, nodes = family.node_count();

@@ -44,6 +44,9 @@ class FlowOperator {
   /// Darcy velocity at the points, D blocks [m/s].
   virtual void velocity(std::span<const double> p, std::span<double> velocity) = 0;
 
+  /// H is, on the points.
+  virtual bool is_symmetric() const { return true; }
+
   /// How apply() goes over the points and their neighbours, and why.
   virtual std::string path() const = 0;
 

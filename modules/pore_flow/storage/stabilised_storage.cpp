@@ -52,6 +52,7 @@ StabilisedStorage<D>::StabilisedStorage(PoreMaterials materials,
 
 template <int D>
 bool StabilisedStorage<D>::set_dilatation(const DilatationInput& input) {
+  last_p_.resize(0);
   if (!LinearStorage::set_dilatation(input)) return false;
   for (Index i = 0; i < std::ssize(input.slope); ++i) {
     const double alpha = materials().at(i).biot_coefficient;
@@ -92,6 +93,7 @@ RoughnessLaws<D> StabilisedStorage<D>::laws() const {
 template <int D>
 void StabilisedStorage<D>::find_own() {
   between_.reset();
+  last_p_.resize(0);
   const Family<D>& family = roughness_.family();
   const std::span<const double> storage = effective_storage(0.0, {});
   for (Index i = 0; i < family.point_count; ++i) own_[i] = family.volume[i] * storage[i];
@@ -117,9 +119,8 @@ const Eigen::SparseMatrix<double>& StabilisedStorage<D>::between() const {
   return *between_;
 }
 
-/// B takes nothing from linear pressures: what points hold by themselves is a good beginning.
 template <int D>
-void StabilisedStorage<D>::solve(double t, std::span<double> p) const {
+void StabilisedStorage<D>::solve(double t) const {
   const ProfileScope profiled("solves");
   constexpr double tolerance = 1e-14;
   constexpr int most = 300;
@@ -130,7 +131,6 @@ void StabilisedStorage<D>::solve(double t, std::span<double> p) const {
   const auto precondition = [this](const Eigen::VectorXd& left, Eigen::VectorXd& correction) {
     correction = inverse_.cwiseProduct(left);
   };
-  x_ = right_side_.cwiseQuotient(own_);
   residual_.resize(x_.size());
   apply(x_, residual_);
   residual_ = right_side_ - residual_;
@@ -142,9 +142,10 @@ void StabilisedStorage<D>::solve(double t, std::span<double> p) const {
   } catch (const NotConverged& error) {
     throw NumericalError("pore_pressure", "the whole body", t, error.what());
   }
-  std::ranges::copy(x_, p.begin());
 }
 
+/// B takes nothing from linear pressures: what points hold by themselves is a good beginning. A
+/// better one is what was found before the fluid content changed, within one window.
 template <int D>
 void StabilisedStorage<D>::pressure(double t, std::span<const double> zeta,
                                     std::span<double> p) const {
@@ -153,7 +154,15 @@ void StabilisedStorage<D>::pressure(double t, std::span<const double> zeta,
     right_side_[i] =
         intact_->volume[i] * (zeta[i] - materials().at(i).biot_coefficient * dilatation().at(i, t));
   }
-  solve(t, p.first(points));
+  if (last_p_.size() > 0) {
+    x_ = last_p_ + (right_side_ - last_right_side_).cwiseQuotient(own_);
+  } else {
+    x_ = right_side_.cwiseQuotient(own_);
+  }
+  solve(t);
+  last_right_side_ = right_side_;
+  last_p_ = x_;
+  std::ranges::copy(x_, p.begin());
 }
 
 template <int D>
@@ -161,7 +170,9 @@ void StabilisedStorage<D>::pressure_change(double t, std::span<const double>,
                                            std::span<const double> change, std::span<double> dp) {
   const Index points = intact_->point_count;
   for (Index i = 0; i < points; ++i) right_side_[i] = intact_->volume[i] * change[i];
-  solve(t, dp.first(points));
+  x_ = right_side_.cwiseQuotient(own_);
+  solve(t);
+  std::ranges::copy(x_, dp.begin());
 }
 
 template <int D>

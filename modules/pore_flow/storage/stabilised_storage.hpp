@@ -46,8 +46,8 @@ class StabilisedStorage final : public LinearStorage {
   RoughnessLaws<D> laws() const;
   const Eigen::SparseMatrix<double>& between() const;
   void find_own();
-  /// (own + B) p = right_side_. Throws NumericalError.
-  void solve(double t, std::span<double> p) const;
+  /// (own + B) x_ = right_side_, from x_ on. Throws NumericalError.
+  void solve(double t) const;
 
   std::shared_ptr<const Family<D>> intact_;
   double scale_;                    ///< strength dx^2 [m^2]
@@ -59,7 +59,9 @@ class StabilisedStorage final : public LinearStorage {
   Eigen::VectorXd own_;                                         ///< V (S + alpha^2 slope)
   Eigen::VectorXd inverse_;  ///< of what is near to the diagonal of own + B
   mutable ConjugateGradients gradients_;
-  mutable Eigen::VectorXd right_side_, x_, residual_;           ///< workspace
+  mutable Eigen::VectorXd right_side_, x_, residual_;  ///< workspace
+  mutable Eigen::VectorXd last_right_side_,
+      last_p_;  ///< of pressure() since the input came, if any
   mutable std::optional<Eigen::SparseMatrix<double>> between_;  ///< B, where it was asked for
 };
 

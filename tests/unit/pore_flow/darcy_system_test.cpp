@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "tests/unit/pore_flow/pore_body.hpp"
@@ -68,6 +69,28 @@ TEST(DarcySystem, GivesItsDerivative) {
   for (std::size_t k = 0; k + 2 < y.size(); ++k) {
     EXPECT_NEAR(rate_up[k] - rate[k], product[k], 1e-12 * scale);
   }
+}
+
+/// The stable step comes from a bound of the largest eigenvalue, not much above it.
+TEST(DarcySystem, BoundsItsFastestRate) {
+  Setting setting;
+  DarcySystem<2>& system = setting.system;
+  const std::vector<double> zero(system.points(), 0.0), slope(system.points(), 0.3);
+  system.set_dilatation({zero, zero, slope, 1.0});
+  const Index n = system.points();
+  Eigen::MatrixXd jacobian(n, n);
+  std::vector<double> unit(system.size(), 0.0), column(system.size());
+  for (Index i = 0; i < n; ++i) {
+    unit[i] = 1.0;
+    system.jacobian_times(0.0, {}, unit, column);
+    jacobian.col(i) = test::as_eigen(column).head(n);
+    unit[i] = 0.0;
+  }
+  const double fastest =
+      Eigen::EigenSolver<Eigen::MatrixXd>(jacobian, false).eigenvalues().cwiseAbs().maxCoeff();
+  const double bound = system.fastest_rate(0.0);
+  EXPECT_GT(bound, fastest);
+  EXPECT_LT(bound, 1.1 * fastest);
 }
 
 TEST(DarcySystem, LosesNeitherVolumeNorEnergy) {

@@ -115,6 +115,28 @@ TEST(StabilisedStorage, FindsThePressureThatItStores) {
   }
 }
 
+/// What it found before the content changed is where it begins, and nothing else; where the
+/// dilatation is another, or bonds break, it is forgotten.
+TEST(StabilisedStorage, FindsThePressureAfterAChange) {
+  for (StabilisedSetting<2>& setting : settings<2>()) {
+    const std::size_t n = setting.points();
+    const auto before = test::random_values(n, 7), after = test::random_values(n, 8);
+    std::vector<double> found(n), expected(n);
+    const auto expect_the_same = [&] {
+      const auto fresh = setting.make();
+      fresh->set_dilatation({setting.value, setting.rate, setting.slope, 2.0});
+      fresh->pressure(1.0, after, expected);
+      setting.stored->pressure(1.0, after, found);
+      for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(found[i], expected[i], 1e-13);
+    };
+    setting.stored->pressure(1.0, before, found);
+    expect_the_same();
+    for (double& value : setting.value) value += 0.5;
+    setting.stored->set_dilatation({setting.value, setting.rate, setting.slope, 2.0});
+    expect_the_same();
+  }
+}
+
 /// Its energy is what forcing fluid in takes while the dilatation stands.
 TEST(StabilisedStorage, HasTheEnergyOfTheWorkDone) {
   for (StabilisedSetting<2>& setting : settings<2>()) {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
 
 namespace perifrac {
@@ -26,6 +28,28 @@ TEST(SpectralRadius, BoundsAPairOfComplexEigenvalues) {
     EXPECT_GE(radius_of_pair(a, b), std::sqrt(a * b));
     EXPECT_LE(radius_of_pair(a, b), 1.03 * std::max(a, b));
   }
+}
+
+/// Of a chain whose ends are held, K, and masses that lean on their neighbours, M: the fastest mode
+/// is the one that alternates, where M has its smallest value too.
+TEST(SpectralRadius, BoundsAPairOfSymmetricMatrices) {
+  constexpr int size = 60;
+  Eigen::MatrixXd k = 2.0 * Eigen::MatrixXd::Identity(size, size);
+  k.diagonal(1).setConstant(-1.0);
+  k.diagonal(-1).setConstant(-1.0);
+  const Eigen::MatrixXd m =
+      Eigen::MatrixXd::Identity(size, size) - 0.15 * (k - 2.0 * k.Identity(size, size));
+  const Eigen::LLT<Eigen::MatrixXd> factor(m);
+  const double bound = symmetric_spectral_radius(
+      "field", 0.0, size,
+      [&](std::span<const double> v, std::span<double> product) { view(product) = k * view(v); },
+      [&](std::span<const double> mv, std::span<double> v) { view(v) = factor.solve(view(mv)); });
+  const double largest =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(k, m, Eigen::EigenvaluesOnly)
+          .eigenvalues()
+          .maxCoeff();
+  EXPECT_GT(bound, largest);
+  EXPECT_LT(bound, 1.1 * largest);
 }
 
 TEST(SpectralRadius, SaysWhereItIsNotFound) {
