@@ -61,13 +61,15 @@ VectorXd combine(std::deque<Step>& steps, const VectorXd& residual, const Vector
   for (std::size_t i = 0; i < steps.size();) {
     VectorXd left = scale.cwiseProduct(steps[i].residual);
     const double whole = left.norm();
-    for (int twice = 0; twice < 2; ++twice) {  // once leaves rounding of what it takes off
+    double rest = whole;
+    // Once leaves rounding of what it takes off, which counts where little is left.
+    for (int twice = 0; twice < 2 && (twice == 0 || rest < 0.1 * whole); ++twice) {
       const VectorXd along = basis.leftCols(used).transpose() * left;
       left -= basis.leftCols(used) * along;
       parts.col(used).head(used) =
           twice == 0 ? along : VectorXd(parts.col(used).head(used) + along);
+      rest = left.norm();
     }
-    const double rest = left.norm();
     if (!(rest > new_part * whole)) {
       steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
       continue;
