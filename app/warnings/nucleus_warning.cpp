@@ -1,6 +1,8 @@
 #include "app/warnings/nucleus_warning.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,8 +13,19 @@
 
 namespace perifrac {
 
+namespace {
+
+/// Over the body's width: beyond, neither the mean stress nor the energy of a crack in an endless
+/// body says what a nucleus takes.
+constexpr double longest_nucleus = 0.25;
+
+}  // namespace
+
 std::optional<std::string> nucleus_warning(const Section& scene) {
-  if (!scene.has("damage.tensile_strength") || !scene.has("body.spacing")) return {};
+  if (!scene.has("damage.tensile_strength") || !scene.has("body.size") ||
+      !scene.has("body.spacing")) {
+    return {};
+  }
   if (!has_elastic_rock(scene)) return {};
   const double strength = scene.number("damage.tensile_strength");
   const double modulus =
@@ -20,6 +33,17 @@ std::optional<std::string> nucleus_warning(const Section& scene) {
   const double length = modulus * read_fracture_energy(scene) / (strength * strength);
   const double longest =
       length * std::min(edge_nucleus / least_edge_facets, inner_nucleus / least_inner_facets);
+  const std::vector<double> size = scene.numbers("body.size");
+  const double room = longest_nucleus * std::ranges::min(size);
+  if (edge_nucleus * length > room) {
+    return fmt::format(
+        "cracks begin {:.2g} m long, as long as an even tension pays for by "
+        "damage.tensile_strength "
+        "and fracture_energy, in a body {:.2g} m wide, where tension is not even over such a "
+        "length: when and where they begin is not known; a strength of {:.2g} Pa at least",
+        edge_nucleus * length, std::ranges::min(size),
+        strength * std::sqrt(edge_nucleus * length / room));
+  }
   if (scene.number("body.spacing") <= 1.0001 * longest) return {};
   return fmt::format(
       "body.spacing is too coarse for the rock's length E' Gc / damage.tensile_strength^2 = {:.2g} "

@@ -7,8 +7,8 @@
 
 namespace perifrac {
 
-/// Where cracks may begin by themselves, and points are too far apart for the rock's own length
-/// E' Gc / strength^2.
+/// Where cracks may begin by themselves, and the rock's own length E' Gc / strength^2 is too short
+/// for the points or too long for the body.
 std::optional<std::string> nucleus_warning(const Section& scene);
 
 }  // namespace perifrac

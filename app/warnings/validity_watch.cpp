@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/warnings/fluid_in_rock.hpp"
 #include "app/warnings/pressure_swing.hpp"
 #include "app/warnings/small_strains.hpp"
 #include "core/base/errors.hpp"
@@ -56,6 +57,7 @@ ValidityWatch::ValidityWatch(const Section& scene, const Simulation& simulation)
   watch_swings(scene, simulation);
   watch_density(scene, simulation);
   watch_rubble(scene, simulation);
+  watch_leaks(scene, simulation);
 }
 
 std::vector<std::string> ValidityWatch::look() {
@@ -192,6 +194,30 @@ void ValidityWatch::watch_rubble(const Section& scene, const Simulation& simulat
         "to few others, for which bonds say nothing of a crack; lower the loads, end before that, "
         "or take `damage.type: energy_release`",
         most, broken->value, broken->unit);
+  });
+}
+
+/// Rock that is `open` where it is damaged lets points in on purpose.
+void ValidityWatch::watch_leaks(const Section& scene, const Simulation& simulation) {
+  const auto fluid = find_field(simulation, "fluid_density");
+  if (!fluid || !simulation.has_body()) return;
+  if (scene.has("interface.damaged_rock") && scene.word("interface.damaged_rock") == "open") return;
+  const auto moved = find_field(simulation, "displacement");
+  limits_.push_back([=, &any = simulation.body]() -> std::optional<std::string> {
+    const FluidInRock found = std::visit(
+        [&]<int D>(const std::shared_ptr<const Body<D>>& body) {
+          Positions<D> places;
+          std::copy_n(fluid->points().position.begin(), D, places.begin());
+          return fluid_in_rock<D>(*body, moved ? moved->values() : std::span<const double>(),
+                                  places);
+        },
+        any);
+    if (found.count == 0) return {};
+    return fmt::format(
+        "{} of the points of free fluid are in the rock, a spacing deep and more, one at {}: they "
+        "have passed through a wall; shorter steps (`fluid.courant`), or body.spacing finer where "
+        "walls are thin or meet",
+        found.count, place_of(fluid->points(), found.one));
   });
 }
 

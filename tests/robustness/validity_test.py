@@ -167,6 +167,13 @@ class Validity(RunTest):
             warned = json.loads(said.stdout)["warnings"]
             self.assertEqual(any("cracks[0] lies across the larger stress" in warning for warning in warned), warns, warned)
 
+    def test_cracks_that_begin_as_long_as_the_body(self):
+        for strength, warns in (("0.5 MPa", True), ("0.65 MPa", False)):
+            said = perifrac("check", CONFIGS / "three_point_bending.yaml", "--json", "--trial", "0",
+                            "--set", f"damage.tensile_strength={strength}")
+            warned = json.loads(said.stdout)["warnings"]
+            self.assertEqual(any("when and where they begin is not known" in warning for warning in warned), warns, warned)
+
     def test_a_round_crack_that_fluid_has_hardly_entered(self):
         soon = {"body.size": "[12 mm, 12 mm, 16 mm]", "cracks[0].centre": "[0 mm, 0 mm, 8 mm]",
                 "crack_fluid.inlets[0].at": "[0 mm, 0 mm, 8 mm]", "crack_fluid.residual_aperture": "0.3 um",
