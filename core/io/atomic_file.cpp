@@ -1,5 +1,6 @@
 #include "core/io/atomic_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -13,9 +14,11 @@ namespace perifrac {
 namespace {
 
 /// Returns 0 or the system's error number.
-int write_and_sync(const std::filesystem::path& path, std::string_view content) {
+int write_and_sync(const std::filesystem::path& path,
+                   std::initializer_list<std::string_view> parts) {
   const FileDescriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  return file.is_open() && file.write(content) && file.sync() ? 0 : errno;
+  const auto write = [&](std::string_view part) { return file.write(part); };
+  return file.is_open() && std::ranges::all_of(parts, write) && file.sync() ? 0 : errno;
 }
 
 int sync_folder(const std::filesystem::path& path) {
@@ -26,10 +29,11 @@ int sync_folder(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& target, std::string_view content) {
+void write_atomically(const std::filesystem::path& target,
+                      std::initializer_list<std::string_view> parts) {
   std::filesystem::path temporary = target;
   temporary += temporary_suffix;
-  int error = write_and_sync(temporary, content);
+  int error = write_and_sync(temporary, parts);
   if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) {
     error = errno;
   }

@@ -54,8 +54,7 @@ void check_seal(const std::filesystem::path& path) {
   }
 }
 
-std::string make_file(const Checkpoint& checkpoint) {
-  Hdf5Writer file;
+void write_state(Hdf5Writer& file, const Checkpoint& checkpoint) {
   file.write<double>("time", std::array{checkpoint.time});
   file.write<std::int64_t>("step", std::array{checkpoint.step});
   file.write_text("scene", checkpoint.scene);
@@ -65,8 +64,6 @@ std::string make_file(const Checkpoint& checkpoint) {
     std::visit([&](const auto& array) { file.write("state/" + field.first, std::span(array)); },
                field.second);
   }
-  const std::string content = file.bytes();
-  return make_seal(content) + content;
 }
 
 /// The step in the name of a checkpoint; nothing for any other name.
@@ -112,7 +109,10 @@ void remove_older(const std::filesystem::path& folder, std::int64_t step) {
 std::filesystem::path write_checkpoint(const std::filesystem::path& output_folder,
                                        const Checkpoint& checkpoint) {
   const auto path = output_folder / fmt::format("checkpoint_{:06}.h5", checkpoint.step);
-  write_atomically(path, make_file(checkpoint));
+  Hdf5Writer file;
+  write_state(file, checkpoint);
+  const std::string_view content = file.bytes();
+  write_atomically(path, {make_seal(content), content});
   remove_older(output_folder, checkpoint.step);
   return path;
 }

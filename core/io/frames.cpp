@@ -83,9 +83,8 @@ void write_what_points_are(Hdf5Writer& file, const PointSet& points,
   }
 }
 
-std::string make_frame(double time, const PointSet& points, std::span<const FrameField> fields,
-                       const FrameGeometry& geometry) {
-  Hdf5Writer file;
+void write_frame(Hdf5Writer& file, double time, const PointSet& points,
+                 std::span<const FrameField> fields, const FrameGeometry& geometry) {
   write_geometry(file, points);
   const std::array version{std::int64_t{1}, std::int64_t{0}};
   file.write_attribute("VTKHDF", "Version", version);
@@ -96,7 +95,6 @@ std::string make_frame(double time, const PointSet& points, std::span<const Fram
     write_field(file, field, points.count);
   }
   write_what_points_are(file, points, geometry);
-  return file.bytes();
 }
 
 }  // namespace
@@ -134,7 +132,9 @@ void FrameSeries::cut_back(double restart_time) {
 void FrameSeries::write(double time, const PointSet& points, std::span<const FrameField> fields,
                         const FrameGeometry& geometry) {
   const std::string name = fmt::format("{}_{:06}.hdf", point_set_, frames_.size());
-  write_atomically(folder_ / name, make_frame(time, points, fields, geometry));
+  Hdf5Writer file;
+  write_frame(file, time, points, fields, geometry);
+  write_atomically(folder_ / name, file.bytes());
   frames_.push_back({name, time});
   write_series();
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace perifrac {
@@ -33,8 +34,8 @@ class Hdf5Writer {
   void write_attribute(const std::string& object, const std::string& name,
                        std::span<const std::int64_t> values);
 
-  /// The whole file as written so far.
-  std::string bytes() const;
+  /// The whole file as written so far; no copy: valid until more is written, or the writer goes.
+  std::string_view bytes() const;
 
  private:
   std::int64_t create_dataset(const std::string& name, std::int64_t type, std::int64_t space);

@@ -74,7 +74,7 @@ TEST(Hdf5, GivesTheSameBytesForTheSameContent) {
   const auto write = [&] {
     Hdf5Writer out;
     out.write<double>("group/values", values, 10);
-    return out.bytes();
+    return std::string(out.bytes());
   };
   const std::string first = write();
   const timespec a_second{1, 100000000};  // dates in HDF5 have a resolution of a second

@@ -44,7 +44,7 @@ inline std::string content_of(const std::filesystem::path& file) {
   return content.str();
 }
 
-inline void put(const std::filesystem::path& file, const std::string& content) {
+inline void put(const std::filesystem::path& file, std::string_view content) {
   std::ofstream(file, std::ios::binary) << content;
 }
 
