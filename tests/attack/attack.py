@@ -72,9 +72,9 @@ class Attack:
             return None, "", ""
         return (None if done.returncode in OUT_OF_TIME else done.returncode), done.stderr, done.stdout
 
-    def foretell(self, file):
+    def foretell(self, file, *more):
         """(exit code, what it said, seconds)."""
-        code, said, told = self.command("check", str(file), "--json", "--trial", str(TRIAL), "--threads", "1",
+        code, said, told = self.command("check", str(file), "--json", "--trial", str(TRIAL), "--threads", "1", *more,
                                         patience=SHORTEST)
         if code != 0:
             return code, said, 0.0
@@ -111,7 +111,8 @@ class Attack:
         if code == 0 and TOO_LARGE in said:
             return {"outcome": "warned", "said": TOO_LARGE, "warned": True}
         if code == 0 and foretold > DEAR:
-            until, foretold = scene["time"]["end"] * DEAR / foretold, DEAR
+            until = scene["time"]["end"] * DEAR / foretold
+            foretold = max(DEAR, self.foretell(file, "--set", f"time.end={until!r} s")[2])  # first windows are short
         if code in (0, 1):
             code, said, folder = self.run(scene, file, foretold, until)
         ended = {**ending(code, said), "foretold": foretold, "until": until}
