@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install install-tests configure configure-tests package install-package perifrac build run test test-slow check-style tidy docs site tutorials scenes experiments gallery paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench clean
+.PHONY: help install install-tests configure configure-tests package install-package perifrac build run test test-slow check-style tidy docs site tutorials scenes experiments gallery paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench benchmarks clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -18,6 +18,7 @@ help:
 	@echo 'make install-package  makes the package and installs it'
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 40 minutes)'
 	@echo 'make bench      kernels, timed'
+	@echo 'make benchmarks  kernels beside LAMMPS, growth to ten million points, scenes: docs/benchmarks.md (some 40 minutes, 15 GB)'
 	@echo 'make docs       write docs/configuration.md and configs/perifrac.schema.json anew'
 	@echo 'make site       the pages as a site to read and search offline: build/release/site/docs/index.html'
 	@echo 'make tutorials  runs the tutorials and takes their pictures anew'
@@ -89,6 +90,10 @@ tidy:
 
 bench: build
 	$(BUILD)/bin/perifrac_bench
+
+benchmarks: build
+	@tools/install test peers
+	@/usr/bin/python3 bench/benchmarks/benchmarks.py $(PERIFRAC) $(BUILD)/bin/perifrac_bench
 
 paper: perifrac
 	@/usr/bin/python3 docs/paper/figures.py $(PERIFRAC)

@@ -4,16 +4,17 @@
 #include <numeric>
 #include <random>
 
+#include "core/geometry/jitter.hpp"
 #include "core/geometry/lattice.hpp"
 
 namespace perifrac::bench {
 
 template <int D>
-std::shared_ptr<const Body<D>> lattice_body(int count, Order order) {
+std::shared_ptr<const Body<D>> box_body(int count, Cloud cloud) {
   std::array<int, D> counts;
   counts.fill(count);
   Points<D> points = box_lattice<D>(counts, 1.0);
-  if (order == Order::shuffled) {
+  if (cloud == Cloud::shuffled) {
     std::vector<Index> place(points.volume.size());
     std::iota(place.begin(), place.end(), 0);
     std::ranges::shuffle(place, std::mt19937(1));
@@ -22,6 +23,7 @@ std::shared_ptr<const Body<D>> lattice_body(int count, Order order) {
       for (int a = 0; a < D; ++a) points.position[a][place[i]] = sorted.position[a][i];
     }
   }
+  if (cloud == Cloud::jittered) jitter_points(points, 0.2, 1);
   return std::make_shared<const Body<D>>(std::move(points), std::vector<Face>{}, 1.0,
                                          D == 2 ? 2.5 : 3.0, InfluenceFunction::gaussian);
 }
@@ -35,8 +37,8 @@ void count_bonds(benchmark::State& state, const Family<D>& family) {
   state.counters["bytes_per_point"] = static_cast<double>(family.bytes()) / family.point_count;
 }
 
-template std::shared_ptr<const Body<2>> lattice_body<2>(int, Order);
-template std::shared_ptr<const Body<3>> lattice_body<3>(int, Order);
+template std::shared_ptr<const Body<2>> box_body<2>(int, Cloud);
+template std::shared_ptr<const Body<3>> box_body<3>(int, Cloud);
 template void count_bonds<2>(benchmark::State&, const Family<2>&);
 template void count_bonds<3>(benchmark::State&, const Family<3>&);
 

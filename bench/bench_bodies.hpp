@@ -8,13 +8,19 @@
 
 namespace perifrac::bench {
 
-/// Points in memory along the space-filling curve, or at random.
-enum class Order { curve, shuffled };
+/// A lattice; one whose points lie in memory at random and not along the space-filling curve; and
+/// points that lie a fifth of a spacing aside, along the curve.
+enum class Cloud { lattice, shuffled, jittered };
 
-/// A box lattice of `count` points an axis at the horizon ratio of everyday use: 2.5 in 2D, 3 in
-/// 3D.
+/// A box of `count` points an axis at the horizon ratio of everyday use: 2.5 in 2D, 3 in 3D.
 template <int D>
-std::shared_ptr<const Body<D>> lattice_body(int count, Order order = Order::curve);
+std::shared_ptr<const Body<D>> box_body(int count, Cloud cloud = Cloud::lattice);
+
+/// Some hundred thousand points.
+template <int D>
+std::shared_ptr<const Body<D>> large_body(Cloud cloud = Cloud::lattice) {
+  return box_body<D>(D == 2 ? 316 : 46, cloud);
+}
 
 /// Counts what performance is measured in: millions of bond-updates per second, one a directed
 /// family entry and pass over all forces.

@@ -11,7 +11,7 @@ namespace {
 /// The traversal alone: one value of the other end per bond, D sums a point.
 template <int D>
 void traverse_bonds(benchmark::State& state) {
-  const auto body = lattice_body<D>(D == 2 ? 316 : 46, static_cast<Order>(state.range(0)));
+  const auto body = large_body<D>(static_cast<Cloud>(state.range(0)));
   const auto family = body->family(0);
   omp_set_num_threads(static_cast<int>(state.range(1)));
   const std::vector<double> field(family->node_count(), 1.0);
@@ -32,8 +32,8 @@ void traverse_bonds(benchmark::State& state) {
                           (sizeof(Index) + sizeof(double)));
 }
 
-constexpr auto sorted = static_cast<long>(Order::curve);
-constexpr auto shuffled = static_cast<long>(Order::shuffled);
+constexpr auto sorted = static_cast<long>(Cloud::lattice);
+constexpr auto shuffled = static_cast<long>(Cloud::shuffled);
 
 BENCHMARK(traverse_bonds<2>)
     ->ArgNames({"shuffled", "threads"})

@@ -8,7 +8,7 @@ namespace {
 
 template <int D>
 Eigen::SparseMatrix<double> stiffness(int count) {
-  const auto family = lattice_body<D>(count)->family(0);
+  const auto family = box_body<D>(count)->family(0);
   return LinearExactOperator<D, IsotropicElasticity<D>>(family, MirrorCondition<D, D>(*family),
                                                         {1.0, 1.0})
       .assemble();
