@@ -139,6 +139,7 @@ Family<D> Body<D>::make_family(FaceSet mirrored, FaceSet without_layers) const {
       build_family<D>(points_, faces_, mirrored, horizon_, influence_, in_layers(without_layers));
   remove_bonds_through<D>(cutouts_, faces_, mirrored, family);
   if (projected_weights_) project_weights<D>(family, faces_, mirrored, horizon_);
+  family.weight.pack();
   return family;
 }
 

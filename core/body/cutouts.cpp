@@ -120,6 +120,7 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
   if (cutouts.empty()) return;
   const std::vector<Region<D>> boxes = with_images<D>(cutouts, faces, mirrored);
   Index kept = 0;
+  std::vector<double> weight;
   for (Index i = 0, begin = 0; i < family.point_count; ++i) {
     const Index end = family.offset[i + 1];
     const Vector<D> x = vector_at(family.position, i);
@@ -127,14 +128,14 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
       const Vector<D> y = vector_at(family.position, family.other[bond]);
       if (std::ranges::any_of(boxes, [&](const auto& box) { return passes_through<D>(box, x, y); }))
         continue;
-      family.other[kept] = family.other[bond];
-      family.weight[kept++] = family.weight[bond];
+      family.other[kept++] = family.other[bond];
+      weight.push_back(family.weight[bond]);
     }
     family.offset[i + 1] = kept;
     begin = end;
   }
   family.other.resize(kept);
-  family.weight.resize(kept);
+  family.weight = BondWeights(std::move(weight));
 }
 
 template std::vector<Region<2>> read_cutouts<2>(const Section&, const Vector<2>&, double);

@@ -71,7 +71,7 @@ void silence(Family<D>& family, Index i, Index j) {
       const Index end = family.other[bond];
       const Index source =
           end < family.point_count ? end : family.ghost_source[end - family.point_count];
-      if (source == to) family.weight[bond] = 0.0;
+      if (source == to) family.weight.set(bond, 0.0);
     }
   }
 }

@@ -7,11 +7,9 @@
 
 namespace perifrac {
 
-/// The one loop over the bonds of a point: the sum over its bonds of term(j, xi, weight), where j
-/// is the bond's other end (a real point or a ghost), xi the bond vector [m] and weight
-/// omega(|xi|) V_j. How bonds are stored is known here and in Family alone.
-template <int K, int D, class Term>
-inline std::array<double, K> sum_over_bonds(const Family<D>& family, Index i, Term&& term) {
+template <int K, int D, class Weight, class Term>
+inline std::array<double, K> sum_weighted(const Family<D>& family, Index i, const Weight& weight,
+                                          Term&& term) {
   double sum[K] = {};
   const Vector<D> x = [&] {
     Vector<D> at;
@@ -21,7 +19,6 @@ inline std::array<double, K> sum_over_bonds(const Family<D>& family, Index i, Te
   std::array<const double*, D> position;
   for (int a = 0; a < D; ++a) position[a] = family.position[a].data();
   const Index* const other = family.other.data();
-  const double* const weight = family.weight.data();
   const Index end = family.offset[i + 1];
 #pragma omp simd reduction(+ : sum[:K])
   for (Index bond = family.offset[i]; bond < end; ++bond) {
@@ -34,6 +31,15 @@ inline std::array<double, K> sum_over_bonds(const Family<D>& family, Index i, Te
   std::array<double, K> result;
   for (int k = 0; k < K; ++k) result[k] = sum[k];
   return result;
+}
+
+/// The one loop over the bonds of a point: the sum over its bonds of term(j, xi, weight), where j
+/// is the bond's other end (a real point or a ghost), xi the bond vector [m] and weight
+/// omega(|xi|) V_j. How bonds are stored is known here and in Family alone.
+template <int K, int D, class Term>
+inline std::array<double, K> sum_over_bonds(const Family<D>& family, Index i, Term&& term) {
+  return family.weight.with(
+      [&](const auto& weight) { return sum_weighted<K>(family, i, weight, term); });
 }
 
 }  // namespace perifrac

@@ -71,7 +71,7 @@ template <int D>
 std::size_t Family<D>::bytes() const {
   return sizeof(double) * (D + 1) * volume.size() + sizeof(Index) * ghost_source.size() +
          (sizeof(FaceSet) + 1) * ghost_faces.size() +
-         sizeof(Index) * (offset.size() + other.size()) + sizeof(double) * weight.size();
+         sizeof(Index) * (offset.size() + other.size()) + weight.bytes();
 }
 
 template <int D>
@@ -96,14 +96,15 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
   remove_bonds(bondless, near);
   family.offset = std::move(near.offset);
   family.other = std::move(near.other);
-  family.weight.resize(family.other.size());
+  std::vector<double> weight(family.other.size());
   for_each_point(points.size(), [&](Index i) {
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       const Index j = family.other[bond];
       const double r = std::sqrt(squared_distance(family, i, j));
-      family.weight[bond] = influence(influence_function, r, horizon) * family.volume[j];
+      weight[bond] = influence(influence_function, r, horizon) * family.volume[j];
     }
   });
+  family.weight = BondWeights(std::move(weight));
   return family;
 }
 
@@ -125,14 +126,16 @@ Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored) {
   }
   part.curved = family.curved;
   part.offset.push_back(0);
+  std::vector<double> weight;
   for (Index i = 0; i < family.point_count; ++i) {
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       if (number[family.other[bond]] < 0) continue;
       part.other.push_back(number[family.other[bond]]);
-      part.weight.push_back(family.weight[bond]);
+      weight.push_back(family.weight[bond]);
     }
     part.offset.push_back(static_cast<Index>(part.other.size()));
   }
+  part.weight = BondWeights(std::move(weight));
   return part;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/points.hpp"
+#include "core/bonds/bond_weights.hpp"
 #include "core/bonds/influence_function.hpp"
 #include "core/geometry/faces.hpp"
 
@@ -28,11 +29,17 @@ struct Family {
   bool curved = false;                          ///< some ghosts are images at a sphere
   std::vector<Index> offset;                    ///< bonds of i: offset[i] .. offset[i + 1]
   std::vector<Index> other;                     ///< the bond's other end
-  std::vector<double> weight;                   ///< omega(|xi|) V_other
+  BondWeights weight;                           ///< omega(|xi|) V_other
 
   Index ghost_count() const { return static_cast<Index>(ghost_source.size()); }
   Index node_count() const { return point_count + ghost_count(); }
   Index bond_count(Index i) const { return offset[i + 1] - offset[i]; }
+  /// Of i's bonds, which are sorted by their other end, the first to a ghost; offset[i + 1]: none.
+  Index first_ghost_bond(Index i) const {
+    Index bond = offset[i + 1];
+    while (bond > offset[i] && other[bond - 1] >= point_count) --bond;
+    return bond;
+  }
   std::size_t bytes() const;
 };
 

@@ -1,21 +1,28 @@
 #include "core/bonds/mirror_condition.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace perifrac {
 
 template <int D, int R>
-MirrorCondition<D, R>::MirrorCondition(const Family<D>& family) : family_(&family) {
+MirrorCondition<D, R>::MirrorCondition(const Family<D>& family)
+    : family_(&family), images_(all_faces + 1) {
   for (auto& face : face_value_) face.fill(-1);
 }
 
 template <int D, int R>
 void MirrorCondition<D, R>::set_odd(int face, int component) {
-  if (face_value_[face][component] < 0) face_value_[face][component] = count_++;
+  if (face_value_[face][component] >= 0) return;
+  face_value_[face][component] = count_++;
+  for (FaceSet faces = 0; faces <= all_faces; ++faces) {
+    if (std::popcount(faces) > D + 1) continue;  // no ghost is mirrored at so many
+    images_[faces][component] = find_image(faces, component);
+  }
 }
 
 template <int D, int R>
-auto MirrorCondition<D, R>::image(FaceSet faces, int component) const -> Image {
+auto MirrorCondition<D, R>::find_image(FaceSet faces, int component) const -> Image {
   Image image;
   for (int face = 0; face < 2 * D; ++face) {
     const int value = face_value_[face][component];
@@ -47,7 +54,7 @@ void MirrorCondition<D, R>::fill(std::vector<double>& nodes, const double* face_
   const Index count = family_->node_count();
   for (Index g = 0; g < family_->ghost_count(); ++g) {
     for (int r = 0; r < R; ++r) {
-      const Image of = image(family_->ghost_faces[g], r);
+      const Image& of = image(family_->ghost_faces[g], r);
       double* const block = nodes.data() + static_cast<std::size_t>(r) * count;
       double value = of.sign * block[family_->ghost_source[g]];
       for (int k = 0; k < of.term_count; ++k) {
@@ -70,7 +77,7 @@ void MirrorCondition<D, R>::collect(std::span<const double> nodes,
     double* const to = unknowns.data() + static_cast<std::size_t>(r) * points;
     std::copy(from, from + points, to);
     for (Index g = 0; g < family_->ghost_count(); ++g) {
-      const Image of = image(family_->ghost_faces[g], r);
+      const Image& of = image(family_->ghost_faces[g], r);
       to[family_->ghost_source[g]] += of.sign * from[points + g];
       for (int k = 0; k < of.term_count; ++k) {
         faces[of.terms[k].face_value] += of.terms[k].coefficient * from[points + g];

@@ -39,7 +39,9 @@ class MirrorCondition {
     std::array<Term, D + 1> terms{};  // a face an axis, and a sphere
     int term_count = 0;
   };
-  Image image(FaceSet faces, int component) const;
+  const Image& image(FaceSet faces, int component) const {
+    return images_[faces & all_faces][component];
+  }
 
   /// Writes an unknown vector on the nodes: R blocks of node_count, real points and then ghosts.
   void spread(std::span<const double> unknowns, std::vector<double>& nodes) const;
@@ -55,9 +57,14 @@ class MirrorCondition {
   void fill_conjugate(std::vector<double>& nodes) const;
 
  private:
+  static constexpr FaceSet all_faces = (1u << (2 * D)) - 1;
+
+  Image find_image(FaceSet faces, int component) const;
+
   const Family<D>* family_;
   std::array<std::array<int, R>, 2 * D> face_value_;
   int count_ = 0;
+  std::vector<std::array<Image, R>> images_;  ///< by the faces that a ghost was mirrored at
 };
 
 }  // namespace perifrac

@@ -164,7 +164,7 @@ class MomentProjection {
   void set_weights(const Eigen::MatrixXd& multiplier) {
     for_each_point(family_.point_count, [&](Index i) {
       for_exponents(multiplier, i, [&](Index bond, double e) {
-        family_.weight[bond] = plain_[bond] * std::exp(e);
+        family_.weight.set(bond, plain_[bond] * std::exp(e));
       });
     });
   }
@@ -219,9 +219,9 @@ class MomentProjection {
   }
 
   Family<D>& family_;
-  const std::vector<double> plain_;  ///< the weights before
-  double length_;                    ///< bond vectors are measured in it
-  std::vector<Index> number_;        ///< of a complete point, -1 at others
+  const BondWeights plain_;    ///< the weights before
+  double length_;              ///< bond vectors are measured in it
+  std::vector<Index> number_;  ///< of a complete point, -1 at others
   Index complete_count_ = 0;
   double target_ = 0.0;  ///< k
 };

@@ -353,9 +353,9 @@ class LinearExactOperator {
   }
 
   bool touches_odd_face(Index i) const {
-    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+    for (Index bond = family_->first_ghost_bond(i); bond < family_->offset[i + 1]; ++bond) {
       const Index ghost = family_->other[bond] - family_->point_count;
-      for (int r = 0; ghost >= 0 && r < R; ++r) {
+      for (int r = 0; r < R; ++r) {
         if (mirror_.image(family_->ghost_faces[ghost], r).term_count > 0) return true;
       }
     }
@@ -368,11 +368,10 @@ class LinearExactOperator {
     std::ranges::fill(reaction, 0.0);
     const Index points = family_->point_count;
     for (const Index i : face_points_) {
-      for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+      for (Index bond = family_->first_ghost_bond(i); bond < family_->offset[i + 1]; ++bond) {
         const Index j = family_->other[bond];
-        if (j < points) continue;
         for (int r = 0; r < R; ++r) {
-          const auto image = mirror_.image(family_->ghost_faces[j - points], r);
+          const auto& image = mirror_.image(family_->ghost_faces[j - points], r);
           if (image.term_count == 0) continue;
           double force = bond_stiffness_[i] * (field(r)[j] - field(r)[i]);
           for (int b = 0; b < D; ++b) {

@@ -27,7 +27,7 @@ Combination node_unknowns(const Family<D>& family, const MirrorCondition<D, R>& 
     result.add(component * points + node, 1.0);
     return result;
   }
-  const auto image = mirror.image(family.ghost_faces[node - points], component);
+  const auto& image = mirror.image(family.ghost_faces[node - points], component);
   result.add(component * points + family.ghost_source[node - points], image.sign);
   for (int k = 0; k < image.term_count; ++k) {
     result.add(R * points + image.terms[k].face_value, image.terms[k].coefficient);

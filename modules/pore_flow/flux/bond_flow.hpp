@@ -64,11 +64,9 @@ class BondFlow final : public GradientFlow<D, Law> {
     std::ranges::fill(inflow, 0.0);
     const Family<D>& family = this->family();
     for (Index i = 0; i < family.point_count; ++i) {
-      // Bonds are sorted by their other end: ghosts come last.
-      for (Index bond = family.offset[i + 1] - 1; bond >= family.offset[i]; --bond) {
+      for (Index bond = family.first_ghost_bond(i); bond < family.offset[i + 1]; ++bond) {
         const Index j = family.other[bond];
-        if (j < family.point_count) break;
-        const auto image =
+        const auto& image =
             this->operator_.mirror().image(family.ghost_faces[j - family.point_count], 0);
         const double flux =
             family.volume[i] * stiffness_[i] * family.weight[bond] * (pressure_[j] - pressure_[i]);

@@ -26,7 +26,7 @@ class CutBonds {
  private:
   std::uint64_t version_ = 0;
   std::shared_ptr<Family<D>> family_;
-  std::vector<double> intact_weight_;
+  BondWeights intact_weight_;
   std::vector<Index> points_;
 };
 

@@ -110,24 +110,27 @@ double CriticalStretch<D>::left_to_limit(Index i, std::span<const double> u) con
     own[a] = moved[a][i];
   }
   const Index* const other = family_->other.data();
-  const double* const weight = family_->weight.data();
   const Index end = budget_.end_of_real_bonds(i);
   constexpr double whole = std::numeric_limits<double>::infinity();
-  double least = whole;
+  const Index begin = family_->offset[i];
+  const double least = family_->weight.with([&](const auto& weight) {
+    double least = whole;
 #pragma omp simd reduction(min : least)
-  for (Index bond = family_->offset[i]; bond < end; ++bond) {
-    const Index j = other[bond];
-    double now = 0.0, square = 0.0;
-    for (int a = 0; a < D; ++a) {
-      const double xi = position[a][j] - x[a];
-      const double after = xi + moved[a][j] - own[a];
-      now += after * after;
-      square += xi * xi;
+    for (Index bond = begin; bond < end; ++bond) {
+      const Index j = other[bond];
+      double now = 0.0, square = 0.0;
+      for (int a = 0; a < D; ++a) {
+        const double xi = position[a][j] - x[a];
+        const double after = xi + moved[a][j] - own[a];
+        now += after * after;
+        square += xi * xi;
+      }
+      const double left = (most * square - now) / std::sqrt(square);
+      const double counted = ((j > i) & (weight[bond] != 0.0)) ? left : whole;
+      least = counted < least ? counted : least;
     }
-    const double left = (most * square - now) / std::sqrt(square);
-    const double counted = ((j > i) & (weight[bond] != 0.0)) ? left : whole;
-    least = counted < least ? counted : least;
-  }
+    return least;
+  });
   return least / (2.0 * (1.0 + limit_));
 }
 

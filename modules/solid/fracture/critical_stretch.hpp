@@ -57,7 +57,7 @@ class CriticalStretch final : public BodyFracture {
   BondState<D>& bonds_;
   std::vector<CrackFacet<D>> seeds_;
   double limit_;
-  std::vector<double> intact_weight_;   ///< of every bond
+  BondWeights intact_weight_;           ///< of every bond
   std::vector<double> bound_at_start_;  ///< stiffness_bound() after cut_seeds(), by point
   std::vector<double> growth_of_;       ///< by point
   double growth_ = 1.0;

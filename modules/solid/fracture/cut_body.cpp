@@ -17,7 +17,7 @@ void unsilence(Family<D>& family, const Family<D>& whole, Index i, Index j) {
       const Index end = family.other[bond];
       const Index source =
           end < family.point_count ? end : family.ghost_source[end - family.point_count];
-      if (source == to) family.weight[bond] = whole.weight[bond];
+      if (source == to) family.weight.set(bond, whole.weight[bond]);
     }
   }
 }

@@ -41,9 +41,7 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
   }
   for (Index i = 0; i < points; ++i) {
     take_moments(i);
-    const auto bonds =
-        std::span(family_->other).subspan(family_->offset[i], family_->bond_count(i));
-    if (std::ranges::any_of(bonds, [&](Index j) { return j >= points; })) face_points_.push_back(i);
+    if (family_->first_ghost_bond(i) < family_->offset[i + 1]) face_points_.push_back(i);
   }
   for (const FaceSet faces : family_->ghost_faces) {
     Vector<D> sign;
@@ -252,14 +250,13 @@ void LpsElasticity<D>::add_face_reactions(std::span<double> reaction) const {
   const Index points = family_->point_count;
   const std::size_t nodes = family_->node_count();
   for (const Index i : face_points_) {
-    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
+    for (Index bond = family_->first_ghost_bond(i); bond < family_->offset[i + 1]; ++bond) {
       const Index j = family_->other[bond];
-      if (j < points) continue;
       const Vector<D> xi = bond_vector(i, j);
       const double pull =
           volume_state_[i] + bond_stiffness_[i] * dot(xi, difference(i, j)) / squared_norm(xi);
       for (int r = 0; r < D; ++r) {
-        const auto image = mirror_.image(family_->ghost_faces[j - points], r);
+        const auto& image = mirror_.image(family_->ghost_faces[j - points], r);
         if (image.term_count == 0) continue;
         double force = pull * xi[r];
         for (int b = 0; b < D && initially_stressed; ++b) {

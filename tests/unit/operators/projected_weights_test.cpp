@@ -86,7 +86,7 @@ TEST(ProjectedWeights, ArePositiveAndSymmetric) {
 TEST(ProjectedWeights, LeaveALatticeAlone) {
   const auto body = test::box_body<2>({12, 11}, 0.5);
   Family<2> family = *body->family(0b1101);
-  const std::vector<double> plain = family.weight;
+  const BondWeights plain = family.weight;
   const auto done = project_weights<2>(family, body->faces(), 0b1101, body->horizon());
   EXPECT_EQ(done.steps, 0);
   EXPECT_EQ(family.weight, plain);
@@ -95,7 +95,7 @@ TEST(ProjectedWeights, LeaveALatticeAlone) {
 TEST(ProjectedWeights, LeaveABodyWithoutCompletePointsAlone) {
   const auto body = test::irregular_box<2>({4, 4}, 0.5, 1, Volumes::voronoi, Weights::plain);
   Family<2> family = *body->family(0);
-  const std::vector<double> plain = family.weight;
+  const BondWeights plain = family.weight;
   EXPECT_EQ(project_weights<2>(family, body->faces(), 0, body->horizon()).complete_points, 0);
   EXPECT_EQ(family.weight, plain);
 }
