@@ -72,7 +72,7 @@ const KeyTable& coupling_keys() {
            "out: 1, and 100 with fixed_stress in windows whose inputs were not as foretold, or "
            "in all where the modules depend on each other too strongly for one"},
       {.path = "iterations.tolerance",
-       .range = "(0, 1)",
+       .range = "(0, 0.1]",
        .fallback = "1e-4",
        .meaning = "Relative change from pass to pass below which a window is done; it cannot be "
                   "met below the tolerance of the modules' own integrators"},
