@@ -18,7 +18,7 @@ help:
 	@echo 'make install-package  makes the package and installs it'
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 40 minutes)'
 	@echo 'make bench      kernels, timed'
-	@echo 'make benchmarks  kernels beside LAMMPS, growth to ten million points, scenes: docs/benchmarks.md (some 40 minutes, 15 GB)'
+	@echo 'make benchmarks  kernels beside LAMMPS, growth to ten million points, scenes: docs/benchmarks.md (some 20 minutes, 17 GB)'
 	@echo 'make docs       write docs/configuration.md and configs/perifrac.schema.json anew'
 	@echo 'make site       the pages as a site to read and search offline: build/release/site/docs/index.html'
 	@echo 'make tutorials  runs the tutorials and takes their pictures anew'

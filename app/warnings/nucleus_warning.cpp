@@ -37,10 +37,9 @@ std::optional<std::string> nucleus_warning(const Section& scene) {
   const double room = longest_nucleus * std::ranges::min(size);
   if (edge_nucleus * length > room) {
     return fmt::format(
-        "cracks begin {:.2g} m long, as long as an even tension pays for by "
-        "damage.tensile_strength "
-        "and fracture_energy, in a body {:.2g} m wide, where tension is not even over such a "
-        "length: when and where they begin is not known; a strength of {:.2g} Pa at least",
+        "cracks begin {:.2g} m long, which is what damage.tensile_strength and fracture_energy say "
+        "of even tension, in a body {:.2g} m wide, where tension is not even over such a length: "
+        "when and where they begin is not known; a strength of {:.2g} Pa at least",
         edge_nucleus * length, std::ranges::min(size),
         strength * std::sqrt(edge_nucleus * length / room));
   }

@@ -273,8 +273,7 @@ def kernels_part(rows, images):
             "force is all passes over the bonds. In the same run the machine moves "
             f"{machine[0]} GB/s by one thread and {machine[1]} by two, and multiplies and adds {machine[2]} and "
             f"{machine[3]} Gflop/s. A kernel's bound is the lesser of what flops a bond and bytes a point allow, both "
-            "counted in its code; loads from the nearest cache, of which a bond takes about as many as flops, come "
-            "first in fact. LAMMPS is Debian's, a whole step of which next to all is the force.\n\n"
+            "counted in its code; what it loads from caches is not counted. LAMMPS is Debian's, a whole step of which next to all is the force.\n\n"
             f"![Kernels](images/benchmarks_kernels.svg)\n\n{text}\n")
 
 

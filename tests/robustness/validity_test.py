@@ -21,6 +21,11 @@ class Validity(RunTest):
         self.assertEqual(self.summary["warnings"], warned)
         return warned
 
+    def foreknown(self, scene, keys=()):
+        """What `check` warns of."""
+        said = perifrac("check", scene, "--json", "--trial", "0", *settings(dict(keys)))
+        return json.loads(said.stdout)["warnings"]
+
     def assert_warns(self, scene, keys, *words):
         """One warning for each of the words, and no other; what the points are too coarse for is another matter."""
         warned = [warning for warning in self.warnings(scene, keys) if not any(word in warning for word in COARSENESS)]
@@ -41,8 +46,8 @@ class Validity(RunTest):
     def test_a_run_says_what_check_knows(self):
         dry = WELL | {"solid.confining_stress": "[0.1 MPa, 0.1 MPa]"}
         self.assert_warns(CONFIGS / "kgd_mixed.yaml", dry, "no fluid lag", "fluid fills")
-        said = perifrac("check", CONFIGS / "kgd_mixed.yaml", "--json", "--trial", "0", *settings(dry))
-        self.assertEqual(json.loads(said.stdout)["warnings"], self.summary["warnings"][:1])  # the other is of the end
+        known = self.foreknown(CONFIGS / "kgd_mixed.yaml", dry)
+        self.assertEqual(known, self.summary["warnings"][:1])  # the other is of the end
 
     def test_a_table_of_another_fluid_is_not_compared(self):
         for key, value in (("crack_fluid.viscosity", "10 cP"), ("crack_fluid.inlets[0].rate", "2e-4 m^2/s"),
@@ -114,8 +119,7 @@ class Validity(RunTest):
 
     def test_free_fluid_narrower_than_its_horizon(self):
         for scene, warns in (("hf_storage_points.yaml", True), ("notch_points.yaml", False)):
-            said = perifrac("check", CONFIGS / scene, "--json", "--trial", "0")
-            warned = json.loads(said.stdout)["warnings"]
+            warned = self.foreknown(CONFIGS / scene)
             self.assertEqual(any("2.0 points: it takes more" in warning for warning in warned), warns, warned)
 
     def test_leak_off_within_a_spacing(self):
@@ -162,16 +166,12 @@ class Validity(RunTest):
 
     def test_a_crack_across_the_larger_stress(self):
         for across, warns in (("3.8 MPa", True), ("3.6 MPa", False)):
-            said = perifrac("check", CONFIGS / "kgd_toughness.yaml", "--json", "--trial", "0",
-                            "--set", f"solid.confining_stress=[3 MPa, {across}]")
-            warned = json.loads(said.stdout)["warnings"]
+            warned = self.foreknown(CONFIGS / "kgd_toughness.yaml", {"solid.confining_stress": f"[3 MPa, {across}]"})
             self.assertEqual(any("cracks[0] lies across the larger stress" in warning for warning in warned), warns, warned)
 
     def test_cracks_that_begin_as_long_as_the_body(self):
         for strength, warns in (("0.5 MPa", True), ("0.65 MPa", False)):
-            said = perifrac("check", CONFIGS / "three_point_bending.yaml", "--json", "--trial", "0",
-                            "--set", f"damage.tensile_strength={strength}")
-            warned = json.loads(said.stdout)["warnings"]
+            warned = self.foreknown(CONFIGS / "three_point_bending.yaml", {"damage.tensile_strength": strength})
             self.assertEqual(any("when and where they begin is not known" in warning for warning in warned), warns, warned)
 
     def test_a_round_crack_that_fluid_has_hardly_entered(self):
