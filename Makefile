@@ -1,6 +1,6 @@
 # The front door: what a fresh Debian 12 machine needs is installed on the way.
 .DEFAULT_GOAL := help
-.PHONY: help install install-tests configure configure-tests package install-package perifrac build run test test-slow check-style tidy docs site tutorials scenes experiments gallery paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench benchmarks clean
+.PHONY: help install install-tests configure configure-tests package install-package perifrac build run mpi test test-mpi test-slow check-style tidy docs site tutorials scenes experiments gallery paper stability forecast effects instructions study study-quick toughness faults attack fuzz fuzz-many sanitize mutants bench benchmarks clean
 
 FUZZ_SECONDS ?= 60
 FUZZ_INPUTS ?= 10000000
@@ -17,6 +17,8 @@ help:
 	@echo 'make package    a Debian package, and a folder that runs from anywhere (docs/install.md)'
 	@echo 'make install-package  makes the package and installs it'
 	@echo 'make paper      the figures of the paper, its scheme beside ours (some 40 minutes)'
+	@echo 'make mpi        a program that mpirun divides among processes: docs/many_machines.md'
+	@echo 'make test-mpi   its tests'
 	@echo 'make bench      kernels, timed'
 	@echo 'make benchmarks  kernels beside LAMMPS, growth to ten million points, scenes: docs/benchmarks.md (some 20 minutes, 17 GB)'
 	@echo 'make docs       write docs/configuration.md and configs/perifrac.schema.json anew'
@@ -76,6 +78,17 @@ run: perifrac
 
 test: build check-style
 	ctest --preset release --label-exclude slow
+
+# Tests come with it where what they need is there.
+mpi:
+	@tools/install run mpi
+	@cmake --preset mpi -DPERIFRAC_TESTS=$$(tools/install --is-there test && echo ON || echo OFF) --log-level=WARNING > /dev/null
+	@cmake --build build/mpi --target perifrac
+	@echo 'mpirun -n 2 build/mpi/bin/perifrac run $(SCENE)'
+
+test-mpi: install-tests mpi
+	@cmake --build build/mpi --target contract_coupling contract_physics
+	@ctest --test-dir build/mpi --output-on-failure --label-regex ranks
 
 test-slow: build
 	@command -v npm > /dev/null || tools/install editor

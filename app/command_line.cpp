@@ -33,6 +33,7 @@
 #include "app/writing/new_scene.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/names.hpp"
+#include "core/base/ranks.hpp"
 
 namespace perifrac {
 
@@ -239,6 +240,12 @@ std::string picture_file(const Request& request) {
 }
 
 int dispatch(const CLI::App& app, const Request& request) {
+  if (ranks::count() > 1 && !app.got_subcommand("run")) {
+    throw InputError(fmt::format(
+        "perifrac: {} processes were started; expected one, or the verb run, which alone has a use "
+        "for more",
+        ranks::count()));
+  }
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);
   if (app.got_subcommand("check")) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/run/summary.hpp"
+#include "core/base/ranks.hpp"
 #include "core/io/atomic_file.hpp"
 
 namespace perifrac {
@@ -48,12 +49,12 @@ ProgressFile::ProgressFile(std::filesystem::path folder, double begin, double en
 
 ProgressFile::~ProgressFile() {
   std::error_code ignored;
-  std::filesystem::remove(file_, ignored);
+  if (ranks::is_first()) std::filesystem::remove(file_, ignored);
 }
 
 void ProgressFile::update(double time, std::int64_t step) {
   const auto now = steady_clock::now();
-  if (now < next_) return;
+  if (!ranks::first_says(now >= next_)) return;
   const double wall = duration<double>(now - start_).count();
   time_left_.record(wall, time);
   nlohmann::json state = state_();
@@ -64,7 +65,7 @@ void ProgressFile::update(double time, std::int64_t step) {
               {"step", step},       {"process", getpid()}, {"process_start", process_start()},
               {"host", host_name()}};
   if (const auto left = time_left_.until(end_)) progress["left"] = *left;
-  replace_at_once(file_, json_text(state));
+  if (ranks::is_first()) replace_at_once(file_, json_text(state));
   // However large the scene and slow the disk, a hundredth of the time is enough.
   const auto taken = steady_clock::now() - now;
   next_ = now + std::max<steady_clock::duration>(std::chrono::seconds(1), 100 * taken);

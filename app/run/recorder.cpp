@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "app/references/reference_types.hpp"
 #include "app/run/frame_geometry.hpp"
 #include "app/run/version.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/ranks.hpp"
 #include "core/profile/profile.hpp"
 #include "core/state/finite_check.hpp"
 
@@ -62,32 +65,36 @@ void Recorder::restore(const Checkpoint& checkpoint) {
   restart_point();
 }
 
-void Recorder::open(const OutputFolder& folder, const std::optional<Checkpoint>& restart) {
-  folder_ = folder.path();
-  if (restart) {
-    // Before rows and frames are cut back: checkpoints beyond them, and the summary, must not stay.
-    write_checkpoint(false);
-    std::filesystem::remove(folder_ / "summary.json");
-  }
-  const Stopwatch watch(seconds_);
+void Recorder::open(const std::filesystem::path& folder, const std::optional<Checkpoint>& restart) {
+  folder_ = folder;
+  if (restart) last_frame_ = restart->time;
   std::vector<HistoryColumn> columns = probes_.columns();
   for (const LedgerColumn& column : simulation_.manager->ledger().columns()) {
     columns.push_back({column.name, column.unit});
   }
-  history_.emplace(folder_ / "history.csv", columns,
-                   restart ? std::optional(restart->step) : std::nullopt);
+  std::set<std::string> point_sets;
   for (const Field& field : fields_of(*simulation_.manager)) {
-    const PointSet& points = field.points();
-    if (points.dimension == 0 || frames_.contains(points.name)) continue;
-    frames_.emplace(
-        points.name,
-        FrameSeries(folder_, points.name, restart ? std::optional(restart->time) : std::nullopt));
+    if (field.points().dimension > 0) point_sets.insert(field.points().name);
   }
+  ranks::on_first([&] {
+    if (restart) {
+      // Before rows and frames are cut back: checkpoints beyond them, and the summary, must not
+      // stay.
+      write_last_checkpoint(false);
+      std::filesystem::remove(folder_ / "summary.json");
+    }
+    const Stopwatch watch(seconds_);
+    history_.emplace(folder_ / "history.csv", columns,
+                     restart ? std::optional(restart->step) : std::nullopt);
+    for (const std::string& name : point_sets) {
+      frames_.emplace(name, FrameSeries(folder_, name, last_frame_));
+    }
+  });
 }
 
 void Recorder::record_window() {
   const double time = simulation_.manager->time();
-  if (!history_ || time < next_row_) return;
+  if (folder_.empty() || time < next_row_) return;
   const Stopwatch watch(seconds_);
   const ProfilePart profiled("history");
   // Rows keep to multiples of the interval, whatever the windows.
@@ -99,7 +106,7 @@ void Recorder::record_window() {
   for (const LedgerColumn& column : simulation_.manager->ledger().columns()) {
     row.push_back(column.value);
   }
-  history_->append(time, simulation_.manager->step(), row);
+  ranks::on_first([&] { history_->append(time, simulation_.manager->step(), row); });
   if (reference_) reference_->record_history(time);
 }
 
@@ -113,29 +120,40 @@ void Recorder::record_output() {
 
 void Recorder::record_failure() {
   const double time = simulation_.manager->time();
-  const auto is_there = [&](const auto& series) { return series.second.last_time() == time; };
-  if (std::ranges::all_of(frames_, is_there)) return;
+  if (folder_.empty() || last_frame_ == time) return;
   const Stopwatch watch(seconds_);
   write_frames(time);
 }
 
 void Recorder::check_kept() const {
-  if (history_) history_->check_kept();
-  for (const auto& [name, series] : frames_) series.check_kept();
+  ranks::on_first([&] {
+    if (history_) history_->check_kept();
+    for (const auto& [name, series] : frames_) series.check_kept();
+  });
 }
 
 void Recorder::write_frames(double time) {
-  const std::vector<Field> fields = fields_of(*simulation_.manager);
-  for (auto& [name, series] : frames_) {
-    std::vector<FrameField> shown;
+  if (folder_.empty()) return;
+  struct Frame {
     const PointSet* points = nullptr;
-    for (const Field& field : fields) {
-      if (field.points().name != name) continue;
-      points = &field.points();
-      shown.push_back({field.port.name, field.port.unit, field.port.components, field.values()});
-    }
-    series.write(time, *points, shown, frame_geometry(simulation_.body, *points));
+    std::vector<FrameField> fields;
+  };
+  std::map<std::string, Frame> frames;
+  for (const Field& field : fields_of(*simulation_.manager)) {
+    if (field.points().dimension == 0) continue;
+    Frame& frame = frames[field.points().name];
+    frame.points = &field.points();
+    frame.fields.push_back(
+        {field.port.name, field.port.unit, field.port.components, field.values()});
   }
+  last_frame_ = time;
+  ranks::on_first([&] {
+    for (auto& [name, series] : frames_) {
+      const Frame& frame = frames.at(name);
+      series.write(time, *frame.points, frame.fields,
+                   frame_geometry(simulation_.body, *frame.points));
+    }
+  });
 }
 
 void Recorder::check_mass() const {
@@ -155,11 +173,24 @@ void Recorder::restart_point() {
   last_->time = manager.time();
   last_->step = manager.step();
   last_->state.save([this](StateVisitor& visitor) { walk(visitor); });
+  check_agreement();
   manager.restart_point();
 }
 
+/// What processes compute has the same bits only where they have the same instructions.
+void Recorder::check_agreement() const {
+  if (ranks::count() == 1 || ranks::agree(last_->state.digest())) return;
+  throw FinalError("state", "the processes", last_->time,
+                   "processes hold different states; expected machines with the same processor");
+}
+
 void Recorder::write_checkpoint(bool if_due) {
-  if (folder_.empty() || !last_ || last_->step == step_on_disk_) return;
+  if (folder_.empty() || !last_) return;
+  ranks::on_first([&] { write_last_checkpoint(if_due); });
+}
+
+void Recorder::write_last_checkpoint(bool if_due) {
+  if (last_->step == step_on_disk_) return;
   const double now = wall_clock();
   if (if_due && step_on_disk_ >= 0 && now - disk_time_ < checkpoint_interval_) return;
   const Stopwatch watch(seconds_);

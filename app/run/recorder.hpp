@@ -15,7 +15,6 @@
 #include "core/io/checkpoint.hpp"
 #include "core/io/frames.hpp"
 #include "core/io/history.hpp"
-#include "core/io/output_folder.hpp"
 #include "core/state/snapshot.hpp"
 
 namespace perifrac {
@@ -30,8 +29,9 @@ class Recorder {
 
   /// Puts back what a checkpoint holds; the manager must be initialised.
   void restore(const Checkpoint& checkpoint);
-  /// Begins to write. `restart` is what the run goes on from: what lies beyond it is removed.
-  void open(const OutputFolder& folder, const std::optional<Checkpoint>& restart);
+  /// Begins to write into a folder that an OutputFolder of the first process holds. `restart` is
+  /// what the run goes on from: what lies beyond it is removed.
+  void open(const std::filesystem::path& folder, const std::optional<Checkpoint>& restart);
 
   void record_window();  ///< a row of history.csv and of the comparison, when one is due
   void record_output();  ///< a frame and a comparison
@@ -61,6 +61,8 @@ class Recorder {
  private:
   void walk(StateVisitor& visitor);
   void write_frames(double time);
+  void write_last_checkpoint(bool if_due);
+  void check_agreement() const;
 
   Simulation& simulation_;
   std::string scene_text_;
@@ -73,9 +75,12 @@ class Recorder {
 
   double seconds_ = 0.0;
   std::filesystem::path folder_;
+  std::optional<double> last_frame_;  ///< of which time [s]
+  std::optional<Checkpoint> last_;    ///< the last restart point
+
+  // Of the first process, which alone writes.
   std::optional<History> history_;
   std::map<std::string, FrameSeries> frames_;  ///< by point set
-  std::optional<Checkpoint> last_;             ///< the last restart point
   std::int64_t step_on_disk_ = -1;
   double disk_time_ = 0.0;  ///< wall time of the last checkpoint [s]
 };

@@ -24,6 +24,7 @@
 #include "app/simulation/simulation.hpp"
 #include "app/warnings/scene_warnings.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/ranks.hpp"
 #include "core/config/mistakes.hpp"
 #include "core/config/scene.hpp"
 #include "core/config/units.hpp"
@@ -117,7 +118,8 @@ int advance_to_end(const Simulation& simulation, SceneRun& run, ProgressFile& fi
   file.update(manager.time(), manager.step());
   const auto words = live_words(manager);
   while (!run.is_done()) {
-    if (const int signal = received_signal()) return signal;
+    const auto signal = static_cast<int>(ranks::largest(received_signal()));
+    if (signal != 0) return signal;
     run.advance();
     run.write_checkpoint(!checkpoint_requested());
     progress.update(manager.time(), manager.step(), words);
@@ -158,12 +160,12 @@ struct Ending {
 
 /// Writes the summary, and says and draws what there is.
 void conclude(const RunRequest& request, Simulation& simulation, const SceneRun& run,
-              const OutputFolder& folder, const Ending& ending) {
+              const std::filesystem::path& folder, const Ending& ending) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - ending.begin).count();
   nlohmann::json summary = run.summary(request.scene, ending.end, seconds);
   if (ending.profile) summary["profile"] = profile_json(*ending.profile, simulation);
-  write_summary(folder.path(), summary);
+  ranks::on_first([&] { write_summary(folder, summary); });
   if (request.json) {
     fmt::print("{}", json_text(summary));
   } else {
@@ -174,8 +176,8 @@ void conclude(const RunRequest& request, Simulation& simulation, const SceneRun&
   }
   std::fflush(stdout);
   if (ending.profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
-  if (request.report && ending.end.outcome != RunOutcome::stopped &&
-      make_report(folder.path(), request.json) != 0) {
+  if (!ranks::is_first() || !request.report || ending.end.outcome == RunOutcome::stopped) return;
+  if (make_report(folder, request.json) != 0) {
     log_warning("no report was made of the results; `perifrac report` tries again");
   }
 }
@@ -204,19 +206,24 @@ int run_scene(const RunRequest& request) {
   SceneRun run(scene, text, simulation, outputs);
   const std::optional<Checkpoint> restart = read_restart(request, text, simulation.end);
   if (restart) refuse_other_results(request, folder_of(request));
-  const OutputFolder folder(folder_of(request), request.overwrite);
-  if (!restart) replace_earlier_results(folder);
+  ranks::wait_for_all();  // what there is has been read
+  const std::filesystem::path folder = folder_of(request);
+  std::optional<OutputFolder> held;
+  ranks::on_first([&] {
+    held.emplace(folder, request.overwrite);
+    if (!restart) replace_earlier_results(*held);
+  });
   if (!request.json) fmt::print("{}\n", fmt::join(what_was_read(scene, simulation), "\n"));
   for (const std::string& warning : warnings) log_warning(warning);
   std::optional<Watcher> watcher;
-  if (request.watch) watcher.emplace(folder.path());
+  if (request.watch && ranks::is_first()) watcher.emplace(folder);
   std::optional<ProgressFile> progress;
 
   int signal = 0;
   const RunEnd end = go(
       [&] {
-        run.start(&folder, restart);
-        progress.emplace(folder.path(), simulation.manager->time(), simulation.end, [&] {
+        run.start(folder, restart);
+        progress.emplace(folder, simulation.manager->time(), simulation.end, [&] {
           return summarize(scene, request.scene, text, simulation, nullptr, {},
                            {.whole = 0.0, .output = run.recorder().seconds()});
         });

@@ -52,17 +52,18 @@ SceneRun::SceneRun(const Section& scene, std::string text, Simulation& simulatio
       recorder_(scene, text_, simulation),
       watch_(scene, simulation) {}
 
-void SceneRun::start(const OutputFolder* folder, const std::optional<Checkpoint>& restart) {
+void SceneRun::start(const std::filesystem::path& folder,
+                     const std::optional<Checkpoint>& restart) {
   CouplingManager& manager = *simulation_.manager;
   log_all(manager.warnings());
   if (restart) {
     recorder_.restore(*restart);
-    if (folder) recorder_.open(*folder, restart);
+    if (!folder.empty()) recorder_.open(folder, restart);
     return;
   }
   log_if_any(start_warning(scene_, simulation_, manager.settle()));
   recorder_.check_finite();
-  if (folder) recorder_.open(*folder, restart);
+  if (!folder.empty()) recorder_.open(folder, restart);
   recorder_.record_window();
   recorder_.record_output();
   recorder_.restart_point();

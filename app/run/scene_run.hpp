@@ -12,7 +12,6 @@
 #include "app/simulation/simulation.hpp"
 #include "app/warnings/validity_watch.hpp"
 #include "core/config/section.hpp"
-#include "core/io/output_folder.hpp"
 
 namespace perifrac {
 
@@ -27,7 +26,7 @@ class SceneRun {
            std::vector<double> outputs);
 
   /// From t = 0, or from where a checkpoint stands. Without a folder nothing is written at all.
-  void start(const OutputFolder* folder, const std::optional<Checkpoint>& restart = {});
+  void start(const std::filesystem::path& folder, const std::optional<Checkpoint>& restart = {});
 
   /// One window, not past the next output nor `stop` [s], and what is due after it: rows, frames,
   /// checks, restart points. A `stop` of one's own makes other windows. Throws NumericalError,

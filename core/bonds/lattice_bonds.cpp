@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/require.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_lengths.hpp"
 
@@ -219,6 +220,25 @@ void LatticeBonds<D>::find_packets() {
     if (point_[cell] < 0) continue;
     packets_.push_back(cell);
     cell += packet_size - 1;
+  }
+  const auto packets = static_cast<Index>(packets_.size());
+  own_ = ranks::share(packets, packets * packet_size);
+  if (!ranks::divides(packets * packet_size)) return;
+  for (const Index k : ranks::bounds(packets)) {
+    first_cells_.push_back(k < packets ? packets_[k] : packets_.back() + packet_size);
+  }
+}
+
+template <int D>
+void LatticeBonds<D>::gather_points(std::span<double> values, Index point_count) {
+  if (first_cells_.empty()) return;
+  require(std::ssize(values) % point_count == 0, "whole blocks of points");
+  gathered_.resize(cell_count_);
+  for (std::size_t begin = 0; begin < values.size(); begin += point_count) {
+    double* const block = values.data() + begin;
+    for_each_packet([&](Index c) { store(&gathered_[c], value_at(block, points(c))); });
+    gather_cells(gathered_);
+    for_each_point(point_count, [&](Index i) { block[i] = gathered_[cell_of_[i]]; });
   }
 }
 

@@ -50,14 +50,21 @@ class LatticeBonds {
   /// Of a node of the family.
   Index cell_of(Index node) const { return cell_of_[node]; }
 
-  /// Calls use(c) for every packet of cells c, c + 1, ... that holds points, in parallel; points(c)
-  /// says which.
+  /// Calls use(c) for every packet of cells c, c + 1, ... that holds points, in parallel and
+  /// divided among processes; points(c) says which. What it writes must be gathered before it is
+  /// read.
   template <class Use>
   void for_each_packet(Use&& use) const {
-    const auto packets = static_cast<Index>(packets_.size());
+    const Index packets = own_.end - own_.begin;
 #pragma omp parallel for schedule(static) if (packets * packet_size >= points_worth_threads)
-    for (Index k = 0; k < packets; ++k) use(packets_[k]);
+    for (Index k = own_.begin; k < own_.end; ++k) use(packets_[k]);
   }
+  /// Every process gets the cells that for_each_packet() of others wrote.
+  void gather_cells(std::vector<double>& cells) const {
+    if (!first_cells_.empty()) ranks::gather(cells, first_cells_);
+  }
+  /// The same of blocks of point_count values, as set_value() writes them.
+  void gather_points(std::span<double> values, Index point_count);
   /// The real points in a packet of cells.
   PointPacket points(Index cell) const { return {&point_[cell]}; }
 
@@ -136,6 +143,9 @@ class LatticeBonds {
   std::vector<Index> point_;           ///< by cell
   std::vector<Index> cell_of_;         ///< by node
   std::vector<Index> packets_;         ///< first cells
+  ranks::Share own_{};                 ///< of the packets
+  std::vector<Index> first_cells_;     ///< of the share of each process, and one past the last
+  std::vector<double> gathered_;       ///< workspace: cells
   Index cell_count_ = 0;
 };
 

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/ranks.hpp"
+
 namespace perifrac {
 namespace {
 
@@ -74,19 +76,16 @@ Progress::Progress(double begin, double end)
 Progress::~Progress() { clear_progress_line(); }
 
 void Progress::update(double time, std::int64_t windows, const std::function<std::string()>& more) {
-  if (!shown_) {
-    return;
-  }
   const auto now = steady_clock::now();
-  if (now < next_) {
-    return;
-  }
+  if (!ranks::first_says(shown_ && now >= next_)) return;
+  const std::string also = more ? more() : "";
+  if (!shown_) return;
   next_ = now + std::chrono::milliseconds(200);
   time_left_.record(duration<double>(now - start_).count(), time);
   const double part = end_ > begin_ ? (time - begin_) / (end_ - begin_) : 1.0;
   std::string line = fmt::format("{:3.0f} %   t = {:.4g} s of {:.4g} s   {} windows",
                                  std::floor(100.0 * part), time, end_, windows);
-  if (more) line += more();
+  line += also;
   if (const auto left = time_left_.until(end_)) {
     line += fmt::format("   {} left", wall_time(*left));
   }

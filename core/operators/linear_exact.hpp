@@ -204,27 +204,32 @@ class LinearExactOperator {
 
   /// The same with the stress that add(i, gradient, stress) makes of the law's at every point; not
   /// for curved ghosts. Where bonds lie on a lattice i is a PointPacket and the others are packets,
-  /// unless add takes none.
+  /// unless add takes none. `written`: what add writes at its points, blocks of point_count.
   template <class AddStress>
-  void apply(std::span<const double> u, std::span<double> result, AddStress&& add) {
+  void apply(std::span<const double> u, std::span<double> result, AddStress&& add,
+             std::span<double> written = {}) {
     assert(static_cast<Index>(u.size()) == size() && u.size() == result.size());
     if (matrix_) throw std::logic_error("an added stress beside curved ghosts");
     mirror_.spread(u, field_);
     if constexpr (PacketLaw<Law, D> &&
                   std::invocable<AddStress, PointPacket, const Packets&, Packets&>) {
       if (lattice_) {
-        lattice_->apply(law_, add, mirror_, field_, state_, result);
+        lattice_->apply(law_, add, mirror_, field_, state_, result.first(point_unknowns()),
+                        written);
         add_face_reactions(result.subspan(point_unknowns()));
         return;
       }
     }
-    for_each_point(family_->point_count, [&](Index i) { store_state(i, add); });
-    mirror_.fill_conjugate(state_);
     const Index points = family_->point_count;
-    for_each_point(points, [&](Index i) {
+    for_each_shared_point(points, [&](Index i) { store_state(i, add); });
+    for (int k = 0; k < R * D; ++k) ranks::gather_shares({state(k), state(k) + points}, points);
+    ranks::gather_shares(written, points);
+    mirror_.fill_conjugate(state_);
+    for_each_shared_point(points, [&](Index i) {
       const std::array<double, R> force = bond_forces(i);
       for (int r = 0; r < R; ++r) result[static_cast<std::size_t>(r) * points + i] = -force[r];
     });
+    ranks::gather_shares(result.first(point_unknowns()), points);
     add_face_reactions(result.subspan(point_unknowns()));
   }
 
@@ -251,10 +256,11 @@ class LinearExactOperator {
       if (lattice_) return lattice_->gradient(field_, result);
     }
     const Index points = family_->point_count;
-    for_each_point(points, [&](Index i) {
+    for_each_shared_point(points, [&](Index i) {
       const Tensor<R, D> f = gradient_at(i);
       for (int k = 0; k < R * D; ++k) result[static_cast<std::size_t>(k) * points + i] = f[k];
     });
+    ranks::gather_shares(result, points);
   }
 
   /// A as a sparse matrix, both halves.

@@ -51,15 +51,18 @@ class LinearExactLattice {
 
   /// Force -dE/du on the real points, R blocks, from the field on all nodes, with the stress that
   /// add(points, gradient, stress) makes of the law's; writes `state` on ghosts, their sources and
-  /// the face points.
+  /// the face points. `written`: what add writes, blocks of real points.
   template <class Law, class AddStress>
   void apply(const Law& law, AddStress&& add, const MirrorCondition<D, R>& mirror,
-             const std::vector<double>& field, std::vector<double>& state,
-             std::span<double> result) {
+             const std::vector<double>& field, std::vector<double>& state, std::span<double> result,
+             std::span<double> written) {
     spread(field);
     bonds_.for_each_packet([&](Index c) { store_state(law, add, c); });
+    for (std::vector<double>& cells : state_) bonds_.gather_cells(cells);
+    bonds_.gather_points(written, points_);
     fill_ghosts(mirror, state);
     bonds_.for_each_packet([&](Index c) { store_force(c, result); });
+    bonds_.gather_points(result, points_);
   }
 
   /// The gradient of the field, R * D blocks of real points.
@@ -71,6 +74,7 @@ class LinearExactLattice {
         set_value(result.data() + static_cast<std::size_t>(k) * points_, bonds_.points(c), f[k]);
       }
     });
+    bonds_.gather_points(result, points_);
   }
 
  private:

@@ -1,5 +1,6 @@
 #include "core/state/snapshot.hpp"
 
+#include <bit>
 #include <set>
 #include <stdexcept>
 
@@ -89,6 +90,21 @@ void Snapshot::restore(const StateWalk& walk) const {
       throw std::logic_error("state field '" + name + "' was saved but is not visited");
     }
   }
+}
+
+std::int64_t Snapshot::digest() const {
+  std::uint64_t hash = 0;
+  const auto add = [&](std::uint64_t word) {
+    hash = std::rotl(hash ^ word, 29) * 0x9e3779b97f4a7c15;  // an odd number without a pattern
+  };
+  for (const auto& [name, values] : fields_) {
+    std::visit(
+        [&](const auto& array) {
+          for (const auto value : array) add(std::bit_cast<std::uint64_t>(value));
+        },
+        values);
+  }
+  return static_cast<std::int64_t>(hash >> 1);  // whose negative is one too
 }
 
 }  // namespace perifrac

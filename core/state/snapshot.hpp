@@ -35,6 +35,9 @@ class Snapshot {
 
   const Fields& fields() const { return fields_; }
 
+  /// A number that another state all but never has.
+  std::int64_t digest() const;
+
  private:
   Fields fields_;
 };

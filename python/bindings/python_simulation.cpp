@@ -82,7 +82,7 @@ void PythonSimulation::build(const Section& scene) {
     folder_->remove_earlier_results();
   }
   for (const std::string& warning : warnings) log_warning(warning);
-  run_->start(folder_.get());
+  run_->start(folder_ ? folder_->path() : std::filesystem::path());
 }
 
 /// A path that no module took up would change nothing without a word.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/run/scene_run.hpp"
+#include "core/io/output_folder.hpp"
 #include "python/bindings/given_inputs.hpp"
 #include "python/bindings/python_scene.hpp"
 

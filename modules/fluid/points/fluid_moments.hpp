@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "core/base/ranks.hpp"
 #include "core/geometry/neighbour_traversal.hpp"
 #include "modules/fluid/points/fluid_points.hpp"
 
@@ -25,6 +26,16 @@ struct FluidMoments {
     divergence.resize(count);
     diffusion.resize(count);
     for (auto& values : crowding) values.resize(count);
+  }
+
+  /// Of a loop that was divided among processes.
+  void gather() {
+    const auto count = static_cast<Index>(divergence.size());
+    for (auto& values : inverse_shape) ranks::gather_shares(values, count);
+    ranks::gather_shares(trace, count);
+    ranks::gather_shares(divergence, count);
+    ranks::gather_shares(diffusion, count);
+    for (auto& values : crowding) ranks::gather_shares(values, count);
   }
 
   /// tr M of an endless lattice: what a point inside the fluid has, and every wall point is given.

@@ -72,7 +72,7 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
                   FluidMoments<D>& moments) {
   const double bulk = moments.bulk_trace / D;
   moments.resize(points.count);
-  for_each_point(points.count, [&](Index i) {
+  for_each_shared_point(points.count, [&](Index i) {
     const Vector<D> x = points.at(i);
     Vector<D> v;
     for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
@@ -112,6 +112,7 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
     for (int k = 0; k < symmetric_size<D>; ++k) moments.inverse_shape[k][i] = inverted[k];
     for (int a = 0; a < D; ++a) moments.crowding[a][i] = sum[Sums<D>::bonds + a] / bulk;
   });
+  moments.gather();
 }
 
 template void find_moments<2>(const FluidPoints<2>&, const NearWalls<2>&, const FluidNeighbours<2>&,

@@ -16,7 +16,7 @@ void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influen
                        step.fluid.sound_speed() * step.scheme.spacing;
   const double viscosity = 4.0 * D * std::max(step.fluid.viscosity, least);
   for (auto& values : force) values.resize(points.count);
-  for_each_point(points.count, [&](Index i) {
+  for_each_shared_point(points.count, [&](Index i) {
     std::array<double, symmetric_size<D>> own;
     for (int k = 0; k < symmetric_size<D>; ++k) own[k] = step.stress[k][i];
     const Vector<D> v = vector_at(points.velocity, i);
@@ -41,6 +41,7 @@ void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influen
         });
     set_at(force, i, points.volume[i] * sum);
   });
+  for (auto& values : force) ranks::gather_shares(values, points.count);
 }
 
 template void find_pair_forces<2>(const FluidStep<2>&, const GaussianInfluence&,

@@ -66,7 +66,7 @@ void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& 
                               const WendlandInfluence& influence, FluidMoments<D>& moments) {
   const double bulk = moments.bulk_trace / D;
   for (auto& values : slope_) values.resize(points.count);
-  for_each_point(points.count, [&](Index i) {
+  for_each_shared_point(points.count, [&](Index i) {
     const Vector<D> x = points.at(i), v = vector_at(points.velocity, i);
     const double density = points.density[i];
     auto sum = sum_over_neighbours<DensitySums<D>::size, D>(
@@ -105,6 +105,7 @@ void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& 
       moments.crowding[a][i] = sum[DensitySums<D>::bonds + a] / bulk;
     }
   });
+  for (auto& values : slope_) ranks::gather_shares(values, points.count);
 }
 
 template <int D>
@@ -112,7 +113,7 @@ void SphMoments<D>::find_diffusion(const FluidPoints<D>& points,
                                    const FluidNeighbours<D>& neighbours,
                                    const WendlandInfluence& influence, FluidMoments<D>& moments) {
   for (auto& values : slope_) neighbours.images().copy(values, points.count);
-  for_each_point(points.count, [&](Index i) {
+  for_each_shared_point(points.count, [&](Index i) {
     const double density = points.density[i];
     const Vector<D> slope = vector_at(slope_, i);
     const auto sum = sum_over_neighbours<1, D>(
@@ -135,6 +136,7 @@ void SphMoments<D>::find(const FluidPoints<D>& points, const NearWalls<D>& walls
   moments.resize(points.count);
   find_sums(points, walls, neighbours, influence, moments);
   find_diffusion(points, neighbours, influence, moments);
+  moments.gather();
 }
 
 template class SphMoments<2>;

@@ -16,7 +16,7 @@ void find_sph_forces(const FluidStep<D>& step, const WendlandInfluence& influenc
                        step.fluid.sound_speed() * step.scheme.spacing;
   const double drag = 2.0 * std::max(step.fluid.viscosity, least);
   for (auto& values : force) values.resize(points.count);
-  for_each_point(points.count, [&](Index i) {
+  for_each_shared_point(points.count, [&](Index i) {
     const double pressure = points.pressure[i];
     const Vector<D> v = vector_at(points.velocity, i);
     const auto sum = sum_over_neighbours<D, D>(
@@ -32,6 +32,7 @@ void find_sph_forces(const FluidStep<D>& step, const WendlandInfluence& influenc
         });
     set_at(force, i, points.volume[i] / bulk * sum);
   });
+  for (auto& values : force) ranks::gather_shares(values, points.count);
 }
 
 template void find_sph_forces<2>(const FluidStep<2>&, const WendlandInfluence&,

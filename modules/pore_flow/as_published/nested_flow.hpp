@@ -35,7 +35,7 @@ class NestedFlow final : public GradientFlow<D, Law> {
     }
     this->operator_.mirror().fill_conjugate(nodes_);
     const double* const q = nodes_.data();
-    for_each_point(points, [&](Index i) {
+    for_each_shared_point(points, [&](Index i) {
       const auto moment =
           sum_over_bonds<D * D>(family, i, [=](Index j, const Vector<D>& xi, double w) {
             std::array<double, D * D> t;
@@ -51,6 +51,7 @@ class NestedFlow final : public GradientFlow<D, Law> {
       }
       outflow[i] = family.volume[i] * divergence;
     });
+    ranks::gather_shares(outflow.first(points), points);
     const Eigen::VectorXd inflow = face_gradient_.transpose() *
                                    Eigen::Map<const Eigen::VectorXd>(velocity_.data(), D * points);
     for (Index f = 0; f < inflow.size(); ++f) outflow[points + f] = -inflow[f];

@@ -38,12 +38,13 @@ class BondFlow final : public GradientFlow<D, Law> {
     this->operator_.mirror().fill(pressure_, p.data() + points);
     const double* const value = pressure_.data();
     const double* const stiffness = stiffness_.data();
-    for_each_point(points, [&](Index i) {
+    for_each_shared_point(points, [&](Index i) {
       const auto sum = sum_over_bonds<1>(family, i, [=](Index j, const Vector<D>&, double w) {
         return std::array{w * (stiffness[i] + stiffness[j]) * (value[i] - value[j])};
       });
       outflow[i] = family.volume[i] * sum[0];
     });
+    ranks::gather_shares(outflow.first(points), points);
     add_face_inflow(outflow.subspan(points));
   }
 

@@ -97,14 +97,15 @@ class CorotationalElasticity final : public LinearExactElasticity<D, Law> {
   template <class PoreStressAt>
   void apply_with(std::span<const double> u, std::span<double> force, std::span<double> dilatation,
                   PoreStressAt&& pore_stress) {
-    operator_.apply(u, force, [&](auto i, const auto& gradient, auto& stress) {
+    const auto add = [&](auto i, const auto& gradient, auto& stress) {
       const auto at = turned(gradient);
       const auto theta = trace(at.strain);
       if (!dilatation.empty()) set_value(dilatation.data(), i, theta);
       auto unturned = perifrac::stress_at(operator_.law(), i, at.strain);
       add_to_diagonal(unturned, -pore_stress(i, theta));
       stress = product<D>(at.rotation, unturned);
-    });
+    };
+    operator_.apply(u, force, add, dilatation);
   }
 
   std::vector<Thin> turning_;       ///< in the order of their points

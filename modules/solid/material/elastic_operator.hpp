@@ -84,8 +84,8 @@ class ElasticOperator {
   /// Inner force at u = 0 [N]: that of the initial stress. What lies behind the faces of the intact
   /// body bears it, so that a solid counts it, once, among its external forces.
   std::vector<double> initial_force() {
-    std::vector<double> rest(size(), 0.0), force(size()), dilatation(size());
-    apply(rest, {}, force, dilatation);
+    std::vector<double> rest(size(), 0.0), force(size());
+    apply(rest, {}, force, {});
     return force;
   }
 

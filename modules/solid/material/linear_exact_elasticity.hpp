@@ -165,12 +165,13 @@ class LinearExactElasticity : public BreakableElasticity<D> {
   template <class PoreStressAt, class AddInitial>
   void apply_with(std::span<const double> u, std::span<double> force, std::span<double> dilatation,
                   PoreStressAt&& pore_stress, AddInitial&& add_initial) {
-    operator_.apply(u, force, [&](auto i, const auto& gradient, auto& stress) {
+    const auto add = [&](auto i, const auto& gradient, auto& stress) {
       const auto theta = trace(gradient);
       if (!dilatation.empty()) set_value(dilatation.data(), i, theta);
       add_to_diagonal(stress, -pore_stress(i, theta));
       add_initial(stress);
-    });
+    };
+    operator_.apply(u, force, add, dilatation);
     for (const ThinPoint& thin : thin_points_) add_force(thin.stiffness, u, force);
   }
 

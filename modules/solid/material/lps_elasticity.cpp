@@ -136,13 +136,14 @@ void LpsElasticity<D>::find_forces(std::span<double> force, std::span<double> di
   if (lattice_ && initially_stressed == initial_stress_.has_value()) {
     lattice_->apply(
         field_, [&](auto i, const auto& theta) { return pore_sign_ * pore_stress(i, theta); },
-        dilatation, volume_state_, force);
+        dilatation, volume_state_, force.first(static_cast<std::size_t>(D) * points));
   } else {
     store_state(dilatation, pore_stress);
-    for_each_point(points, [&](Index i) {
+    for_each_shared_point(points, [&](Index i) {
       const Vector<D> f = bond_forces<initially_stressed>(i);
       set_at(force, points, i, -f);
     });
+    ranks::gather_shares(force.first(static_cast<std::size_t>(D) * points), points);
   }
   for_each_point(static_cast<Index>(face_points_.size()), [&](Index k) {
     const Index i = face_points_[k];
@@ -154,12 +155,15 @@ void LpsElasticity<D>::find_forces(std::span<double> force, std::span<double> di
 template <int D>
 template <class PoreStressAt>
 void LpsElasticity<D>::store_state(std::span<double> dilatation, PoreStressAt&& pore_stress) {
-  for_each_point(family_->point_count, [&](Index i) {
+  const Index points = family_->point_count;
+  for_each_shared_point(points, [&](Index i) {
     const double theta = dilatation_at(i);
     if (!dilatation.empty()) dilatation[i] = theta;
     volume_state_[i] = dilatation_scale_[i] *
                        (dilatation_stiffness(i) * theta - pore_sign_ * pore_stress(i, theta));
   });
+  ranks::gather_shares(dilatation, points);
+  ranks::gather_shares(std::span(volume_state_).first(points), points);
 }
 
 template <int D>

@@ -73,6 +73,9 @@ class LpsLattice {
       store(&state_[c], state);
       set_value(volume_state.data(), points, state);
     });
+    bonds_.gather_cells(state_);
+    bonds_.gather_points(volume_state.first(points_), points_);
+    bonds_.gather_points(dilatation, points_);
     bonds_.for_each_packet([&](Index c) {
       const PacketVector<D> f = initial_.empty() ? force_at<false>(c) : force_at<true>(c);
       const Packet volume = load(&volume_[c]);
@@ -81,6 +84,7 @@ class LpsLattice {
                   -volume * f[r]);
       }
     });
+    bonds_.gather_points(force, points_);
   }
 
  private:

@@ -90,6 +90,22 @@ TEST(Snapshot, ForgetsFieldsThatAreNoLongerShown) {
   EXPECT_NO_THROW(snapshot.restore(ids_only));
 }
 
+TEST(Snapshot, HasADigestThatFollowsEveryBit) {
+  State state;
+  Snapshot snapshot;
+  snapshot.save(state.walk());
+  const std::int64_t before = snapshot.digest();
+  snapshot.save(state.walk());
+  EXPECT_EQ(snapshot.digest(), before);
+  state.pressure[1] = 0.0;
+  snapshot.save(state.walk());
+  EXPECT_NE(snapshot.digest(), before);
+  state.pressure[1] = -0.0;
+  std::swap(state.pressure[0], state.pressure[2]);
+  snapshot.save(state.walk());
+  EXPECT_NE(snapshot.digest(), before);
+}
+
 TEST(Snapshot, RefusesAFieldThatWasNotSaved) {
   State state;
   Snapshot snapshot;
