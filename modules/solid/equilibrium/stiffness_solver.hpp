@@ -24,7 +24,7 @@ struct SolverChoice {
 
 /// From so many points on a lattice `automatic` takes multigrid: it is the faster one, its first
 /// solve included, and stays so over some hundred windows.
-constexpr double points_worth_multigrid(int dimension) { return dimension == 2 ? 2e4 : 6e3; }
+constexpr double points_worth_multigrid(int dimension) { return dimension == 2 ? 2e4 : 2e3; }
 
 /// The keys of `linear_solver`.
 KeyTable linear_solver_keys();
