@@ -51,8 +51,6 @@ class Multigrid {
   /// So much that smoothing is to be told of it.
   void find_largest();
 
-  int level_count() const { return static_cast<int>(levels_.size()); }
-
  private:
   struct Work {
     double largest = 0.0;  ///< eigenvalue of D^-1 A, D being the diagonal, at most

@@ -41,8 +41,6 @@ class StiffnessMultigrid {
   /// After many cuts: how stiff the levels are now.
   void find_largest() { multigrid_->find_largest(); }
 
-  int level_count() const { return multigrid_->level_count(); }
-
   /// Sets what is held to 0.
   void hold(Eigen::VectorXd& u) const { levels_.front()->hold(u); }
 

@@ -4,11 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
-#include "core/io/log.hpp"
 #include "core/solvers/reduced_matrix.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "modules/solid/equilibrium/stiffness_multigrid.hpp"
@@ -87,11 +84,7 @@ class IteratedStiffness final : public StiffnessSolver<D> {
         free_(std::move(free)),
         tolerance_(tolerance) {}
 
-  void prepare() override {
-    multigrid_.emplace(body_, elastic_, boundary_, free_);
-    log_info(fmt::format("solid: equilibrium of {} points by multigrid, {} levels",
-                         body_.points().size(), multigrid_->level_count()));
-  }
+  void prepare() override { multigrid_.emplace(body_, elastic_, boundary_, free_); }
 
   std::string path() const override { return "multigrid, " + elastic_->path(); }
   bool goes_on() const override { return true; }
