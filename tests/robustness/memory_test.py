@@ -62,6 +62,7 @@ class Memory(RunTest):
     def test_a_trial_that_takes_more_than_was_thought(self):
         """The estimate knows nothing of the horizon's influence on a factor, for one."""
         done = perifrac("check", CONFIGS / "cryer.yaml", "--json", "--trial", "0.1", "--set", "body.horizon_ratio=3.5",
+                        "--set", "solid.linear_solver.type=direct",
                         **limited(resource.RLIMIT_AS, 2300 * MEGABYTE))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         said = json.loads(done.stdout)["warnings"][-1]
