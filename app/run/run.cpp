@@ -176,10 +176,11 @@ void conclude(const RunRequest& request, Simulation& simulation, const SceneRun&
   }
   std::fflush(stdout);
   if (ending.profile) fmt::print(stderr, "{}", profile_text(summary["profile"]));
-  if (!ranks::is_first() || !request.report || ending.end.outcome == RunOutcome::stopped) return;
-  if (make_report(folder, request.json) != 0) {
+  if (!request.report || ending.end.outcome == RunOutcome::stopped) return;
+  ranks::on_first([&] {
+    if (make_report(folder, request.json) == 0) return;
     log_warning("no report was made of the results; `perifrac report` tries again");
-  }
+  });
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ void say_what_was_held_back() {
 }
 
 /// All have come to `request` within ten seconds.
-bool is_met_soon(MPI_Request request) {
+bool is_met_soon(MPI_Request& request) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
   for (int met = 0; std::chrono::steady_clock::now() < end;) {
     MPI_Test(&request, &met, MPI_STATUS_IGNORE);
@@ -98,8 +98,12 @@ int Session::end(int code) {
   std::array<int, 2> codes{code, own_ == 0 ? code : 0};
   MPI_Request request;
   MPI_Iallreduce(MPI_IN_PLACE, codes.data(), 2, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
+  if (code == 0) {
+    MPI_Wait(&request, MPI_STATUS_IGNORE);  // others may have more to do, and say so if they fail
+    return codes[0];
+  }
   const bool are_all_here = is_met_soon(request);
-  if (code != 0 && (!are_all_here || codes[1] == 0)) say_what_was_held_back();
+  if (!are_all_here || codes[1] == 0) say_what_was_held_back();
   if (!are_all_here) MPI_Abort(MPI_COMM_WORLD, code);
   return codes[0];
 }

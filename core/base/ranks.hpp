@@ -43,8 +43,8 @@ class Session {
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
-  /// The code with which this process ends: the largest of all. Where others do not end, they are
-  /// ended. What this one had to say is said where the first has nothing to say.
+  /// The code with which this process ends: the largest of all. Where one has failed and others do
+  /// not end, they are ended. What this one had to say is said where the first has nothing to say.
   int end(int code);
 };
 #else

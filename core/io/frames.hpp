@@ -45,11 +45,6 @@ class FrameSeries {
   void write(double time, const PointSet& points, std::span<const FrameField> fields,
              const FrameGeometry& geometry = {});
 
-  /// Of the last frame [s]; nothing before the first.
-  std::optional<double> last_time() const {
-    return frames_.empty() ? std::nullopt : std::optional(frames_.back().time);
-  }
-
   /// Throws OutputError where a frame of the list is not there any more.
   void check_kept() const;
 

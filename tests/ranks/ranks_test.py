@@ -90,6 +90,23 @@ class OneVoice(RanksTest):
 
 
 class NothingLost(RanksTest):
+    def test_a_report_takes_its_time(self):
+        """Longer than processes wait for each other where one has failed."""
+        command = [word for word in run_command(MANDEL, SMALL, self.folder / "slow") if word != "--no-report"]
+        process = subprocess.Popen(divided(2, command), cwd=self.folder, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True, env=ENVIRONMENT)
+        drawing = []
+        while not drawing and process.poll() is None:
+            drawing = subprocess.run(["pgrep", "-f", f"report.py.*{self.folder}"], capture_output=True,
+                                     text=True).stdout.split()
+        self.assertTrue(drawing, "no report was begun")
+        os.kill(int(drawing[0]), signal.SIGSTOP)
+        time.sleep(13)
+        os.kill(int(drawing[0]), signal.SIGCONT)
+        said = process.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(process.returncode, 0, said)
+        self.assertTrue((self.folder / "slow" / "report.html").exists())
+
     def test_restart_on_other_numbers_of_processes(self):
         whole = self.run_scene(SMALL, "whole")
         parts = self.divide(4, SMALL, "parts", "--until", "5 s")
