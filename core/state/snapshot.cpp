@@ -1,8 +1,9 @@
 #include "core/state/snapshot.hpp"
 
-#include <bit>
 #include <set>
 #include <stdexcept>
+
+#include "core/base/digest.hpp"
 
 namespace perifrac {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 /// What saving and restoring share: a field may be met once only.
 class OnceVisitor : public StateVisitor {
  public:
+  using StateVisitor::StateVisitor;
   bool met(const std::string& name) const { return met_.contains(name); }
 
  protected:
@@ -25,7 +27,8 @@ class OnceVisitor : public StateVisitor {
 
 class Saver final : public OnceVisitor {
  public:
-  explicit Saver(Snapshot::Fields& fields) : fields_(fields) {}
+  Saver(Snapshot::Fields& fields, bool takes_guesses)
+      : OnceVisitor(takes_guesses), fields_(fields) {}
 
  private:
   void real(const std::string& name, std::vector<double>& values) override { copy(name, values); }
@@ -49,7 +52,8 @@ class Saver final : public OnceVisitor {
 
 class Restorer final : public OnceVisitor {
  public:
-  explicit Restorer(const Snapshot::Fields& fields) : fields_(fields) {}
+  Restorer(const Snapshot::Fields& fields, bool takes_guesses)
+      : OnceVisitor(takes_guesses), fields_(fields) {}
 
  private:
   void real(const std::string& name, std::vector<double>& values) override { copy(name, values); }
@@ -77,13 +81,13 @@ class Restorer final : public OnceVisitor {
 }  // namespace
 
 void Snapshot::save(const StateWalk& walk) {
-  Saver saver(fields_);
+  Saver saver(fields_, takes_guesses_);
   walk(saver);
   std::erase_if(fields_, [&](const auto& field) { return !saver.met(field.first); });
 }
 
 void Snapshot::restore(const StateWalk& walk) const {
-  Restorer restorer(fields_);
+  Restorer restorer(fields_, takes_guesses_);
   walk(restorer);
   for (const auto& [name, values] : fields_) {
     if (!restorer.met(name)) {
@@ -93,18 +97,11 @@ void Snapshot::restore(const StateWalk& walk) const {
 }
 
 std::int64_t Snapshot::digest() const {
-  std::uint64_t hash = 0;
-  const auto add = [&](std::uint64_t word) {
-    hash = std::rotl(hash ^ word, 29) * 0x9e3779b97f4a7c15;  // an odd number without a pattern
-  };
+  Digest digest;
   for (const auto& [name, values] : fields_) {
-    std::visit(
-        [&](const auto& array) {
-          for (const auto value : array) add(std::bit_cast<std::uint64_t>(value));
-        },
-        values);
+    std::visit([&](const auto& array) { digest.add(array); }, values);
   }
-  return static_cast<std::int64_t>(hash >> 1);  // whose negative is one too
+  return digest.value();
 }
 
 }  // namespace perifrac

@@ -20,7 +20,8 @@ class Snapshot {
   using Values = std::variant<std::vector<double>, std::vector<std::int64_t>>;
   using Fields = std::map<std::string, Values>;
 
-  Snapshot() = default;
+  /// `takes_guesses`: as of StateVisitor.
+  explicit Snapshot(bool takes_guesses = true) : takes_guesses_(takes_guesses) {}
   explicit Snapshot(Fields fields) : fields_(std::move(fields)) {}
 
   /// Takes a copy of all that `walk` shows and forgets what it no longer shows. Storage is used
@@ -40,6 +41,7 @@ class Snapshot {
 
  private:
   Fields fields_;
+  bool takes_guesses_ = true;
 };
 
 }  // namespace perifrac

@@ -14,7 +14,13 @@ namespace perifrac {
 /// values that are not finite. Owners call visit() with each field once, in a fixed order.
 class StateVisitor {
  public:
+  explicit StateVisitor(bool takes_guesses = true) : takes_guesses_(takes_guesses) {}
   virtual ~StateVisitor() = default;
+
+  /// False of rollback: what solvers go on from, and no answer depends on beyond its tolerance, is
+  /// kept as it is, so that a window knows what the tries before have shown. Checkpoints take it,
+  /// that a restart has the same bits.
+  bool takes_guesses() const { return takes_guesses_; }
 
   void visit(std::string_view name, std::vector<double>& values) { real(path(name), values); }
   void visit(std::string_view name, std::vector<std::int64_t>& values) {
@@ -50,6 +56,7 @@ class StateVisitor {
   std::string path(std::string_view name) const { return prefix_ + std::string(name); }
 
   std::string prefix_;
+  bool takes_guesses_;
 };
 
 }  // namespace perifrac

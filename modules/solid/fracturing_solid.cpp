@@ -206,6 +206,7 @@ double FracturingSolid<D>::conclude(const TimeWindow& window) {
     throw FinalError("displacement", place_of(error.row()), window.end,
                      "cracks leave a piece too thin to bear anything; end the run before;");
   }
+  cracked_->conclude();
   return window.end;
 }
 

@@ -64,7 +64,10 @@ class FracturingSolid final : public PhysicsModule {
   void initialize(double t) override;
   void connect(PortId in) override { ports_.connect(in); }
   double stable_time_step() const override;
-  void prepare(const TimeWindow& window) override { growth_.begin(window); }
+  void prepare(const TimeWindow& window) override {
+    cracked_->renew_slope();
+    growth_.begin(window);
+  }
   double advance(const TimeWindow& window) override;
   bool wants_another_pass() const override { return !tips_are_found_; }
   double conclude(const TimeWindow& window) override;

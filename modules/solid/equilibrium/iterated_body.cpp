@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/digest.hpp"
 #include "core/base/eigen_view.hpp"
 #include "core/base/require.hpp"
 #include "core/bonds/crack_cut.hpp"
-#include "core/io/log.hpp"
 #include "core/profile/profile.hpp"
 #include "core/solvers/complementarity.hpp"
 
@@ -56,8 +56,10 @@ void IteratedBody<D>::start() {
   rebuild();
   const auto count = static_cast<Eigen::Index>(facet_count());
   answer_ = {Eigen::VectorXd::Zero(free_unknowns_.rows()), Eigen::VectorXd::Zero(count),
-             Eigen::VectorXd::Zero(count), -1};
+             Eigen::VectorXd::Zero(count)};
   even_.clear();
+  learned_.clear();
+  concluded_ = {};
 }
 
 template <int D>
@@ -70,7 +72,7 @@ void IteratedBody<D>::rebuild() {
     multigrid_->cut(seed);
   }
   multigrid_->find_largest();
-  slope_facets_ = -1;
+  slope_.resize(0, 0);
   aside_ = {};
 }
 
@@ -97,17 +99,20 @@ bool IteratedBody<D>::cut(const CrackFacet<D>& facet) {
 template <int D>
 void IteratedBody<D>::set_load(const Eigen::VectorXd& load) {
   require(load.size() == free_unknowns_.cols(), "a load on other unknowns than the body has");
-  const Eigen::VectorXd all = free_unknowns_ * load;
-  if (load_.size() == all.size() && load_ == all) return;
-  if (load_.size() > 0) answer_.facets = -1;
-  aside_.facets = -1;
-  load_ = all;
+  load_ = free_unknowns_ * load;
+  Digest digest;
+  digest.add(load_);
+  load_digest_ = digest.value();
 }
 
 template <int D>
-bool IteratedBody<D>::is_of(const Answer& answer, const Eigen::VectorXd& pressure) const {
-  return answer.facets == facet_count() && answer.pressure.size() == pressure.size() &&
-         answer.pressure == pressure;
+bool IteratedBody<D>::is_of_this_body(const auto& answer) const {
+  return answer.facets == facet_count() && answer.load == load_digest_;
+}
+
+template <int D>
+bool IteratedBody<D>::is_of(const auto& answer, const Eigen::VectorXd& pressure) const {
+  return is_of_this_body(answer) && answer.pressure == pressure;
 }
 
 /// Goes on from `move` until what is left over is small beside the force.
@@ -131,6 +136,7 @@ void IteratedBody<D>::solve(Answer& answer, const Eigen::VectorXd& pressure) {
   solve(load_ + this->face_force(pressure), tolerance_, answer.move);
   answer.pressure = pressure;
   answer.facets = facet_count();
+  answer.load = load_digest_;
 }
 
 /// The last answer where it is that; else one beside it, so that who looks on changes nothing.
@@ -144,6 +150,7 @@ auto IteratedBody<D>::at(const Eigen::VectorXd& pressure, std::span<const double
   solve(load_ + this->face_force(pressure, true, shear), tolerance_, aside_.move);
   aside_.pressure = pressure;
   aside_.facets = is_sheared ? -1 : facet_count();
+  aside_.load = load_digest_;
   return aside_;
 }
 
@@ -178,19 +185,27 @@ Eigen::VectorXd IteratedBody<D>::first_contact(const Eigen::VectorXd& pressure) 
   return contact;
 }
 
-/// What a change of pressure did to the openings, put into the slope: the change of least rank that
-/// leaves it symmetric (times the faces' areas) and positive definite (BFGS).
 template <int D>
-void IteratedBody<D>::learn(Eigen::MatrixXd& slope, const Eigen::VectorXd& pressure,
-                            const Eigen::VectorXd& opening) const {
-  Eigen::VectorXd area(pressure.size());
+Eigen::VectorXd IteratedBody<D>::areas() const {
+  Eigen::VectorXd area(static_cast<Eigen::Index>(jumps_.size()));
   for (Eigen::Index f = 0; f < area.size(); ++f) area[f] = jumps_[f].area;
-  const Eigen::VectorXd guess = slope * pressure;
-  const double work = area.cwiseProduct(opening).dot(pressure);
-  const double guessed = area.cwiseProduct(guess).dot(pressure);
-  if (work <= 0.0 || guessed <= 0.0) return;
-  slope -= guess * (area.cwiseProduct(guess) / guessed).transpose();
-  slope += opening * (area.cwiseProduct(opening) / work).transpose();
+  return area;
+}
+
+/// Of a change of pressure and openings. What it opens in the rock beside the faces is known.
+template <int D>
+void IteratedBody<D>::learn(const Eigen::VectorXd& pressure, const Eigen::VectorXd& opening) {
+  if (learned_.size() != facet_count()) return;
+  const auto pressed = Eigen::Map<const Eigen::VectorXd>(pressed_.data(), pressure.size());
+  learned_.learn(pressure, opening - pressed.cwiseProduct(pressure));
+}
+
+/// As far as answers have shown it.
+template <int D>
+Eigen::MatrixXd IteratedBody<D>::known_slope() const {
+  Eigen::MatrixXd slope = learned_.matrix();
+  slope.diagonal() += Eigen::Map<const Eigen::VectorXd>(pressed_.data(), slope.rows());
+  return slope;
 }
 
 /// Contact by the slope, which learns from each solve: what it says of a pressure on closed faces
@@ -199,33 +214,67 @@ template <int D>
 auto IteratedBody<D>::faces(const Eigen::VectorXd& pressure) -> Faces {
   const Eigen::Index count = pressure.size();
   require(count == std::ssize(jumps_), "pressure of other facets than the body has");
+  const bool is_foreseen = is_of_this_body(answer_) && learned_.size() == count;
   Eigen::VectorXd& contact = answer_.contact;
-  contact = first_contact(pressure);
-  Faces faces{Eigen::VectorXd::Zero(count), pressure + contact, std::vector<bool>(count, false)};
-  Eigen::MatrixXd slope;
-  Eigen::VectorXd last_opening, last_contact;
+  contact = is_foreseen ? foresee(pressure).contact.x : first_contact(pressure);
+  Faces faces{Eigen::VectorXd::Zero(count), {}, std::vector<bool>(count, false)};
   for (int tries = 0;; ++tries) {
-    if (!is_of(answer_, faces.pressure)) solve(answer_, faces.pressure);
+    faces.pressure = pressure + contact;
+    if (!is_of(answer_, faces.pressure)) solve_and_learn(faces.pressure);
     const Eigen::VectorXd opening = openings(answer_);
     faces.opening = opening.cwiseMax(0.0);
     if (count == 0 || (contact.isZero(0.0) && opening.minCoeff() >= 0.0)) return faces;
-    if (tries == 0) {
-      ready_slope();
-      slope = opening_slope();
-    } else {
-      learn(slope, contact - last_contact, opening - last_opening);
-    }
-    const Eigen::VectorXd free = opening - slope * contact;
-    const double size = std::max(free.lpNorm<Eigen::Infinity>(), 1e-14 * spacing_);
-    const Complementarity found = solve_complementarity(slope, free, 1e-14 * spacing_);
-    const double change = (slope * (found.x - contact)).template lpNorm<Eigen::Infinity>();
-    faces.closed = found.held;
-    if (change <= contact_tolerance * tolerance_ * size) return faces;
+    ready_slope();
+    const Foreseen next = foresee(pressure);
+    faces.closed = next.contact.held;
+    if (next.change <= contact_tolerance * tolerance_) return faces;
     if (tries == most_contact_solves) throw NoContact("contact is not found by iteration");
-    last_opening = opening;
-    last_contact = contact;
-    contact = found.x;
-    faces.pressure = pressure + contact;
+    contact = next.contact.x;
+  }
+}
+
+/// What of a change of pressure is even, has been solved for: the part that leaves least energy.
+template <int D>
+void IteratedBody<D>::move_evenly(const Eigen::VectorXd& pressure) {
+  const EvenAnswer* const known = find_even(-1, 0);
+  if (known == nullptr || known->facets != facet_count()) return;
+  const Eigen::VectorXd area = areas();
+  Eigen::VectorXd jump(pressure.size());
+  for (Eigen::Index f = 0; f < jump.size(); ++f) {
+    jump[f] = this->jump(static_cast<Index>(f), view(known->move))[0];
+  }
+  const double work = area.dot(jump);
+  if (work > 0.0) answer_.move += area.cwiseProduct(jump).dot(pressure) / work * known->move;
+}
+
+/// By the last answer and the slope.
+template <int D>
+auto IteratedBody<D>::foresee(const Eigen::VectorXd& pressure) const -> Foreseen {
+  const Eigen::MatrixXd slope = known_slope();
+  const Eigen::VectorXd off = answer_.pressure - pressure;
+  const Eigen::VectorXd free = openings(answer_) - slope * off;
+  const double size = std::max(free.lpNorm<Eigen::Infinity>(), 1e-14 * spacing_);
+  Complementarity contact = solve_complementarity(slope, free, 1e-14 * spacing_);
+  const Eigen::VectorXd change = slope * (contact.x - off);
+  return {std::move(contact), change.template lpNorm<Eigen::Infinity>() / size};
+}
+
+/// From the last answer; of the same load on the same body, the two say what pressure opens.
+template <int D>
+void IteratedBody<D>::solve_and_learn(const Eigen::VectorXd& pressure) {
+  constexpr double seen = 10.0;  // times what solves leave open
+  const bool compares = is_of_this_body(answer_);
+  const Eigen::VectorXd pressure_before = answer_.pressure;
+  Eigen::VectorXd before;
+  if (compares) before = openings(answer_);
+  if (compares) move_evenly(pressure - pressure_before);
+  solve(answer_, pressure);
+  if (!compares || pressure.size() == 0) return;
+  const Eigen::VectorXd after = openings(answer_);
+  const double size = after.template lpNorm<Eigen::Infinity>();
+  const Eigen::VectorXd change = after - before;
+  if (change.template lpNorm<Eigen::Infinity>() > seen * tolerance_ * size) {
+    learn(pressure - pressure_before, change);
   }
 }
 
@@ -236,7 +285,8 @@ Eigen::VectorXd IteratedBody<D>::free_opening(const Eigen::VectorXd& pressure,
   if (pressure.size() == 0) return pressure;
   const Eigen::VectorXd& on_faces =
       face_pressure.size() == pressure.size() ? face_pressure : pressure;
-  const Eigen::VectorXd opening = openings(at(on_faces, {}));
+  const Eigen::VectorXd opening =
+      is_of(concluded_, on_faces) ? concluded_.opening : openings(at(on_faces, {}));
   return opening - opening_slope() * (on_faces - pressure);
 }
 
@@ -260,34 +310,37 @@ std::vector<Index> IteratedBody<D>::all_faces() const {
   return all;
 }
 
-/// That of a body without end, and of this one under an even pressure: the change of least rank
-/// that leaves it symmetric and positive definite.
 template <int D>
 const Eigen::MatrixXd& IteratedBody<D>::opening_slope() {
-  if (slope_facets_ == facet_count()) return slope_;
-  const ProfileScope profiled("slope");
-  const auto count = static_cast<Eigen::Index>(facet_count());
-  if (endless_version_ != bonds_.version()) {
-    endless_ = opening_by_pressure<D>(bonds_.facets(), moduli(), planes_);
-    endless_ += Eigen::Map<const Eigen::VectorXd>(pressed_.data(), count).asDiagonal();
-    endless_version_ = bonds_.version();
-  }
-  const EvenAnswer* const known = find_even(-1, 0);
-  EvenAnswer aside =
-      known != nullptr ? *known : EvenAnswer{-1, 0, -1, Eigen::VectorXd::Zero(answer_.move.size())};
-  if (aside.facets != facet_count()) solve(aside, all_faces());
-  slope_ = endless_;
-  learn(slope_, Eigen::VectorXd::Ones(count), openings(aside));
-  slope_facets_ = facet_count();
+  if (slope_.rows() == facet_count()) return slope_;
+  ready_slope();
+  slope_ = known_slope();
   return slope_;
 }
 
 template <int D>
+void IteratedBody<D>::renew_slope() {
+  if (learned_.size() == facet_count()) slope_ = known_slope();
+}
+
+/// Tries of a window all begin here, the answer is by then that of the try before.
+template <int D>
+void IteratedBody<D>::conclude() {
+  renew_slope();
+  if (!is_of_this_body(answer_)) return;
+  concluded_ = {openings(answer_), answer_.pressure, answer_.facets, answer_.load};
+}
+
+/// Facets that come are as in a body without end; what an even pressure does is solved for.
+template <int D>
 void IteratedBody<D>::ready_slope() {
-  if (facet_count() == 0) return;
+  if (learned_.size() == facet_count()) return;
+  const ProfileScope profiled("slope");
+  learned_.extend(pressure_by_opening<D>(bonds_.facets(), moduli(), planes_), areas());
   Vector<D> unit{};
   unit[0] = 1.0;
-  even(all_faces(), unit);
+  const auto count = static_cast<Eigen::Index>(facet_count());
+  learn(Eigen::VectorXd::Ones(count), openings(even(all_faces(), unit)));
 }
 
 template <int D>
@@ -352,8 +405,9 @@ Eigen::VectorXd IteratedBody<D>::openings(const EvenAnswer& answer) const {
 
 template <int D>
 double IteratedBody<D>::intensity_at_fixed_volume(Index facet) {
-  ready_slope();
-  const Eigen::VectorXd opening = openings(*find_even(-1, 0));
+  Vector<D> unit{};
+  unit[0] = 1.0;
+  const Eigen::VectorXd opening = openings(even(all_faces(), unit));
   double volume = 0.0;
   for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].area * opening[f];
   return opening[facet] / volume;
@@ -426,10 +480,22 @@ Eigen::VectorXd IteratedBody<D>::stiffness_times(const Eigen::VectorXd& x) {
 
 template <int D>
 void IteratedBody<D>::visit_state(StateVisitor& visitor) {
-  visitor.visit("answer", answer_.move);
-  visitor.visit("answer_pressure", answer_.pressure);
-  visitor.visit("answer_contact", answer_.contact);
-  visitor.visit("answer_facets", answer_.facets);
+  if (visitor.takes_guesses()) {
+    visitor.visit("answer", answer_.move);
+    visitor.visit("answer_pressure", answer_.pressure);
+    visitor.visit("answer_contact", answer_.contact);
+    visitor.visit("answer_facets", answer_.facets);
+    visitor.visit("answer_load", answer_.load);
+    visitor.enter("learned");
+    learned_.visit_state(visitor);
+    visitor.leave();
+  }
+  visitor.enter("concluded");
+  visitor.visit("opening", concluded_.opening);
+  visitor.visit("pressure", concluded_.pressure);
+  visitor.visit("facets", concluded_.facets);
+  visitor.visit("load", concluded_.load);
+  visitor.leave();
   std::vector<std::int64_t> keys;
   for (const EvenAnswer& answer : even_) {
     keys.insert(keys.end(), {answer.first, answer.axis, answer.facets});
@@ -446,9 +512,13 @@ void IteratedBody<D>::visit_state(StateVisitor& visitor) {
 
 template <int D>
 void IteratedBody<D>::on_restored() {
-  load_.resize(0);
   aside_ = {};
-  slope_facets_ = -1;
+  if (answer_.facets > facet_count()) answer_.facets = -1;
+  learned_.keep(facet_count());
+  if (answer_.move.allFinite() && learned_.is_finite()) return;
+  answer_.move.setZero();
+  answer_.facets = -1;
+  learned_.clear();
 }
 
 template class IteratedBody<2>;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/solvers/complementarity.hpp"
+#include "modules/solid/equilibrium/learned_slope.hpp"
 #include "modules/solid/equilibrium/stiffness_multigrid.hpp"
 #include "modules/solid/fracture/cracked_body.hpp"
 #include "modules/solid/fracture/opening_kernel.hpp"
@@ -14,8 +16,8 @@ namespace perifrac {
 
 /// A cracked body on a lattice that is solved for by multigrid, each time from the last answer: no
 /// factor, no inverse. Time and memory go with the points. What it knows of how openings answer to
-/// pressure is that of a body without end (opening_kernel.hpp), put right for an even pressure by
-/// one solve a cut.
+/// pressure begins as that of a body without end (opening_kernel.hpp), put right for an even
+/// pressure by one solve a cut, and learns from every solve (learned_slope.hpp).
 template <int D>
 class IteratedBody final : public CrackedBody<D> {
  public:
@@ -39,6 +41,8 @@ class IteratedBody final : public CrackedBody<D> {
                                const Eigen::VectorXd& face_pressure) override;
   const Eigen::MatrixXd& opening_slope() override;
   void ready_slope() override;
+  void renew_slope() override;
+  void conclude() override;
   /// By a solve a facet.
   Eigen::MatrixXd compliance(int jump, int traction) override;
   double intensity_at_fixed_volume(Index facet) override;
@@ -80,7 +84,15 @@ class IteratedBody final : public CrackedBody<D> {
     Eigen::VectorXd move;       ///< of all unknowns, what is prescribed left out [m]
     Eigen::VectorXd pressure;   ///< on the faces, contact's included [Pa]
     Eigen::VectorXd contact{};  ///< of that [Pa]
-    std::int64_t facets = -1;   ///< that the body had; -1: of another load
+    std::int64_t facets = -1;   ///< that the body had; -1: it is none
+    std::int64_t load = 0;      ///< digest of the load
+  };
+  /// What facets did at the end of a window.
+  struct Concluded {
+    Eigen::VectorXd opening;
+    Eigen::VectorXd pressure;  ///< as Answer::pressure
+    std::int64_t facets = -1;
+    std::int64_t load = 0;
   };
   /// What one traction on the faces of one crack does, and nothing else.
   struct EvenAnswer {
@@ -92,9 +104,20 @@ class IteratedBody final : public CrackedBody<D> {
 
   std::int64_t facet_count() const { return static_cast<std::int64_t>(jumps_.size()); }
   Eigen::VectorXd first_contact(const Eigen::VectorXd& pressure) const;
-  void learn(Eigen::MatrixXd& slope, const Eigen::VectorXd& pressure,
-             const Eigen::VectorXd& opening) const;
-  bool is_of(const Answer& answer, const Eigen::VectorXd& pressure) const;
+  Eigen::VectorXd areas() const;
+  void learn(const Eigen::VectorXd& pressure, const Eigen::VectorXd& opening);
+  /// Contact at a pressure in the cracks, and how far that is from the last answer: the largest
+  /// change of an opening, of the largest opening of faces that may pass through one another.
+  struct Foreseen {
+    Complementarity contact;
+    double change;
+  };
+  Foreseen foresee(const Eigen::VectorXd& pressure) const;
+  void move_evenly(const Eigen::VectorXd& pressure);
+  void solve_and_learn(const Eigen::VectorXd& pressure);
+  Eigen::MatrixXd known_slope() const;
+  bool is_of_this_body(const auto& answer) const;
+  bool is_of(const auto& answer, const Eigen::VectorXd& pressure) const;
   void solve(const Eigen::VectorXd& force, double tolerance, Eigen::VectorXd& move);
   void solve(Answer& answer, const Eigen::VectorXd& pressure);
   const Answer& at(const Eigen::VectorXd& pressure, std::span<const double> shear);
@@ -115,14 +138,14 @@ class IteratedBody final : public CrackedBody<D> {
   std::optional<StiffnessMultigrid<D>> multigrid_;
   long iterations_ = 0;
 
-  Eigen::VectorXd load_;     ///< on all unknowns [N]; empty: not known since a state was restored
-  Eigen::MatrixXd endless_;  ///< slope of a body without end
-  std::optional<std::uint64_t> endless_version_;
-  Eigen::MatrixXd slope_;
-  std::int64_t slope_facets_ = -1;  ///< that it is of
-  Answer aside_;                    ///< of who looks on
+  Eigen::VectorXd load_;  ///< on all unknowns [N]
+  std::int64_t load_digest_ = 0;
+  Eigen::MatrixXd slope_;  ///< opening_slope(), where it has as many facets as the body
+  Answer aside_;           ///< of who looks on
 
   Answer answer_;
+  Concluded concluded_;
+  LearnedSlope learned_;  ///< of mean jumps
   std::vector<EvenAnswer> even_;
 };
 

@@ -87,6 +87,11 @@ class CrackedBody : public CutBody<D> {
   virtual const Eigen::MatrixXd& opening_slope() = 0;
   /// Finds what that takes of the present cracks, so that who looks at it later need not.
   virtual void ready_slope() {}
+  /// A window begins: what answers have shown goes into opening_slope(), which is then the same
+  /// from pass to pass.
+  virtual void renew_slope() {}
+  /// A window has ended.
+  virtual void conclude() {}
   /// What faces do along one axis of the facets' frames (0: normal) by tractions along another
   /// [m/Pa]. Openings are mean normal jumps and what pressed_by() puts back.
   virtual Eigen::MatrixXd compliance(int jump, int traction) = 0;

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "core/base/small_vector.hpp"
 
 namespace perifrac {
@@ -89,7 +87,7 @@ std::vector<Source<D>> with_images(const CrackFacet<D>& facet,
 }  // namespace
 
 template <int D>
-Eigen::MatrixXd opening_by_pressure(std::span<const CrackFacet<D>> facets,
+Eigen::MatrixXd pressure_by_opening(std::span<const CrackFacet<D>> facets,
                                     std::span<const double> modulus,
                                     std::span<const SymmetryPlane> planes) {
   const auto count = static_cast<Eigen::Index>(facets.size());
@@ -107,17 +105,13 @@ Eigen::MatrixXd opening_by_pressure(std::span<const CrackFacet<D>> facets,
   for (Eigen::Index f = 0; f < count; ++f) {
     stiffness(f, f) += short_wave<D> * modulus[f] / (2.0 * targets[f].half[0]);
   }
-  stiffness = 0.5 * (stiffness + Eigen::MatrixXd(stiffness.transpose()));
-  const auto unit = Eigen::MatrixXd::Identity(count, count);
-  const Eigen::LLT<Eigen::MatrixXd> factor(stiffness);
-  if (factor.info() == Eigen::Success) return factor.solve(unit);
-  return stiffness.diagonal().cwiseInverse().asDiagonal();
+  return 0.5 * (stiffness + Eigen::MatrixXd(stiffness.transpose()));
 }
 
-template Eigen::MatrixXd opening_by_pressure<2>(std::span<const CrackFacet<2>>,
+template Eigen::MatrixXd pressure_by_opening<2>(std::span<const CrackFacet<2>>,
                                                 std::span<const double>,
                                                 std::span<const SymmetryPlane>);
-template Eigen::MatrixXd opening_by_pressure<3>(std::span<const CrackFacet<3>>,
+template Eigen::MatrixXd pressure_by_opening<3>(std::span<const CrackFacet<3>>,
                                                 std::span<const double>,
                                                 std::span<const SymmetryPlane>);
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/body/coarse_body.hpp"
+#include "core/state/snapshot.hpp"
 #include "modules/solid/fracture/condensed_body.hpp"
 #include "tests/unit/fracture/rock.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
@@ -180,6 +181,47 @@ TEST(IteratedBody, TakesFewerIterationsFromTheLastAnswer) {
   body.faces(1.01 * falling(12));
   const long warm = body.iterations() - cold;
   EXPECT_LT(warm, cold);
+}
+
+/// As a coupling asks, pass by pass: pressures close to each other, which no crack has evenly.
+TEST(IteratedBody, LearnsTheSlopeFromItsAnswers) {
+  Both<2> both({48, 40}, 2.5, straight_crack({20.0, 20.0}, 0.4, 12));
+  IteratedBody<2>& body = *both.iterated;
+  const Eigen::MatrixXd exact = both.condensed->compliance(), before = body.opening_slope();
+  for (int k = 0; k < 12; ++k) {
+    Eigen::VectorXd pressure = falling(12);
+    pressure[k] += 0.5;
+    body.faces(pressure);
+  }
+  EXPECT_EQ(body.opening_slope(), before) << "one slope from pass to pass";
+  body.renew_slope();
+  EXPECT_LT((body.opening_slope() - exact).norm(), 0.35 * (before - exact).norm());
+}
+
+/// A window that is taken back keeps the answer and what it has learned, but not for another load.
+TEST(IteratedBody, SolvesAnewForAnotherLoad) {
+  Both<2> both({48, 40}, 2.5, straight_crack({20.0, 20.0}, 0.0, 12));
+  const auto expect_same_under = [&](double load) {
+    const auto pull = [load](const auto& body) {
+      Eigen::VectorXd force = Eigen::VectorXd::Zero(body.free_unknowns().cols());
+      force.head(20).setConstant(load);
+      return force;
+    };
+    both.condensed->set_load(pull(*both.condensed));
+    both.iterated->set_load(pull(*both.iterated));
+    both.expect_same(falling(12));
+  };
+  expect_same_under(1.0);
+  Snapshot begin{false};
+  const auto walk = [&](StateVisitor& visitor) { both.iterated->visit_state(visitor); };
+  begin.save(walk);
+  expect_same_under(2.0);
+  begin.restore(walk);
+  both.iterated->on_restored();
+  expect_same_under(1.0);
+  begin.restore(walk);
+  both.iterated->on_restored();
+  expect_same_under(2.0);
 }
 
 }  // namespace
