@@ -77,11 +77,16 @@ class Restart(RunTest):
         cvode = pores | {"pore_flow.integrator.type": "cvode", "coupling.window.largest": "1 ms"}
         stabilised = pores | {"pore_flow.undrained_stabilisation": "0.25"}
         front = {"body.size": "[8 mm, 8 mm, 32 mm]", "time.end": "12 ms"}
+        multigrid = {"solid.linear_solver.type": "multigrid"}
+        wet = multigrid | {"body.spacing": "2.5 mm", "time.end": "8 ms"}
         published = {"damage.fracture_energy": "1e-4 J/m^2", "time.end": "0.6 ms", "output.interval": "0.3 ms"}
         for name, scene, until, keys in (("dry", "hf_storage", "10 ms", dry),
                                          ("begins later", "three_point_bending", "0.2 s", {"time.end": "0.3 s"}),
                                          ("inertia", "hf_storage", "10 ms", dry | {"solid.type": "dynamic"}),
                                          ("in 3D", "radial", "10 ms", front),
+                                         ("by multigrid", "hf_storage", "5 ms", wet),
+                                         ("by multigrid, in 3D", "radial", "10 ms", front | multigrid),
+                                         ("by multigrid, pores", "hf_storage_pores", "5 ms", pores | multigrid),
                                          ("as published", "paper/hf_storage", "0.3 ms", published),
                                          ("explicit pores", "hf_storage_pores", "5 ms", pores),
                                          ("stabilised pores", "hf_storage_pores", "5 ms", stabilised),

@@ -158,7 +158,7 @@ void CrackedEquilibrium<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("face_pressure", faces_.pressure);
   visitor.visit("closed_faces", closed);
   faces_.closed.assign(closed.begin(), closed.end());
-  cracked_.visit_state(visitor);
+  cracked_.visit_state(visitor, load_.is_steady());
   if (friction_ == nullptr) return;
   visitor.visit("face_shear", faces_.shear);
   friction_->visit_state(visitor);

@@ -479,8 +479,10 @@ Eigen::VectorXd IteratedBody<D>::stiffness_times(const Eigen::VectorXd& x) {
 }
 
 template <int D>
-void IteratedBody<D>::visit_state(StateVisitor& visitor) {
-  if (visitor.takes_guesses()) {
+void IteratedBody<D>::visit_state(StateVisitor& visitor, bool load_is_steady) {
+  // Where the load changes each pass begins from the same answer: what solves leave open would else
+  // differ from pass to pass, and a coupling of many unknowns not come to rest.
+  if (visitor.takes_guesses() || !load_is_steady) {
     visitor.visit("answer", answer_.move);
     visitor.visit("answer_pressure", answer_.pressure);
     visitor.visit("answer_contact", answer_.contact);

@@ -57,7 +57,7 @@ class IteratedBody final : public CrackedBody<D> {
   Energies energies(const Eigen::VectorXd& pressure, std::span<const double> shear = {}) override;
   Eigen::VectorXd stiffness_times(const Eigen::VectorXd& x) override;
 
-  void visit_state(StateVisitor& visitor) override;
+  void visit_state(StateVisitor& visitor, bool load_is_steady) override;
   void on_restored() override;
 
   /// Conjugate gradients' so far.

@@ -127,8 +127,9 @@ class CrackedBody : public CutBody<D> {
   /// The stiffness on what is solved for, with all bonds that are broken now, times x.
   virtual Eigen::VectorXd stiffness_times(const Eigen::VectorXd& x) = 0;
 
-  /// What it goes on from beside cuts and load.
-  virtual void visit_state(StateVisitor&) {}
+  /// What it goes on from beside cuts and load. `load_is_steady`: set_load() brings one and the
+  /// same.
+  virtual void visit_state(StateVisitor&, bool /*load_is_steady*/) {}
   /// Such a state was restored.
   virtual void on_restored() {}
 

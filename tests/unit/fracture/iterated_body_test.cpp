@@ -213,7 +213,7 @@ TEST(IteratedBody, SolvesAnewForAnotherLoad) {
   };
   expect_same_under(1.0);
   Snapshot begin{false};
-  const auto walk = [&](StateVisitor& visitor) { both.iterated->visit_state(visitor); };
+  const auto walk = [&](StateVisitor& visitor) { both.iterated->visit_state(visitor, true); };
   begin.save(walk);
   expect_same_under(2.0);
   begin.restore(walk);
