@@ -240,11 +240,12 @@ std::string picture_file(const Request& request) {
 }
 
 int dispatch(const CLI::App& app, const Request& request) {
-  if (ranks::count() > 1 && !app.got_subcommand("run")) {
-    throw InputError(fmt::format(
-        "perifrac: {} processes were started; expected one, or the verb run, which alone has a use "
-        "for more",
-        ranks::count()));
+  if (ranks::count() > 1 && !app.got_subcommand("run") && !app.got_subcommand("check")) {
+    throw InputError(
+        fmt::format("perifrac: {} processes were started; expected one, or the verbs run and "
+                    "check, which alone "
+                    "have a use for more",
+                    ranks::count()));
   }
   if (request.threads > 0) omp_set_num_threads(request.threads);
   if (app.got_subcommand("run")) return run_scene(request.run);

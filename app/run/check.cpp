@@ -24,6 +24,7 @@
 #include "app/warnings/resolution_warnings.hpp"
 #include "app/warnings/scene_regime.hpp"
 #include "app/warnings/scene_warnings.hpp"
+#include "core/base/ranks.hpp"
 #include "core/config/mistakes.hpp"
 #include "core/config/scene.hpp"
 
@@ -97,6 +98,7 @@ nlohmann::json forecast_json(const Forecast& forecast) {
                            {"most_in", largest->first},
                            {"windows", forecast.windows},
                            {"peak_memory", forecast.memory},
+                           {"processes", ranks::count()},
                            {"trial",
                             {{"time", forecast.trial_time},
                              {"seconds", forecast.trial_seconds},
@@ -124,7 +126,9 @@ nlohmann::json built(const CheckRequest& request, const Section& scene) {
   mistakes.note([&] { outputs = read_output_times(scene.at("output"), scene.number("time.end")); });
   mistakes.throw_if_any();
   CouplingManager& manager = *simulation.manager;
-  if (!request.picture.empty()) draw_setup(scene, simulation, request.picture);
+  if (!request.picture.empty()) {
+    ranks::on_first([&] { draw_setup(scene, simulation, request.picture); });
+  }
   const Recorder recorder(scene, "", simulation);
   ArrayList list;
   manager.visit_state(list);
@@ -173,7 +177,7 @@ nlohmann::json built_if_it_fits(const CheckRequest& request, const Section& scen
     if (!request.picture.empty()) result["warnings"].push_back("no picture: nothing was built");
     return result;
   };
-  if (estimate && estimate->bytes > available) {
+  if (ranks::largest(estimate && estimate->bytes > available) != 0) {
     return warn(unbuilt(scene, *estimate),
                 "too large to be tried here: a run takes " + describe(*estimate, available));
   }

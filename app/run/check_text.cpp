@@ -30,9 +30,13 @@ void print_regime(const nlohmann::json& regime) {
 }
 
 void print_forecast(const nlohmann::json& forecast) {
-  fmt::print("  run time: {:.3g} s, {} windows, {:.0f} MB, without writing results; most in {}\n",
+  const int processes = forecast["processes"].get<int>();
+  const std::string each =
+      processes > 1 ? fmt::format(" in each of {} processes", processes) : std::string();
+  fmt::print("  run time: {:.3g} s, {} windows, {:.0f} MB{}, without writing results; most in {}\n",
              forecast["seconds"].get<double>(), forecast["windows"].get<long>(),
-             forecast["peak_memory"].get<double>() / 1e6, forecast["most_in"].get<std::string>());
+             forecast["peak_memory"].get<double>() / 1e6, each,
+             forecast["most_in"].get<std::string>());
   for (const auto& [part, seconds] : forecast["seconds_by_part"].items()) {
     fmt::print("    {:<24} {:>10.3g} s\n", part, seconds.get<double>());
   }

@@ -7,6 +7,7 @@
 #include "app/run/scene_keys.hpp"
 #include "app/simulation/simulation.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/ranks.hpp"
 #include "core/config/scene.hpp"
 #include "coupling/processor_time.hpp"
 
@@ -32,7 +33,7 @@ std::optional<double> crack_length(const Section& twin, Simulation& simulation, 
   manager.settle();
   for (const double output : read_output_times(twin.at("output"), simulation.end)) {
     while (manager.time() < output) {
-      if (processor_time() - begin > seconds) return {};
+      if (ranks::of_first(processor_time() - begin) > seconds) return {};
       manager.advance(output);
     }
   }

@@ -7,6 +7,7 @@
 
 #include "app/run/memory.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/ranks.hpp"
 #include "coupling/processor_time.hpp"
 
 namespace perifrac {
@@ -175,7 +176,10 @@ class TrialRun {
   std::size_t reached() const { return reached_; }
   std::span<const Trial> windows() const { return windows_; }
   double wall_time() const { return since(begin_); }  ///< [s]
-  double used_processor_time() const { return processor_time() - processors_before_; }
+  /// By the first process, so that all go on as long.
+  double used_processor_time() const {
+    return ranks::of_first(processor_time() - processors_before_);
+  }
   /// Every part, and what couples them [s].
   std::vector<double> seconds_by_part() const {
     return spent_since(at_start_, spent(manager_, begin_));

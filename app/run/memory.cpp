@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "core/base/ranks.hpp"
 #include "modules/solid/equilibrium/cracked_solver.hpp"
 #include "modules/solid/equilibrium/stiffness_solver.hpp"
 
@@ -110,8 +111,9 @@ double pore_flow_bytes(const Section& scene, double points) {
 }  // namespace
 
 double available_memory() {
-  return std::min({kilobytes_of("/proc/meminfo", "MemAvailable"), left_in_group(),
-                   left_of_limit(RLIMIT_AS, "VmSize"), left_of_limit(RLIMIT_DATA, "VmData")});
+  const double of_all = std::min(kilobytes_of("/proc/meminfo", "MemAvailable"), left_in_group());
+  return std::min({of_all / ranks::count_here(), left_of_limit(RLIMIT_AS, "VmSize"),
+                   left_of_limit(RLIMIT_DATA, "VmData")});
 }
 
 long peak_memory() {

@@ -7,8 +7,8 @@
 
 namespace perifrac {
 
-/// What this process may still take [bytes]: the least of what the machine has free, what a limit
-/// on this process leaves (ulimit -v), and what one on its group does.
+/// What this process may still take [bytes]: the least of its share of what the machine has free,
+/// what a limit on this process leaves (ulimit -v), and its share of what one on its group does.
 double available_memory();
 
 /// What this process has held at most so far [bytes]; not what the process that began it held,

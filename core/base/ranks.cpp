@@ -21,6 +21,7 @@ namespace {
 
 int count_ = 1;
 int own_ = 0;
+int count_here_ = 1;
 Index points_worth_ranks_ = 2000;
 int spoken_ = -1;  ///< file that holds what this process had to say, where it is not the first
 int heard_ = -1;   ///< the standard error that it had
@@ -79,6 +80,10 @@ Session::Session() {
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &granted);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   MPI_Comm_rank(MPI_COMM_WORLD, &own_);
+  MPI_Comm here;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, own_, MPI_INFO_NULL, &here);
+  MPI_Comm_size(here, &count_here_);
+  MPI_Comm_free(&here);
   // For tests, whose bodies are small.
   if (const char* const least = std::getenv("PERIFRAC_LEAST_DIVIDED")) {
     points_worth_ranks_ = std::max(1, std::atoi(least));
@@ -138,6 +143,14 @@ std::int64_t largest(std::int64_t own) {
   if (count_ > 1) MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_INT64_T, MPI_MAX, MPI_COMM_WORLD);
   return own;
 }
+
+double of_first(double own) {
+  require(!is_alone_, "processes agree together");
+  if (count_ > 1) MPI_Bcast(&own, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  return own;
+}
+
+int count_here() { return count_here_; }
 
 void wait_for_all() {
   if (count_ > 1) MPI_Barrier(MPI_COMM_WORLD);

@@ -29,6 +29,10 @@ bool divides(Index points);
 void gather(std::span<double> values, std::span<const Index> bounds);
 /// The largest of what the processes say.
 std::int64_t largest(std::int64_t own);
+/// What the first process says.
+double of_first(double own);
+/// How many of the processes are on this machine, whose memory they share.
+int count_here();
 /// Returns once every process is here.
 void wait_for_all();
 /// The first process alone does `work`, which writes and asks no module: divided loops are not for
@@ -53,6 +57,8 @@ constexpr int own() { return 0; }
 constexpr bool divides(Index) { return false; }
 constexpr void gather(std::span<double>, std::span<const Index>) {}
 constexpr std::int64_t largest(std::int64_t own) { return own; }
+constexpr double of_first(double own) { return own; }
+constexpr int count_here() { return 1; }
 constexpr void wait_for_all() {}
 inline void on_first(auto&& work) { work(); }
 

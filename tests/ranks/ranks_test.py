@@ -13,7 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "robustness"))
 from perifrac_runs import (CONFIGS, FLUIDS, MANDEL, METHODS, PATIENCE, RunTest, SMALL, VARIANTS,  # noqa: E402
-                           checkpoints, run_command)
+                           checkpoints, perifrac, run_command)
 
 # More processes than processors, all on this machine; loops over few points are divided too.
 ENVIRONMENT = os.environ | {
@@ -81,6 +81,24 @@ class OneVoice(RanksTest):
         self.divide(3, {"pore_flow.porosity": "2"}, "none", code=2)
         self.assertEqual(self.said.count("out of range"), 1, self.said)
         self.assertFalse((self.folder / "none").exists())
+
+    def test_check_foretells_a_run_of_many(self):
+        picture = self.folder / "setup.png"
+        words = ["check", str(MANDEL), "--trial", "0.2"]
+        done = subprocess.run(divided(2, [*run_command(MANDEL, {}, "none")[:1], *words, "--json", "--picture", str(picture)]),
+                              capture_output=True, text=True, env=ENVIRONMENT, timeout=PATIENCE)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)  # of one voice
+        one = json.loads(perifrac(*words, "--json").stdout)
+        self.assertEqual(told["counts"], one["counts"])
+        self.assertEqual((told["forecast"]["processes"], one["forecast"]["processes"]), (2, 1))
+        self.assertEqual(told["forecast"]["windows"], one["forecast"]["windows"])
+        self.assertTrue(picture.exists())
+        told["memory"]["available"] *= 2  # shared by the two
+        self.assertLess(abs(told["memory"]["available"] / one["memory"]["available"] - 1), 0.3)
+        done = subprocess.run(divided(2, [*run_command(MANDEL, {}, "none")[:1], *words]), capture_output=True, text=True,
+                              env=ENVIRONMENT, timeout=PATIENCE)
+        self.assertRegex(done.stdout, r"run time: .* MB in each of 2 processes,")
 
     def test_other_verbs_have_no_use_for_many(self):
         done = subprocess.run(divided(2, [*run_command(MANDEL, {}, "none")[:1], "list"]), capture_output=True, text=True,
