@@ -150,8 +150,9 @@ nlohmann::json built(const CheckRequest& request, const Section& scene) {
   for (const std::string& warning : scene_warnings(scene, regime)) {
     result["warnings"].push_back(warning);
   }
-  if (const auto warning = seepage_warning(scene, scene.number("time.end"))) {
-    result["warnings"].push_back(*warning);
+  for (const auto& warning : {seepage_warning(scene, scene.number("time.end")),
+                              wave_warning(scene, scene.number("time.end"))}) {
+    if (warning) result["warnings"].push_back(*warning);
   }
   if (!(request.trial_seconds > 0.0)) return result;
   const double building =

@@ -103,8 +103,10 @@ void SceneRun::finish(bool stopped) {
   log_if_any(balance_warning(scene_, simulation_));
   log_if_any(filling_warning(scene_, simulation_));
   log_if_any(residual_aperture_warning(scene_, simulation_));
-  const auto seepage = seepage_warning(scene_, simulation_.manager->time());
-  if (!stopped) log_if_any(seepage);
+  if (!stopped) {
+    log_if_any(seepage_warning(scene_, simulation_.manager->time()));
+    log_if_any(wave_warning(scene_, simulation_.manager->time()));
+  }
   recorder_.write_checkpoint(false);
   recorder_.check_kept();
 }

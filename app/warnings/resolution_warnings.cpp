@@ -17,6 +17,7 @@ namespace {
 
 constexpr double least_filled = 2.5;   // spacings an inlet
 constexpr double least_wet = 2.0;      // spacings
+constexpr double least_waves = 5.0;    // spacings: by half of one, energies are a tenth off then
 constexpr double most_residual = 0.5;  // of the widest opening; volumes are 3 % off then
 
 /// Of a field; 0 where there is none.
@@ -125,6 +126,18 @@ std::optional<std::string> residual_aperture_warning(const Section& scene,
       "{:.2g} m: fluid fills and flows through that, not what it opens; lower it to a tenth of the "
       "openings that are expected",
       widest, residual);
+}
+
+std::optional<std::string> wave_warning(const Section& scene, double time) {
+  if (!has_elastic_rock(scene) || scene.word("solid.type") != "dynamic") return {};
+  const double speed =
+      std::sqrt(read_elastic_rock(scene).uniaxial_modulus() / scene.number("solid.density"));
+  const double spacings = speed * time / scene.number("body.spacing");
+  if (!(time > 0.0) || spacings >= least_waves) return {};
+  return fmt::format(
+      "waves go {:.2g} m into the rock by t = {:.3g} s, {:.1f} body.spacing: stresses and energies "
+      "there depend on the spacing; bring points closer together, or look at later times",
+      speed * time, time, spacings);
 }
 
 std::optional<std::string> seepage_warning(const Section& scene, double time) {

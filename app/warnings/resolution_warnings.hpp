@@ -16,6 +16,10 @@ std::optional<std::string> filling_warning(const Section& scene, const Simulatio
 std::optional<std::string> residual_aperture_warning(const Section& scene,
                                                      const Simulation& simulation);
 
+/// Where waves in rock with inertia have gone a few spacings by `time` [s]: what a blow has brought
+/// in until then is what points so far apart take, not rock.
+std::optional<std::string> wave_warning(const Section& scene, double time);
+
 /// Where pressure has gone less than a spacing into the pores by `time` [s], from a face that holds
 /// it or a crack: what seeps then is what points so far apart take, not rock.
 std::optional<std::string> seepage_warning(const Section& scene, double time);

@@ -10,6 +10,7 @@ FIGURES = re.compile(r"(pore_pressure|displacement|fluid_pressure|fluid_velocity
                      r"inlet_\S*_(pressure|opening)$|mean_crack_pressure$|energy_stored$|energy_gained$|fluid_mass_gained$|"
                      r"fracture_energy$|leak_off_volume$")
 PRESSURES = ("hydrostatic", "water_on_plate", "constant_head")  # references that say what fluid presses with
+LITTLE = 0.1
 NOTHING = 1e-12  # of the body's size, of the stiffest modulus, of all mass: as good as none of a quantity
 
 
@@ -77,6 +78,9 @@ def sizes_of(one, other, scene):
             sizes[quantity(name)] = max(sizes.get(quantity(name), 0.0), largest(column))
     if "energy" in sizes:
         sizes["energy"] = max(sizes["energy"], energy_of_height(one, scene))
+    # Leak-off that has hardly begun is part of what cracks hold, and known as well as that.
+    if "leak_off_volume" in sizes:
+        sizes["leak_off_volume"] = max(sizes["leak_off_volume"], LITTLE * sizes.get("crack_volume", 0.0))
     # What moves is pressed upon by its own weight in motion; less is the noise of sound.
     moving = scene.get("fluid", {}).get("density", 1000.0) * sizes.get("fluid_velocity", 0.0)**2
     sizes["fluid_pressure"] = max(sizes["fluid_pressure"], moving)

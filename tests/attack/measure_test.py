@@ -39,6 +39,10 @@ def main():
         runs = (history(energy_stored=[0.0, 1e3 + more], fluid_mass_stored=[1e3, 1e3]) for more in (0.0, difference))
         if (answers.farthest(*runs, FALLING)[0] > 0.05) != counts:
             wrong.append(f"{difference} J of water that falls: counts ought to be {counts}")
+    for leaked, counts in ((6e-10, False), (6e-7, True)):
+        runs = (history(crack_volume=[0.0, 1e-6], leak_off_volume=[0.0, volume]) for volume in (1e-11, leaked))
+        if (answers.farthest(*runs, {})[0] > 0.05) != counts:
+            wrong.append(f"a leak-off of {leaked} of 1e-6: counts ought to be {counts}")
     sys.exit("\n".join(wrong) if wrong else 0)
 
 

@@ -151,6 +151,13 @@ class Validity(RunTest):
             warned = self.warnings(CONFIGS / "hf_storage_pores.yaml", held)
             self.assertEqual(any("through face 'left'" in warning for warning in warned), warns, warned)
 
+    def test_waves_that_have_hardly_begun(self):
+        scene = CONFIGS / "kalthoff.yaml"
+        short = {"time.end": "0.5 us", "output.interval": "0.5 us"}
+        self.assert_warns(scene, short, "waves go 0.0027 m into the rock by t = 5e-07 s, 2.7 body.spacing")
+        self.assertIn("waves go", "".join(self.foreknown(scene, short)))
+        self.assertNotIn("waves go", "".join(self.foreknown(scene)))
+
     def test_a_crack_that_fluid_has_hardly_entered(self):
         soon = {"body.spacing": "2.5 mm", "cracks[1]": "null", "time.end": "0.05 ms", "output.interval": "0.05 ms"}
         del soon["cracks[1]"]

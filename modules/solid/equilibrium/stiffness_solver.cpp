@@ -18,10 +18,10 @@ KeyTable linear_solver_keys() {
        .type = KeyType::word,
        .fallback = "automatic",
        .words = {"automatic", "direct", "multigrid"},
-       .meaning = "quasi_static: direct factors the stiffness once and takes memory and time "
-                  "beyond some ten thousand points; multigrid takes both in proportion to the "
-                  "points of a lattice; automatic chooses by their number. Beside friction "
-                  "between faces: direct."},
+       .meaning = "quasi_static: direct factors the stiffness once, in 3D at a price beyond some "
+                  "two thousand points and in 2D beyond a hundred thousand; multigrid takes time "
+                  "and memory in proportion to the points of a lattice; automatic chooses by "
+                  "their number. Beside friction between faces: direct."},
       {.path = "linear_solver.tolerance",
        .range = "[1e-13, 1e-2]",
        .fallback = "1e-9",
