@@ -119,7 +119,7 @@ class WindowSolver {
   std::vector<SharedPoints> accelerated_;  ///< points of the lagged links' sources, one a link
   std::vector<double> weights_;            ///< one a link; of use for the lagged ones
   std::vector<StabilityWatch> watches_;    ///< likewise
-  Snapshot begin_{false};
+  Snapshot begin_{/*takes_guesses=*/false};
   CouplingWork work_;
 };
 

@@ -15,9 +15,8 @@ class Digest {
       hash_ *= 0x9e3779b97f4a7c15;  // an odd number without a pattern
     }
   }
-  std::int64_t value() const {
-    return static_cast<std::int64_t>(hash_ >> 1);
-  }  // whose negative is one too
+  /// Such that its negative is a number, too.
+  std::int64_t value() const { return static_cast<std::int64_t>(hash_ >> 1); }
 
  private:
   std::uint64_t hash_ = 0;
