@@ -107,6 +107,15 @@ class ShippedFracture(unittest.TestCase):
             self.assertLessEqual(run.figure("pressure"), pressure, name)
             self.assertLessEqual(run.figure("opening"), opening, name)
 
+    def test_a_dry_slit_in_wet_rock(self):
+        """By multigrid what the factor says, though no pressure in the slit tells that the load is another."""
+        runs = [self.run_scene(os.path.join(HERE, "dry_slit.yaml"), {"solid.linear_solver.type": solver}, 8e-4)
+                for solver in ("direct", "multigrid")]
+        for name in ("energy_stored", "external_work"):
+            exact, found = (run.last(name) for run in runs)
+            self.assertGreater(exact, 1e4)
+            self.assertLessEqual(abs(found / exact - 1.0), 1e-5, name)  # a tenth of the solver's tolerance
+
     def test_kgd_that_leaks_nearly_all(self):
         """Efficiency 0.08, K_m = 3.4, 14 facets, in the mean from 75 to 95 mm. By tests/references/kgd.py: time
         [s], length [m], opening at the inlet [m]."""

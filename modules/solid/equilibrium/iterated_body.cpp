@@ -185,13 +185,6 @@ Eigen::VectorXd IteratedBody<D>::first_contact(const Eigen::VectorXd& pressure) 
   return contact;
 }
 
-template <int D>
-Eigen::VectorXd IteratedBody<D>::areas() const {
-  Eigen::VectorXd area(static_cast<Eigen::Index>(jumps_.size()));
-  for (Eigen::Index f = 0; f < area.size(); ++f) area[f] = jumps_[f].area;
-  return area;
-}
-
 /// Of a change of pressure and openings. What it opens in the rock beside the faces is known.
 template <int D>
 void IteratedBody<D>::learn(const Eigen::VectorXd& pressure, const Eigen::VectorXd& opening) {
@@ -238,13 +231,9 @@ template <int D>
 void IteratedBody<D>::move_evenly(const Eigen::VectorXd& pressure) {
   const EvenAnswer* const known = find_even(-1, 0);
   if (known == nullptr || known->facets != facet_count()) return;
-  const Eigen::VectorXd area = areas();
-  Eigen::VectorXd jump(pressure.size());
-  for (Eigen::Index f = 0; f < jump.size(); ++f) {
-    jump[f] = this->jump(static_cast<Index>(f), view(known->move))[0];
-  }
-  const double work = area.dot(jump);
-  if (work > 0.0) answer_.move += area.cwiseProduct(jump).dot(pressure) / work * known->move;
+  const auto pressed = Eigen::Map<const Eigen::VectorXd>(pressed_.data(), pressure.size());
+  const Eigen::VectorXd work = this->areas().cwiseProduct(openings(*known) - pressed);
+  if (work.sum() > 0.0) answer_.move += work.dot(pressure) / work.sum() * known->move;
 }
 
 /// By the last answer and the slope.
@@ -266,8 +255,10 @@ void IteratedBody<D>::solve_and_learn(const Eigen::VectorXd& pressure) {
   const bool compares = is_of_this_body(answer_);
   const Eigen::VectorXd pressure_before = answer_.pressure;
   Eigen::VectorXd before;
-  if (compares) before = openings(answer_);
-  if (compares) move_evenly(pressure - pressure_before);
+  if (compares) {
+    before = openings(answer_);
+    move_evenly(pressure - pressure_before);
+  }
   solve(answer_, pressure);
   if (!compares || pressure.size() == 0) return;
   const Eigen::VectorXd after = openings(answer_);
@@ -336,11 +327,9 @@ template <int D>
 void IteratedBody<D>::ready_slope() {
   if (learned_.size() == facet_count()) return;
   const ProfileScope profiled("slope");
-  learned_.extend(pressure_by_opening<D>(bonds_.facets(), moduli(), planes_), areas());
-  Vector<D> unit{};
-  unit[0] = 1.0;
-  const auto count = static_cast<Eigen::Index>(facet_count());
-  learn(Eigen::VectorXd::Ones(count), openings(even(all_faces(), unit)));
+  learned_.extend(pressure_by_opening<D>(bonds_.facets(), moduli(), planes_), this->areas());
+  const Eigen::VectorXd opening = openings(evenly_pressed());
+  learn(Eigen::VectorXd::Ones(opening.size()), opening);
 }
 
 template <int D>
@@ -392,6 +381,13 @@ auto IteratedBody<D>::even(std::span<const Index> faces, const Vector<D>& tracti
   return answer;
 }
 
+template <int D>
+auto IteratedBody<D>::evenly_pressed() -> const EvenAnswer& {
+  Vector<D> unit{};
+  unit[0] = 1.0;
+  return even(all_faces(), unit);
+}
+
 /// By a pressure of 1.
 template <int D>
 Eigen::VectorXd IteratedBody<D>::openings(const EvenAnswer& answer) const {
@@ -405,12 +401,8 @@ Eigen::VectorXd IteratedBody<D>::openings(const EvenAnswer& answer) const {
 
 template <int D>
 double IteratedBody<D>::intensity_at_fixed_volume(Index facet) {
-  Vector<D> unit{};
-  unit[0] = 1.0;
-  const Eigen::VectorXd opening = openings(even(all_faces(), unit));
-  double volume = 0.0;
-  for (std::size_t f = 0; f < jumps_.size(); ++f) volume += jumps_[f].area * opening[f];
-  return opening[facet] / volume;
+  const Eigen::VectorXd opening = openings(evenly_pressed());
+  return opening[facet] / this->areas().dot(opening);
 }
 
 template <int D>

@@ -104,7 +104,6 @@ class IteratedBody final : public CrackedBody<D> {
 
   std::int64_t facet_count() const { return static_cast<std::int64_t>(jumps_.size()); }
   Eigen::VectorXd first_contact(const Eigen::VectorXd& pressure) const;
-  Eigen::VectorXd areas() const;
   void learn(const Eigen::VectorXd& pressure, const Eigen::VectorXd& opening);
   /// Contact at a pressure in the cracks, and how far that is from the last answer: the largest
   /// change of an opening, of the largest opening of faces that may pass through one another.
@@ -124,6 +123,7 @@ class IteratedBody final : public CrackedBody<D> {
   const EvenAnswer* find_even(std::int64_t first, std::int64_t axis) const;
   void solve(EvenAnswer& answer, std::span<const Index> faces);
   const EvenAnswer& even(std::span<const Index> faces, const Vector<D>& traction);
+  const EvenAnswer& evenly_pressed();  ///< the faces of all cracks, by a pressure of 1
   Vector<D> jump_of(std::size_t f, const Answer& answer) const;
   Eigen::VectorXd openings(const Answer& answer) const;
   Eigen::VectorXd openings(const EvenAnswer& answer) const;

@@ -28,6 +28,13 @@ void CrackedBody<D>::add_jump(const FaceJump<D>& jump) {
 }
 
 template <int D>
+Eigen::VectorXd CrackedBody<D>::areas() const {
+  Eigen::VectorXd area(static_cast<Eigen::Index>(jumps_.size()));
+  for (Eigen::Index f = 0; f < area.size(); ++f) area[f] = jumps_[f].area;
+  return area;
+}
+
+template <int D>
 std::vector<std::vector<Index>> CrackedBody<D>::loose_pieces() {
   return find_loose_pieces<D>(*elastic_, *family_, free_unknowns_);
 }

@@ -149,6 +149,8 @@ class CrackedBody : public CutBody<D> {
 
   void check_pieces(std::span<const std::pair<Index, Index>> cut);
   void add_jump(const FaceJump<D>& jump);
+  /// Of the facets; per metre in 2D.
+  Eigen::VectorXd areas() const;
   /// Of the same traction on the faces named, along normal and tangents [Pa], on all unknowns [N].
   Eigen::VectorXd traction_force(std::span<const Index> faces, const Vector<D>& traction) const;
   Vector<D> face_load(std::size_t f, double pressure, std::span<const double> shear,

@@ -35,8 +35,6 @@ void CondensedBody<D>::take_partial(std::span<const PartialCut> cuts) {
   for (const PartialCut& cut : cuts) taken.push_back(partial_cut(cut));
   partial_.take(std::move(taken), inverse_->block());
   const auto count = static_cast<Eigen::Index>(modes_.size());
-  Eigen::VectorXd area(count);
-  for (Eigen::Index f = 0; f < count; ++f) area[f] = jumps_[f].area;
   std::vector<Eigen::MatrixXd> rows(D, Eigen::MatrixXd::Zero(count, partial_.columns().cols()));
   for (int k = 0; k < D; ++k) {
     for (Eigen::Index f = 0; f < count; ++f) {
@@ -45,7 +43,7 @@ void CondensedBody<D>::take_partial(std::span<const PartialCut> cuts) {
       }
     }
   }
-  partial_.tell(std::move(rows), std::move(area));
+  partial_.tell(std::move(rows), this->areas());
   find_cut_loaded();
   hold_partial();
 }
