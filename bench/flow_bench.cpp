@@ -38,16 +38,16 @@ void apply_tensor_flow(benchmark::State& state) {
   apply_law<D>(state, law);
 }
 
-void settings(benchmark::internal::Benchmark* bench) {
+void flow_settings(benchmark::internal::Benchmark* bench) {
   constexpr auto lattice = static_cast<long>(Cloud::lattice);
   constexpr auto jittered = static_cast<long>(Cloud::jittered);
   bench->ArgNames({"threads", "cloud"})->ArgsProduct({{1, 2}, {lattice, jittered}})->UseRealTime();
 }
 
-BENCHMARK(apply_flow<2>)->Apply(settings);
-BENCHMARK(apply_flow<3>)->Apply(settings);
-BENCHMARK(apply_tensor_flow<2>)->Apply(settings);
-BENCHMARK(apply_tensor_flow<3>)->Apply(settings);
+BENCHMARK(apply_flow<2>)->Apply(flow_settings);
+BENCHMARK(apply_flow<3>)->Apply(flow_settings);
+BENCHMARK(apply_tensor_flow<2>)->Apply(flow_settings);
+BENCHMARK(apply_tensor_flow<3>)->Apply(flow_settings);
 
 }  // namespace
 }  // namespace perifrac::bench

@@ -14,7 +14,7 @@ namespace perifrac {
 
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 /// Each part with all that lies within it.
 std::vector<Profile::Part> with_parts_within(std::vector<Profile::Part> parts) {
@@ -32,7 +32,7 @@ std::map<std::string, std::size_t> field_bytes(const Simulation& simulation) {
   ArrayList list;
   simulation.manager->visit_state(list);
   std::map<std::string, std::size_t> bytes;
-  for (const Json& array : list.arrays) {
+  for (const SortedJson& array : list.arrays) {
     const std::string name = array["name"];
     bytes[name.substr(0, name.find('/'))] += array["bytes"].get<std::size_t>();
   }
@@ -42,33 +42,33 @@ std::map<std::string, std::size_t> field_bytes(const Simulation& simulation) {
 double share(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
 /// The parts within one, in the order in which they were met.
-Json parts_json(const std::vector<Profile::Part>& parts, int within) {
-  Json result = Json::array();
+SortedJson parts_json(const std::vector<Profile::Part>& parts, int within) {
+  SortedJson result = SortedJson::array();
   for (std::size_t k = 1; k < parts.size(); ++k) {
     const Profile::Part& part = parts[k];
     if (part.within != within) continue;
-    Json json = {{"name", part.name},
-                 {"calls", part.calls},
-                 {"seconds", part.seconds},
-                 {"share", share(part.seconds, parts[0].seconds)},
-                 {"cpu_seconds", part.cpu_seconds},
-                 {"heap_bytes", part.bytes}};
-    Json inner = parts_json(parts, static_cast<int>(k));
+    SortedJson json = {{"name", part.name},
+                       {"calls", part.calls},
+                       {"seconds", part.seconds},
+                       {"share", share(part.seconds, parts[0].seconds)},
+                       {"cpu_seconds", part.cpu_seconds},
+                       {"heap_bytes", part.bytes}};
+    SortedJson inner = parts_json(parts, static_cast<int>(k));
     if (!inner.empty()) json["parts"] = std::move(inner);
     result.push_back(std::move(json));
   }
   return result;
 }
 
-double sum_of(const Json& parts, const char* key) {
+double sum_of(const SortedJson& parts, const char* key) {
   double sum = 0.0;
-  for (const Json& part : parts) sum += part[key].get<double>();
+  for (const SortedJson& part : parts) sum += part[key].get<double>();
   return sum;
 }
 
-void append_rows(const Json& parts, int depth, std::string& text) {
+void append_rows(const SortedJson& parts, int depth, std::string& text) {
   const int indent = 2 * depth;
-  for (const Json& part : parts) {
+  for (const SortedJson& part : parts) {
     text +=
         fmt::format("  {:{}}{:<{}} {:>9} {:>10.3f} {:>10.3f} {:>6.1f} {:>10.3f}", "", indent,
                     part["name"].get<std::string>(), 32 - indent, part["calls"].get<long>(),
@@ -84,14 +84,14 @@ void append_rows(const Json& parts, int depth, std::string& text) {
 
 }  // namespace
 
-Json profile_json(Profile& profile, const Simulation& simulation) {
+SortedJson profile_json(Profile& profile, const Simulation& simulation) {
   const std::vector<Profile::Part> parts = with_parts_within(profile.parts());
-  Json named = parts_json(parts, 0);
+  SortedJson named = parts_json(parts, 0);
   std::map<std::string, std::size_t> fields = field_bytes(simulation);
   fields["exchange"] = fields["coupling"];
   const auto set_up =
-      std::ranges::find(named, "set-up", [](const Json& part) { return part["name"]; });
-  for (Json& part : (*set_up)["parts"]) {
+      std::ranges::find(named, "set-up", [](const SortedJson& part) { return part["name"]; });
+  for (SortedJson& part : (*set_up)["parts"]) {
     const auto found = fields.find(part["name"].get<std::string>());
     if (found != fields.end() && found->second > 0) part["field_bytes"] = found->second;
   }
@@ -100,7 +100,7 @@ Json profile_json(Profile& profile, const Simulation& simulation) {
   const auto at_start = static_cast<double>(profile.resident_at_start());
   const auto resident = static_cast<double>(resident_bytes());
   const Profile::Part& whole = parts[0];
-  Json loops = Json::object();
+  SortedJson loops = SortedJson::object();
   for (const ModuleSlot& slot : simulation.manager->modules()) {
     if (const std::string path = slot.module->path(); !path.empty()) loops[slot.name] = path;
   }
@@ -121,11 +121,11 @@ Json profile_json(Profile& profile, const Simulation& simulation) {
             {"peak", peak_memory()}}}};
 }
 
-std::string profile_text(const Json& profile) {
+std::string profile_text(const SortedJson& profile) {
   std::string text = fmt::format("\n  {:<32} {:>9} {:>10} {:>10} {:>6} {:>10} {:>10}\n", "part",
                                  "calls", "wall [s]", "cpu [s]", "%", "heap [MB]", "fields[MB]");
   append_rows(profile["parts"], 0, text);
-  const Json& rest = profile["unaccounted"];
+  const SortedJson& rest = profile["unaccounted"];
   text += fmt::format("  {:<32} {:>9} {:>10.3f} {:>10} {:>6.1f}\n", "in none of them", "",
                       rest["seconds"].get<double>(), "", 100.0 * rest["share"].get<double>());
   text +=
@@ -135,7 +135,7 @@ std::string profile_text(const Json& profile) {
     text += fmt::format("  bonds of {}: {}\n", name, path.get<std::string>());
   }
   text += fmt::format("  instructions: {}\n", profile["instructions"].get<std::string>());
-  const Json& memory = profile["memory"];
+  const SortedJson& memory = profile["memory"];
   const auto mb = [&](const char* key) { return memory[key].get<double>() / 1e6; };
   text += fmt::format(
       "  memory [MB]: {:.1f} before the scene, {:.1f} held by parts, {:.1f} by none, {:.1f} in the "

@@ -11,30 +11,30 @@ namespace perifrac {
 
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
-Json spread_json(const Spread& spread) {
+SortedJson spread_json(const Spread& spread) {
   return {{"median", spread.median}, {"least", spread.least}, {"most", spread.most}};
 }
 
 template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
+SortedJson or_null(const std::optional<T>& value) {
+  return value ? SortedJson(*value) : SortedJson();
 }
 
-Json choice_json(const Choice& choice) {
-  Json result = Json::object();
+SortedJson choice_json(const Choice& choice) {
+  SortedJson result = SortedJson::object();
   for (const auto& [axis, value] : choice) result[axis] = value;
   return result;
 }
 
-Json axes_json(const Study& study) {
-  Json axes = Json::array();
+SortedJson axes_json(const Study& study) {
+  SortedJson axes = SortedJson::array();
   for (const StudyAxis& axis : study.axes) {
-    Json labels = Json::array(), numbers = Json::array();
+    SortedJson labels = SortedJson::array(), numbers = SortedJson::array();
     for (const AxisValue& value : axis.values) {
       labels.push_back(value.label);
-      numbers.push_back(std::isfinite(value.number) ? Json(value.number) : Json());
+      numbers.push_back(std::isfinite(value.number) ? SortedJson(value.number) : SortedJson());
     }
     axes.push_back({{"name", axis.name},
                     {"unit", axis.unit},
@@ -46,17 +46,17 @@ Json axes_json(const Study& study) {
   return axes;
 }
 
-Json error_json(const ErrorMeasure& error) {
-  Json result = {{"against", error.against},
-                 {"norm", error.largest ? "largest" : "rms"},
-                 {"from", error.from},
-                 {"to", std::isfinite(error.to) ? Json(error.to) : Json()}};
+SortedJson error_json(const ErrorMeasure& error) {
+  SortedJson result = {{"against", error.against},
+                       {"norm", error.largest ? "largest" : "rms"},
+                       {"from", error.from},
+                       {"to", std::isfinite(error.to) ? SortedJson(error.to) : SortedJson()}};
   if (!error.quantity.empty()) result["quantity"] = error.quantity;
   if (!error.columns.empty()) result["columns"] = error.columns;
   return result;
 }
 
-Json point_json(const Study& study, const StudyPoint& point) {
+SortedJson point_json(const Study& study, const StudyPoint& point) {
   Choice choice;
   for (std::size_t a = 0; a < point.variant->choice.size(); ++a) {
     const StudyAxis& axis = study.axes[a];
@@ -78,13 +78,13 @@ Json point_json(const Study& study, const StudyPoint& point) {
           {"output_time", point.output_time},
           {"peak_memory", point.peak_memory},
           {"runs", point.record->runs.size()},
-          {"counts", point.run.value("counts", Json::object())},
-          {"modules", point.run.value("modules", Json::array())}};
+          {"counts", point.run.value("counts", SortedJson::object())},
+          {"modules", point.run.value("modules", SortedJson::array())}};
 }
 
 /// What the runs say they ran on, each once: a launcher may spread them.
-Json distinct(const StudyResults& results, const char* key) {
-  Json found = Json::array();
+SortedJson distinct(const StudyResults& results, const char* key) {
+  SortedJson found = SortedJson::array();
   for (const StudyPoint& point : results.points) {
     if (!point.run.contains(key)) continue;
     if (std::ranges::find(found, point.run[key]) == found.end()) found.push_back(point.run[key]);
@@ -92,15 +92,16 @@ Json distinct(const StudyResults& results, const char* key) {
   return found;
 }
 
-Json ranking_json(const StudyResults& results, const Ranking& ranking) {
+SortedJson ranking_json(const StudyResults& results, const Ranking& ranking) {
   const auto name = [&](std::size_t i) { return results.points[i].variant->name; };
-  Json front = Json::array(), cheapest = Json::array();
+  SortedJson front = SortedJson::array(), cheapest = SortedJson::array();
   for (const std::size_t i : ranking.front) front.push_back(name(i));
   for (const CheapestFor& entry : ranking.cheapest) {
-    Json reaching = Json::array(), by_value = Json::array();
+    SortedJson reaching = SortedJson::array(), by_value = SortedJson::array();
     for (const std::size_t i : entry.reaching) reaching.push_back(name(i));
     for (const auto& [label, point] : entry.by_value) {
-      by_value.push_back({{"value", label}, {"variant", point ? Json(name(*point)) : Json()}});
+      by_value.push_back(
+          {{"value", label}, {"variant", point ? SortedJson(name(*point)) : SortedJson()}});
     }
     cheapest.push_back(
         {{"accuracy", entry.accuracy}, {"reaching", reaching}, {"by_value", by_value}});
@@ -108,10 +109,10 @@ Json ranking_json(const StudyResults& results, const Ranking& ranking) {
   return {{"problem", choice_json(ranking.problem)}, {"front", front}, {"cheapest", cheapest}};
 }
 
-Json orders_json(const StudyResults& results) {
-  Json orders = Json::array();
+SortedJson orders_json(const StudyResults& results) {
+  SortedJson orders = SortedJson::array();
   for (const ObservedOrder& order : results.orders) {
-    Json variants = Json::array();
+    SortedJson variants = SortedJson::array();
     for (const std::size_t i : order.points) variants.push_back(results.points[i].variant->name);
     orders.push_back({{"axis", order.axis},
                       {"others", choice_json(order.others)},
@@ -123,8 +124,8 @@ Json orders_json(const StudyResults& results) {
   return orders;
 }
 
-Json crossings_json(const StudyResults& results) {
-  Json crossings = Json::array();
+SortedJson crossings_json(const StudyResults& results) {
+  SortedJson crossings = SortedJson::array();
   for (const CostCrossing& crossing : results.crossings) {
     crossings.push_back({{"axis", crossing.axis},
                          {"compared", crossing.compared},
@@ -138,10 +139,10 @@ Json crossings_json(const StudyResults& results) {
 
 }  // namespace
 
-Json study_json(const Study& study, const StudyResults& results, const StudyOptions& options,
-                const std::vector<std::string>& left_out,
-                const std::vector<std::string>& sentences) {
-  Json variants = Json::array(), rankings = Json::array();
+SortedJson study_json(const Study& study, const StudyResults& results, const StudyOptions& options,
+                      const std::vector<std::string>& left_out,
+                      const std::vector<std::string>& sentences) {
+  SortedJson variants = SortedJson::array(), rankings = SortedJson::array();
   for (const StudyPoint& point : results.points) variants.push_back(point_json(study, point));
   for (const Ranking& ranking : results.rankings) {
     rankings.push_back(ranking_json(results, ranking));

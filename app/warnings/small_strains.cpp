@@ -10,7 +10,7 @@ namespace perifrac {
 namespace {
 
 template <int D>
-using Matrix = Eigen::Matrix<double, D, D>;
+using StrainMatrix = Eigen::Matrix<double, D, D>;
 
 template <int D>
 using Column = Eigen::Matrix<double, D, 1>;
@@ -38,8 +38,8 @@ class Displaced {
 };
 
 template <int D>
-Matrix<D> gradient_at(const Family<D>& family, Index i, const Displaced<D>& displaced) {
-  Matrix<D> shape = Matrix<D>::Zero(), spread = Matrix<D>::Zero();
+StrainMatrix<D> gradient_at(const Family<D>& family, Index i, const Displaced<D>& displaced) {
+  StrainMatrix<D> shape = StrainMatrix<D>::Zero(), spread = StrainMatrix<D>::Zero();
   for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) {
     const Index j = family.other[b];
     if (j >= family.point_count) continue;  // what a ghost does follows from the others
@@ -47,8 +47,9 @@ Matrix<D> gradient_at(const Family<D>& family, Index i, const Displaced<D>& disp
     shape += family.weight[b] * bond * bond.transpose();
     spread += family.weight[b] * displaced.moved_apart(i, j) * bond.transpose();
   }
-  const Eigen::FullPivLU<Matrix<D>> factor(shape);
-  if (!factor.isInvertible()) return Matrix<D>::Zero();  // bonds in one line say nothing across it
+  const Eigen::FullPivLU<StrainMatrix<D>> factor(shape);
+  if (!factor.isInvertible())
+    return StrainMatrix<D>::Zero();  // bonds in one line say nothing across it
   return spread * factor.inverse();
 }
 
@@ -74,13 +75,14 @@ LargestStrain largest_strain(const Body<D>& body, std::span<const double> displa
   const Displaced<D> displaced(body, displacement);
   for (Index i = 0; i < body.points().size(); ++i) {
     if (torn[i]) continue;
-    const Matrix<D> gradient = gradient_at(*families.front(), i, displaced);
-    const Matrix<D> strain = 0.5 * (gradient + gradient.transpose());
-    const Matrix<D> spin = 0.5 * (gradient - gradient.transpose());
+    const StrainMatrix<D> gradient = gradient_at(*families.front(), i, displaced);
+    const StrainMatrix<D> strain = 0.5 * (gradient + gradient.transpose());
+    const StrainMatrix<D> spin = 0.5 * (gradient - gradient.transpose());
     const double rotation = std::sqrt(0.5) * spin.norm();
     // The norm is above each principal strain; the costly ones only where it counts.
     if (strain.norm() > largest.strain) {
-      const Eigen::SelfAdjointEigenSolver<Matrix<D>> principal(strain, Eigen::EigenvaluesOnly);
+      const Eigen::SelfAdjointEigenSolver<StrainMatrix<D>> principal(strain,
+                                                                     Eigen::EigenvaluesOnly);
       const double size = principal.eigenvalues().cwiseAbs().maxCoeff();
       if (size > largest.strain) largest.strain = size, largest.strained = i;
     }

@@ -30,6 +30,10 @@ double area(const CrackFacet<D>& facet);
 /// Where a point of its plane lies along its sides, 0 to 1 within it.
 template <int D>
 std::array<double, D - 1> place_within(const CrackFacet<D>& facet, const Vector<D>& x);
+template <>
+std::array<double, 1> place_within<2>(const CrackFacet<2>& facet, const Vector<2>& x);
+template <>
+std::array<double, 2> place_within<3>(const CrackFacet<3>& facet, const Vector<3>& x);
 
 /// Where another facet may meet it: an end in 2D, a side by its two ends in 3D, in an order that is
 /// the same from both facets.

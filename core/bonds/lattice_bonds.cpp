@@ -13,7 +13,7 @@ namespace perifrac {
 
 namespace {
 
-constexpr double rounding = 1e-9;  // of a place on the lattice, in spacings; of a weight
+constexpr double lattice_rounding = 1e-9;  // of a place on the lattice, in spacings; of a weight
 
 /// Where nodes lie on a lattice: counted from a corner one horizon outside.
 template <int D>
@@ -40,7 +40,7 @@ std::optional<Grid<D>> find_grid(const Family<D>& family, double spacing) {
     Index least = 0, most = 0;
     for (Index i = 0; i < family.node_count(); ++i) {
       const double at = (x[i] - origin) / spacing;
-      if (!(std::abs(at - std::round(at)) < rounding)) return {};
+      if (!(std::abs(at - std::round(at)) < lattice_rounding)) return {};
       grid.place[i][a] = static_cast<Index>(std::lround(at));
       least = std::min(least, grid.place[i][a]);
       most = std::max(most, grid.place[i][a]);
@@ -100,7 +100,7 @@ struct Steps {
   }
 };
 
-bool differ(double a, double b) { return std::abs(a - b) > rounding * b; }
+bool differ(double a, double b) { return std::abs(a - b) > lattice_rounding * b; }
 
 /// The weight of the bonds of each step; 0: there are none. Nothing where some differ.
 template <int D>

@@ -16,7 +16,7 @@ namespace perifrac {
 
 namespace {
 
-constexpr double tolerance = 1e-12;  // of the moments, relative to k
+constexpr double moment_tolerance = 1e-12;  // of the moments, relative to k
 constexpr int most_steps = 40;
 constexpr double longest_step = 2.0;  // the most that one step may change ln s
 constexpr double least_factor = 1e-4, largest_factor = 1e2;
@@ -53,7 +53,7 @@ class MomentProjection {
     const Index size = T * complete_count_;
     Eigen::MatrixXd multiplier = Eigen::MatrixXd::Zero(size, 1), residual(size, 1), step(size, 1);
     SparseCholesky newton;
-    while (find_residual(residual) > tolerance) {
+    while (find_residual(residual) > moment_tolerance) {
       if (++done.steps > most_steps) refuse("do not exist");
       try {
         newton.factor(derivative());

@@ -11,7 +11,7 @@ namespace perifrac {
 namespace {
 
 // Enough for times from 1e-6 of the slowest mode's on.
-constexpr int modes = 1000;
+constexpr int column_modes = 1000;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ LayeredColumnSolution::LayeredColumnSolution(const ColumnLayer& lower, const Col
   // The condition changes sign once between multiples of this.
   const double apart = std::numbers::pi / (layer_[0].thickness / root_diffusivity_[0] +
                                            layer_[1].thickness / root_diffusivity_[1]);
-  for (int n = 0; n < modes; ++n) {
+  for (int n = 0; n < column_modes; ++n) {
     add_mode(
         bisect([this](double s) { return frequency_condition(s); }, n * apart, (n + 1) * apart));
   }

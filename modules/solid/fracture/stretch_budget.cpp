@@ -15,14 +15,14 @@ constexpr double at_once = -1.0;
 
 /// Of the longest bond: the margin of what is left, and how far a point may be from where it began
 /// for rounding to stay far below that.
-constexpr double margin = 1e-9, farthest = 1e3;
+constexpr double least_margin = 1e-9, farthest = 1e3;
 
 }  // namespace
 
 template <int D>
 StretchBudget<D>::StretchBudget(const Family<D>& family)
     : points_(family.point_count),
-      rounding_(margin * bond_lengths(family).longest),
+      rounding_(least_margin * bond_lengths(family).longest),
       last_(static_cast<std::size_t>(D) * points_) {
   for (Index i = 0; i < points_; ++i) {
     const auto begin = family.other.begin() + family.offset[i];
@@ -69,7 +69,7 @@ std::span<const Index> StretchBudget<D>::due(std::span<const double> u) {
 /// Where displacements are so large that rounding might hide a way, nothing is left alone.
 template <int D>
 void StretchBudget<D>::watch_rounding(std::span<const double> u) {
-  const double most = farthest / margin * rounding_;
+  const double most = farthest / least_margin * rounding_;
   double way = 0.0;
   for (const Box& box : motion_) {
     for (int a = 0; a < D; ++a) way = std::max({way, std::abs(box.low[a]), std::abs(box.high[a])});

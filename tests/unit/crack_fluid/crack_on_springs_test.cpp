@@ -8,10 +8,10 @@ namespace {
 using namespace test;
 
 /// A crack whose every point opens by c p of its own pressure (Winkler), fed at its end at a
-/// constant rate Q: w_t = A (w^3 w_x)_x, A = 1 / (12 mu c), -A w^3 w_x = Q at x = 0 (Barenblatt
+/// constant inflow Q: w_t = A (w^3 w_x)_x, A = 1 / (12 mu c), -A w^3 w_x = Q at x = 0 (Barenblatt
 /// 1952). With w = t^(1/5) f(x / t^(4/5)), Q = 1 and A = 1:
 ///   f/5 - 4/5 xi f' = (f^3 f')', which with M = int_xi^front f is f^2 f' = -(4/5 xi + M / f) f^0,
-/// integrated back from the front, xi = 1, and scaled to the rate.
+/// integrated back from the front, xi = 1, and scaled to the inflow.
 struct SimilarCrack {
   double front;  ///< xi where it ends
   double inlet;  ///< f at the inlet
@@ -35,14 +35,14 @@ struct SimilarCrack {
       g += h / 6.0 * (a[0] + 2.0 * b[0] + 2.0 * c[0] + d[0]);
       m += h / 6.0 * (a[1] + 2.0 * b[1] + 2.0 * c[1] + d[1]);
     }
-    // Lengths times s and f times s^(2/3) solve it too, with the rate, here M, times s^(5/3).
+    // Lengths times s and f times s^(2/3) solve it too, with the inflow, here M, times s^(5/3).
     front = std::pow(m, -0.6);
     inlet = std::cbrt(g) * std::pow(front, 2.0 / 3.0);
   }
 };
 
 constexpr double compliance = 1e-10;  ///< [m/Pa]
-constexpr double rate = 1e-5;
+constexpr double inflow = 1e-5;
 constexpr double end = 0.1;
 
 struct Errors {
@@ -53,11 +53,11 @@ Errors errors(int facets, int windows) {
   const double a = 1.0 / (12.0 * water.viscosity * compliance);
   const SimilarCrack similar;
   // Dimensions: w^3 A t = x^2 and w x = Q t.
-  const double x_scale = std::pow(a * std::pow(rate, 3) * std::pow(end, 4), 0.2);
-  const double w_scale = rate * end / x_scale;
+  const double x_scale = std::pow(a * std::pow(inflow, 3) * std::pow(end, 4), 0.2);
+  const double w_scale = inflow * end / x_scale;
   const double dx = 1.3 * similar.front * x_scale / facets;
 
-  CrackRun run(water, {rate_inlet({0.0, 0.0}, rate)});
+  CrackRun run(water, {rate_inlet({0.0, 0.0}, inflow)});
   run.add_line(straight_line({0.0, 0.0}, 0.0, dx, facets));
   run.open(0.0, compliance);
   run.advance(end, windows);
@@ -74,7 +74,7 @@ Errors errors(int facets, int windows) {
 }
 
 TEST(CrackOnSprings, SimilaritySolutionBalancesItsVolume) {
-  // d/dt of the volume is the rate, so that M = Q at the inlet: what the scaling rests on.
+  // d/dt of the volume is the inflow, so that M = Q at the inlet: what the scaling rests on.
   const SimilarCrack similar;
   EXPECT_GT(similar.front, 1.0);
   EXPECT_LT(similar.front, 1.5);

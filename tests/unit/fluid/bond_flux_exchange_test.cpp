@@ -1,7 +1,6 @@
 #include "modules/fluid/exchange/bond_flux_exchange.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,16 +11,13 @@ namespace perifrac {
 namespace {
 
 using test::FluidOverBody;
+using test::sum;
 
 template <int D>
 BondFluxExchange<D> exchange_of(const FluidOverBody<D>& scene) {
   return {*scene.body,          scene.cloud,
           scene.rigid,          FluidOverBody<D>::make_period(scene.body->faces()[1].coordinate),
           scene.scheme.horizon, scene.influence};
-}
-
-double sum(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 double largest(const std::vector<double>& values) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <random>
 
 #include "core/body/body.hpp"
@@ -12,6 +13,10 @@
 #include "modules/fluid/walls/rigid_wall.hpp"
 
 namespace perifrac::test {
+
+inline double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 /// `across` by `high` fluid points on as many points of a body, the surface at 0 of the last axis,
 /// space repeating along the others; and all that an exchange is found from.

@@ -34,7 +34,7 @@ const std::string pump = R"(
     - {name: pump, from: [0.8 m, 0.1 m], to: [1.2 m, 0.3 m], rate: 100 kg/(m s)}
 )";
 
-double sum(const std::vector<double>& values) {
+double total(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -58,9 +58,9 @@ TEST(Inlets, GiveMassToPointsInTheBoxInProportionToVolume) {
 
 TEST(Inlets, MassIsExact) {
   FluidRun run(vessel + shallow_water + pump);
-  const double before = sum(run.field("mass"));
+  const double before = total(run.field("mass"));
   run.run_for(2.0);
-  const double after = sum(run.field("mass"));
+  const double after = total(run.field("mass"));
   EXPECT_NEAR(run.value("injected_fluid_mass"), after - before, 1e-13 * after);
   EXPECT_NEAR(run.value("free_fluid_mass"), after, 1e-13 * after);
   // All that came is in the fluid, or waits: less than a point.
@@ -110,7 +110,7 @@ TEST(Inlets, RaiseThePressureOfAFullVessel) {
                 "fluid.inlets[0].schedule={times: [0 s, 0.5 s, 0.501 s], factors: [1, 1, 0]}"});
   run.run_for(1.0);
   const auto mass = run.field("mass"), density = run.field("density");
-  EXPECT_NEAR(sum(mass), 2050.0, 0.1);
+  EXPECT_NEAR(total(mass), 2050.0, 0.1);
   double volume = 0.0;
   for (std::size_t i = 0; i < mass.size(); ++i) volume += mass[i] / density[i];
   EXPECT_NEAR(volume, 2.0, 0.02);
@@ -136,9 +136,9 @@ const std::string drain = R"(
 
 TEST(Outlets, CountWhatTheyTake) {
   FluidRun run(vessel + shallow_water + drain, {"gravity=[0 m/s^2, -9.81 m/s^2]"});
-  const double before = sum(run.field("mass"));
+  const double before = total(run.field("mass"));
   run.run_for(1.0);
-  const double after = sum(run.field("mass"));
+  const double after = total(run.field("mass"));
   EXPECT_LT(after, 0.9 * before);
   EXPECT_NEAR(run.value("removed_fluid_mass"), after - before, 1e-12 * before);
   EXPECT_FALSE(run.has("injected_fluid_mass"));

@@ -11,21 +11,21 @@
 namespace perifrac {
 namespace {
 
-constexpr double spacing = 0.5;
+constexpr double lattice_dx = 0.5;
 
 /// Points at random about a lattice, of random masses, velocities and densities.
 template <int D>
 FluidPoints<D> random_points(int across) {
   std::array<int, D> counts;
   counts.fill(across);
-  const Points<D> lattice = box_lattice<D>(counts, spacing);
+  const Points<D> lattice = box_lattice<D>(counts, lattice_dx);
   std::mt19937 bits(3);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   FluidPoints<D> points;
   for (Index i = 0; i < lattice.size(); ++i) {
     Vector<D> x = lattice.at(i), v;
     for (int a = 0; a < D; ++a) {
-      x[a] += 0.2 * spacing * value(bits);
+      x[a] += 0.2 * lattice_dx * value(bits);
       v[a] = value(bits);
     }
     points.add(x, v, 1000.0 + value(bits), 1.01 + value(bits));
@@ -68,7 +68,8 @@ void expect_all_kept(int across, Index fewest) {
   FluidPoints<D> points = random_points<D>(across);
   const Totals<D> before(points);
   Index gone = 0;
-  for (double least = 0.05; least < 4.0; least *= 1.3) gone += merge(points, 2.5 * spacing, least);
+  for (double least = 0.05; least < 4.0; least *= 1.3)
+    gone += merge(points, 2.5 * lattice_dx, least);
   EXPECT_GE(gone, fewest);
   const Totals<D> after(points);
   EXPECT_NEAR(after.mass, before.mass, 1e-12 * before.mass);

@@ -1,7 +1,6 @@
 #include "modules/fluid/as_published/paper_exchange.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Dense>
 #include <gmock/gmock.h>
@@ -13,6 +12,7 @@ namespace perifrac {
 namespace {
 
 using test::FluidOverBody;
+using test::sum;
 
 /// The printed equations between all points and their images across, in two dimensions.
 class Printed {
@@ -85,10 +85,6 @@ class Printed {
 
   double width_;
 };
-
-double sum(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
 
 PaperExchange<2> exchange_of(const FluidOverBody<2>& scene) {
   return {*scene.body, scene.cloud, FluidOverBody<2>::make_period(3.0), scene.scheme.horizon,

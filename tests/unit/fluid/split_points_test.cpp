@@ -13,14 +13,14 @@
 namespace perifrac {
 namespace {
 
-constexpr double spacing = 0.1;
+constexpr double water_dx = 0.1;
 
 /// A lattice of `counts` points, of which one is heavy, between wall points.
 template <int D>
 struct Heavy {
   explicit Heavy(const std::array<int, D>& counts, const std::vector<Vector<D>>& wall = {})
-      : neighbours(2.5 * spacing, 0.25 * spacing, {}) {
-    const Points<D> lattice = box_lattice<D>(counts, spacing);
+      : neighbours(2.5 * water_dx, 0.25 * water_dx, {}) {
+    const Points<D> lattice = box_lattice<D>(counts, water_dx);
     for (Index i = 0; i < lattice.size(); ++i) {
       points.add(lattice.at(i), velocity(i), 1000.0, 1000.0 * lattice.volume[i]);
     }
@@ -73,7 +73,7 @@ void expect_totals_kept() {
   std::array<int, D> counts;
   counts.fill(6);
   Heavy<D> fluid(counts);
-  const double one = 1000.0 * std::pow(spacing, D);
+  const double one = 1000.0 * std::pow(water_dx, D);
   for (Index i = 0; i < fluid.points.count; i += 3) fluid.points.mass[i] *= 1.7;
   const Index heavy = (fluid.points.count + 2) / 3;
   const auto before = fluid.totals();
@@ -102,7 +102,7 @@ TEST(SplitPoints, HalvesLieAsFarApartAsTheirSize) {
   const Index j = fluid.points.count - 1;
   const double apart = std::hypot(fluid.points.position[0][i] - fluid.points.position[0][j],
                                   fluid.points.position[1][i] - fluid.points.position[1][j]);
-  EXPECT_NEAR(apart, spacing * std::sqrt(0.8), 1e-15);
+  EXPECT_NEAR(apart, water_dx * std::sqrt(0.8), 1e-15);
 }
 
 /// In a gap one point wide the halves lie along it, whichever way it runs.
@@ -112,8 +112,8 @@ TEST(SplitPoints, GoesAlongAGap) {
     for (int k = -3; k < 12; ++k) {
       for (const double across : {-0.5, 1.5}) {
         Vector<2> x;
-        x[along] = (k + 0.5) * spacing;
-        x[1 - along] = across * spacing;
+        x[along] = (k + 0.5) * water_dx;
+        x[1 - along] = across * water_dx;
         wall.push_back(x);
       }
     }

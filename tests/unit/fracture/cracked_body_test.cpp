@@ -10,8 +10,6 @@
 namespace perifrac::test {
 namespace {
 
-constexpr double quarter = M_PI / 4.0;
-
 ExactCrack crack_in(const CrackedPlate& plate, double angle, double half_length) {
   return {plate.middle(),     angle, half_length, 0.0, 0.0, 0.0, 0.0, plate.shear_modulus(),
           plate.poisson_ratio};
@@ -34,7 +32,7 @@ void expect_growth_to_a_fresh_body(Rock rock) {
 }
 
 /// The sides of a square of `side` spacings in the middle of a plate of 40.
-std::vector<CrackFacet<2>> square(double side) {
+std::vector<CrackFacet<2>> box_around_middle(double side) {
   const double a = 20.0 - 0.5 * side, b = 20.0 + 0.5 * side;
   const std::array<Vector<2>, 5> corners = {{{a, a}, {b, a}, {b, b}, {a, b}, {a, a}}};
   std::vector<CrackFacet<2>> facets;
@@ -54,7 +52,7 @@ std::vector<CrackFacet<2>> square(double side) {
 /// All or nothing: what cannot be cut leaves the body as it was, to the bit.
 TEST(CrackedBody, IsAsItWasWhereACutWouldSetAPieceFree) {
   for (const int side : {1, 2, 4}) {
-    const auto facets = square(side);
+    const auto facets = box_around_middle(side);
     CrackedPlate plate(40, {facets.front()});
     CrackedPlate untouched(40, {facets.front()});
     const auto load = Eigen::VectorXd::LinSpaced(plate.free_count(), -1.0, 1.0);
@@ -75,7 +73,7 @@ TEST(CrackedBody, IsAsItWasWhereACutWouldSetAPieceFree) {
 }
 
 TEST(CrackedBody, NamesThePieceThatComesFree) {
-  const auto facets = square(4);
+  const auto facets = box_around_middle(4);
   CrackedPlate plate(40, {facets.front()});
   for (std::size_t f = 1; f + 1 < facets.size(); ++f) plate.cracked->cut(facets[f]);
   try {

@@ -16,6 +16,9 @@
 
 namespace perifrac::test {
 
+/// Along the diagonal of a lattice [rad].
+inline constexpr double quarter = M_PI / 4.0;
+
 /// A square plate of n * n points at spacing 1 around the origin of a crack, with E' = 1. Points in
 /// the outer rows move as they are told, which stands for the plate going on for ever: so many that
 /// those inside have no bonds to points with cut families, where those matter.

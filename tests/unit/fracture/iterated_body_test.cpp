@@ -8,10 +8,13 @@
 #include "core/state/snapshot.hpp"
 #include "modules/solid/fracture/condensed_body.hpp"
 #include "tests/unit/fracture/rock.hpp"
+#include "tests/unit/fracture/round_crack.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {
 namespace {
+
+using test::square;
 
 constexpr double tolerance = 1e-8;
 
@@ -76,13 +79,6 @@ std::vector<CrackFacet<2>> straight_crack(const Vector<2>& from, double angle, i
   };
   for (int k = 0; k < count; ++k) facets.push_back({at(k), at(k + 1)});
   return facets;
-}
-
-CrackFacet<3> square(int i, int j, double height) {
-  const auto at = [&](int a, int b) -> Vector<3> {
-    return {static_cast<double>(a), static_cast<double>(b), height};
-  };
-  return {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
 }
 
 std::vector<CrackFacet<3>> disc(double radius, double height) {

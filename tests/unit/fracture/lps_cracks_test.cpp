@@ -12,8 +12,6 @@
 namespace perifrac::test {
 namespace {
 
-constexpr double quarter = M_PI / 4.0;
-
 CrackedPlate plate_with(double angle, int half) {
   const int n = 2 * half + 44;
   return {n, straight_crack({0.5 * n, 0.5 * n}, angle, 2 * half), 0.25, nullptr, {}, Rock::lps};

@@ -12,7 +12,7 @@ namespace perifrac {
 namespace {
 
 /// In a cube of 20 points a side, at spacing 1.
-std::vector<CrackFacet<3>> read(const std::string& crack) {
+std::vector<CrackFacet<3>> read_plane(const std::string& crack) {
   KeyTable keys = crack_seed_keys();
   keys.push_back({.path = "dimension", .type = KeyType::integer, .meaning = "Of space."});
   const SceneFile file("dimension: 3\ncracks: [" + crack + "]\n");
@@ -29,7 +29,7 @@ double total_area(const std::vector<CrackFacet<3>>& facets) {
 TEST(PlaneCrackSeeds, FillADisc) {
   for (const std::string normal : {"[0, 0, 1]", "[0, -2, 0]", "[1, 1, 0.5]"}) {
     const auto facets =
-        read("{name: a, centre: [10 m, 10 m, 10 m], normal: " + normal + ", radius: 6 m}");
+        read_plane("{name: a, centre: [10 m, 10 m, 10 m], normal: " + normal + ", radius: 6 m}");
     EXPECT_NEAR(total_area(facets), M_PI * 36.0, 0.03 * M_PI * 36.0) << normal;
     for (const auto& facet : facets) {
       EXPECT_NEAR(area<3>(facet), 1.0, 1e-12);
@@ -42,28 +42,31 @@ TEST(PlaneCrackSeeds, FillADisc) {
 
 TEST(PlaneCrackSeeds, FillARectangle) {
   const auto facets =
-      read("{name: a, centre: [10 m, 10 m, 10 m], normal: [0, 0, 1], sides: [6 m, 4 m]}");
+      read_plane("{name: a, centre: [10 m, 10 m, 10 m], normal: [0, 0, 1], sides: [6 m, 4 m]}");
   EXPECT_EQ(facets.size(), 24u);
 }
 
 /// Of a disc about the edge between two faces a quarter is there.
 TEST(PlaneCrackSeeds, EndWithTheBody) {
-  const auto whole = read("{name: a, centre: [10 m, 10 m, 10 m], normal: [0, 0, 1], radius: 5 m}");
-  const auto quarter = read("{name: a, centre: [0 m, 0 m, 10 m], normal: [0, 0, 1], radius: 5 m}");
+  const auto whole =
+      read_plane("{name: a, centre: [10 m, 10 m, 10 m], normal: [0, 0, 1], radius: 5 m}");
+  const auto quarter =
+      read_plane("{name: a, centre: [0 m, 0 m, 10 m], normal: [0, 0, 1], radius: 5 m}");
   EXPECT_EQ(4 * quarter.size(), whole.size());
 }
 
 TEST(PlaneCrackSeeds, RefusesWhatIsNone) {
   const std::string at = "centre: [10 m, 10 m, 10 m], ", up = "normal: [0, 0, 1], ";
-  EXPECT_NO_THROW(read("{name: a, " + at + up + "radius: 3 m}"));
-  EXPECT_THROW(read("{name: a, " + at + up + "radius: 0.5 m}"), InputError);
-  EXPECT_THROW(read("{name: a, " + at + up + "radius: 3 m, sides: [3 m, 3 m]}"), InputError);
-  EXPECT_THROW(read("{name: a, " + at + "normal: [0, 0, 0], radius: 3 m}"), InputError);
-  EXPECT_THROW(read("{name: a, " + at + "radius: 3 m}"), InputError);
-  EXPECT_THROW(read("{name: a, " + up + "radius: 3 m}"), InputError);
-  EXPECT_THROW(read("{name: a, " + at + up + "sides: [3 m]}"), InputError);
-  EXPECT_THROW(read("{name: a, path: [0 m, 0 m, 3 m, 0 m]}"), InputError);
-  EXPECT_THROW(read("{name: a, centre: [90 m, 0 m, 0 m], " + up + "radius: 3 m}"), InputError);
+  EXPECT_NO_THROW(read_plane("{name: a, " + at + up + "radius: 3 m}"));
+  EXPECT_THROW(read_plane("{name: a, " + at + up + "radius: 0.5 m}"), InputError);
+  EXPECT_THROW(read_plane("{name: a, " + at + up + "radius: 3 m, sides: [3 m, 3 m]}"), InputError);
+  EXPECT_THROW(read_plane("{name: a, " + at + "normal: [0, 0, 0], radius: 3 m}"), InputError);
+  EXPECT_THROW(read_plane("{name: a, " + at + "radius: 3 m}"), InputError);
+  EXPECT_THROW(read_plane("{name: a, " + up + "radius: 3 m}"), InputError);
+  EXPECT_THROW(read_plane("{name: a, " + at + up + "sides: [3 m]}"), InputError);
+  EXPECT_THROW(read_plane("{name: a, path: [0 m, 0 m, 3 m, 0 m]}"), InputError);
+  EXPECT_THROW(read_plane("{name: a, centre: [90 m, 0 m, 0 m], " + up + "radius: 3 m}"),
+               InputError);
 }
 
 }  // namespace

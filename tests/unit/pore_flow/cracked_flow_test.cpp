@@ -19,8 +19,6 @@ using test::Cloud;
 using test::Method;
 using test::name_of;
 
-constexpr std::array symmetric_schemes = {FlowScheme::conservative, FlowScheme::bond};
-
 /// Facets of a straight crack.
 std::vector<CrackFacet<2>> line(const Vector<2>& from, double angle, double facet, int count) {
   const auto at = [&](int k) {
@@ -88,7 +86,7 @@ TEST(CrackedFlow, AppliesTheMatrixThatItAssembles) {
 
 /// Symmetric; columns sum to nothing, so that mass is exact; uniform pressure alone is at rest.
 TEST(CrackedFlow, KeepsMassAndLosesEnergy) {
-  for (const FlowScheme scheme : symmetric_schemes) {
+  for (const FlowScheme scheme : test::symmetric_schemes) {
     for (const Cloud cloud : {Cloud::lattice, Cloud::jittered}) {
       const auto body = test::box_body<2>({11, 9}, 0.5, cloud);
       const Eigen::MatrixXd h = cracked_flow(scheme, *body, crossing_cracks())->assemble();

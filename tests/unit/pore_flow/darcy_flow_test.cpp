@@ -14,8 +14,6 @@ namespace {
 using test::Method;
 using test::scalar;
 
-constexpr std::array method_names = {"forward_euler", "direct", "krylov"};
-
 /// Pressures that are anything but uniform, put in through the state.
 class RandomStart final : public StateVisitor {
  private:
@@ -56,9 +54,9 @@ void expect_mass_kept(const std::shared_ptr<const Body<D>>& body, const PoreBoun
       drift = std::max(drift, std::abs(scalar(flow, "pore_fluid_mass") - before -
                                        scalar(flow, "pore_fluid_gained")));
     }
-    ::testing::Test::RecordProperty(fmt::format("drift_{}_{}D_{}", what, D, method_names[m]),
+    ::testing::Test::RecordProperty(fmt::format("drift_{}_{}D_{}", what, D, test::method_names[m]),
                                     fmt::format("{:.1e}", drift / moved));
-    EXPECT_LE(drift, 1e-12 * moved) << what << ", " << method_names[m];
+    EXPECT_LE(drift, 1e-12 * moved) << what << ", " << test::method_names[m];
     if (what != "closed") {
       EXPECT_GT(std::abs(scalar(flow, "pore_fluid_gained")), 1e-3 * moved);
     }
@@ -112,10 +110,10 @@ TEST(DarcyFlow, DrainsALayerAsTheSeriesSays) {
     const double coarse = error_of_drainage(20, test::methods[m]);
     const double fine = error_of_drainage(40, test::methods[m]);
     RecordProperty(
-        fmt::format("drained_layer_{}", method_names[m]),
+        fmt::format("drained_layer_{}", test::method_names[m]),
         fmt::format("error {:.2e} {:.2e}, order {:.2f}", coarse, fine, std::log2(coarse / fine)));
-    EXPECT_LT(fine, 2e-4) << method_names[m];
-    EXPECT_GE(std::log2(coarse / fine), 1.9) << method_names[m];
+    EXPECT_LT(fine, 2e-4) << test::method_names[m];
+    EXPECT_GE(std::log2(coarse / fine), 1.9) << test::method_names[m];
   }
 }
 

@@ -16,8 +16,6 @@ using test::Method;
 using test::scalar;
 using test::some_rock;
 
-constexpr std::array method_names = {"forward_euler", "direct", "krylov"};
-
 template <int D>
 DarcyFlow<D> flow_of(std::shared_ptr<const Body<D>> body, const PoreBoundary<D>& boundary,
                      Method method, double tolerance, double pressure = 0.0) {
@@ -68,9 +66,9 @@ TEST(MassExchange, KeepsEveryDropWhileMassesJump) {
     for (const bool open : {false, true}) {
       const double lost =
           lost_mass(test::methods[m], open, test::methods[m] == Method::krylov ? 500 : windows);
-      RecordProperty(fmt::format("lost_{}_{}", open ? "open" : "closed", method_names[m]),
+      RecordProperty(fmt::format("lost_{}_{}", open ? "open" : "closed", test::method_names[m]),
                      fmt::format("{:.1e}", lost));
-      EXPECT_LE(lost, 1e-13) << method_names[m] << (open ? " open" : " closed");
+      EXPECT_LE(lost, 1e-13) << test::method_names[m] << (open ? " open" : " closed");
     }
   }
 }

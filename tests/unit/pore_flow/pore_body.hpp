@@ -90,6 +90,8 @@ inline double drained_column(double z, double time_factor) {
 
 enum class Method { forward_euler, direct, krylov };
 inline constexpr std::array methods = {Method::forward_euler, Method::direct, Method::krylov};
+inline constexpr std::array method_names = {"forward_euler", "direct", "krylov"};
+inline constexpr std::array symmetric_schemes = {FlowScheme::conservative, FlowScheme::bond};
 
 template <int D>
 DarcyIntegratorMaker<D> integrator_maker(Method method, double tolerance, double safety = 0.9) {

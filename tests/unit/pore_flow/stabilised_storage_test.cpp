@@ -205,10 +205,8 @@ struct Flow {
   }
 };
 
-constexpr std::array symmetric_schemes = {FlowScheme::conservative, FlowScheme::bond};
-
 TEST(StabilisedStorage, TakesPartInTheSystemsDerivative) {
-  for (const FlowScheme scheme : symmetric_schemes) {
+  for (const FlowScheme scheme : test::symmetric_schemes) {
     Flow flow(scheme);
     DarcySystem<2>& system = flow.system;
     const auto y = test::random_values(system.size(), 1), v = test::random_values(system.size(), 2);
@@ -225,7 +223,7 @@ TEST(StabilisedStorage, TakesPartInTheSystemsDerivative) {
 }
 
 TEST(StabilisedStorage, TakesPartInNewtonsMatrix) {
-  for (const FlowScheme scheme : symmetric_schemes) {
+  for (const FlowScheme scheme : test::symmetric_schemes) {
     Flow flow(scheme);
     DarcySystem<2>& system = flow.system;
     const auto y = test::random_values(system.size(), 1), v = test::random_values(system.size(), 2);

@@ -14,13 +14,13 @@ namespace {
 using testing::HasSubstr;
 
 template <int D>
-constexpr IsotropicElasticity<D> rock{4e9, 3e9};
+constexpr IsotropicElasticity<D> sandstone{4e9, 3e9};
 
 /// Isotropic, with one thing changed.
 template <int D>
 struct Changed {
   static constexpr int components = D;
-  IsotropicElasticity<D> isotropic_rock = rock<D>;
+  IsotropicElasticity<D> isotropic_rock = sandstone<D>;
   double coupling = 0.0;  ///< of xx by yy, and not of yy by xx
   double spin = 0.0;      ///< stiffness against rotation
   double softening = 0.0;
@@ -39,7 +39,7 @@ struct Changed {
 
 template <int D>
 void hold_laws() {
-  for (const double size : {1e-6, 1e-3, 1.0}) EXPECT_EQ(law_problem<D>(rock<D>, size), "");
+  for (const double size : {1e-6, 1e-3, 1.0}) EXPECT_EQ(law_problem<D>(sandstone<D>, size), "");
   EXPECT_EQ(law_problem<D>(Changed<D>{}), "");
   EXPECT_EQ(law_problem<D>(TangentLaw<D>::of(Changed<D>{})), "");
   EXPECT_THAT(law_problem<D>(Changed<D>{.coupling = 1e8}), HasSubstr("not the derivative"));
@@ -71,7 +71,7 @@ struct Flowing : test::Hardening<D> {
 
 template <int D>
 void hold_with_memory() {
-  const test::Hardening<D> good{rock<D>, 4e6, 1e9};
+  const test::Hardening<D> good{sandstone<D>, 4e6, 1e9};
   for (const double size : {1e-4, 1e-3, 1e-2}) EXPECT_EQ(law_problem<D>(good, size), "");
   EXPECT_EQ(law_problem<D>(Flowing<D>{good}), "");
   EXPECT_THAT(law_problem<D>(Flowing<D>{good, 0.5}), HasSubstr("into heat"));
@@ -85,7 +85,7 @@ TEST(LawCheck, TellsMemoriesFromWhatAreNone3d) { hold_with_memory<3>(); }
 TEST(LawCheck, ATangentIsTheLawAtRest) {
   const auto tangent = TangentLaw<3>::of(Changed<3>{});
   const std::array<double, 9> gradient{1e-3, 2e-3, 0.0, 5e-4, -1e-3, 3e-3, 1e-4, 0.0, 2e-3};
-  const auto expected = rock<3>.stress(gradient), found = tangent.stress(gradient);
+  const auto expected = sandstone<3>.stress(gradient), found = tangent.stress(gradient);
   for (int k = 0; k < 9; ++k) EXPECT_NEAR(found[k], expected[k], 1e-8 * 4e7);
 }
 

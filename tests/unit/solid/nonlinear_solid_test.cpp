@@ -53,7 +53,7 @@ double volume(const Body<D>& body) {
 
 /// All faces move as the gradient of displacement says, which is the answer.
 template <int D>
-void expect_patch_between_moved_rollers(int count) {
+void expect_uniform_answer(int count) {
   Solid<D> solid(test::cube<D>(count));
   Vector<D> slope;
   Tensor<D, D> gradient{};
@@ -75,8 +75,8 @@ void expect_patch_between_moved_rollers(int count) {
 }
 
 TEST(NonlinearSolid, IsUniformWhereItsFacesAre) {
-  expect_patch_between_moved_rollers<2>(9);
-  expect_patch_between_moved_rollers<3>(6);
+  expect_uniform_answer<2>(9);
+  expect_uniform_answer<3>(6);
 }
 
 /// Between rollers, pulled along the first axis.
