@@ -79,11 +79,10 @@ double fill(double points) { return std::cbrt(std::max(1.0, points / 1e4)); }
 bool takes_multigrid(const Section& scene, double points) {
   const std::string solver = scene.word("solid.linear_solver.type");
   const bool has_cracks = scene.has("damage") || scene.count("cracks") > 0;
-  const bool is_lattice = scene.number("body.jitter") == 0.0;
   const int dimension = scene.integer("dimension");
   const double worth =
       has_cracks ? points_worth_iteration(dimension) : points_worth_multigrid(dimension);
-  return solver != "direct" && is_lattice && !scene.has("solid.crack_friction") &&
+  return solver != "direct" && !scene.has("solid.crack_friction") &&
          (solver == "multigrid" || points >= worth);
 }
 

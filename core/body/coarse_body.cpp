@@ -13,10 +13,38 @@ namespace {
 /// correction that is worth their cost.
 constexpr double most_horizon_ratio = 4.0;
 
+/// The low and the high corner of the box that the faces span.
+template <int D>
+std::pair<Vector<D>, Vector<D>> extent(const Body<D>& body) {
+  std::pair<Vector<D>, Vector<D>> corners{};
+  for (const Face& face : body.faces()) {
+    if (face.curved()) {
+      corners.second.fill(face.coordinate);
+      if (body.faces().size() == 1) corners.first.fill(-face.coordinate);
+    } else {
+      (face.direction < 0 ? corners.first : corners.second)[face.axis] = face.coordinate;
+    }
+  }
+  return corners;
+}
+
+/// Coarse points of an irregular body make a lattice, each in the middle of its cell's part of the
+/// body: cells lose points to their neighbours, and with them their centre.
+template <int D>
+void put_on_lattice(CoarseBody<D>& coarse, Points<D>& points, const Vector<D>& high) {
+  for (Index i = 0; i < points.size(); ++i) {
+    for (int a = 0; a < D; ++a) {
+      const double from = coarse.corner[a] + coarse.cell_of[i][a] * coarse.size;
+      points.position[a][i] = 0.5 * (from + std::min(from + coarse.size, high[a]));
+    }
+  }
+}
+
 }  // namespace
 
 template <int D>
 Vector<D> low_corner(const Body<D>& body) {
+  if (body.irregular()) return extent(body).first;
   Vector<D> corner;
   for (int a = 0; a < D; ++a) {
     corner[a] = std::ranges::min(body.points().position[a]) - 0.5 * body.spacing();
@@ -69,6 +97,7 @@ CoarseBody<D> coarsen(const Body<D>& fine, const Vector<D>& corner) {
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < points.size(); ++i) points.position[a][i] /= points.volume[i];
   }
+  if (fine.irregular()) put_on_lattice<D>(coarse, points, extent(fine).second);
   const double horizon = std::min(2.0 * fine.horizon(), most_horizon_ratio * coarse.size);
   auto body = std::make_shared<Body<D>>(std::move(points), fine.faces(), coarse.size, horizon,
                                         fine.influence());

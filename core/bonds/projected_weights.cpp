@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
@@ -10,14 +11,18 @@
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/bonds/shape_tensor.hpp"
+#include "core/solvers/conjugate_gradients.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 
 namespace perifrac {
 
 namespace {
 
-constexpr double moment_tolerance = 1e-12;  // of the moments, relative to k
 constexpr int most_steps = 40;
+/// Of the moments, relative to k; and what an iterated step leaves of its residual.
+constexpr double factored_tolerance = 1e-12, iterated_tolerance = 2e-3, left_by_step = 0.1;
+constexpr int most_iterations = 3000;
+constexpr Index points_worth_a_factor = 600;
 constexpr double longest_step = 2.0;  // the most that one step may change ln s
 constexpr double least_factor = 1e-4, largest_factor = 1e2;
 
@@ -26,11 +31,17 @@ constexpr double least_factor = 1e-4, largest_factor = 1e2;
 /// which are s_ij = exp(t . (z_i + parity z_j)), t = (xi, xi xi^T): positive whatever the
 /// multipliers z, one a point and moment. The multipliers minimise a convex function; Newton's
 /// method finds them.
+///
+/// In 3D a factor fills up beyond some hundred points. There its steps are found by conjugate
+/// gradients, and to less: where z is a smooth field and its second moments half its gradient,
+/// weights hardly change, not at all up to z of second order. What is left over there takes by far
+/// the most iterations.
 template <int D>
 class MomentProjection {
  public:
   static constexpr int T = D + D * (D + 1) / 2;
   using Moments = std::array<double, T>;
+  using Block = Eigen::Matrix<double, T, T>;
 
   MomentProjection(Family<D>& family, std::span<const Face> faces, FaceSet mirrored, double horizon)
       : family_(family), plain_(family.weight), length_(horizon), number_(family.point_count, -1) {
@@ -50,17 +61,18 @@ class MomentProjection {
     done.complete_points = complete_count_;
     if (complete_count_ == 0) return done;
     target_ = mean_moment();
+    const bool is_large = D == 3 && complete_count_ > points_worth_a_factor;
     const Index size = T * complete_count_;
-    Eigen::MatrixXd multiplier = Eigen::MatrixXd::Zero(size, 1), residual(size, 1), step(size, 1);
-    SparseCholesky newton;
-    while (find_residual(residual) > moment_tolerance) {
+    Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(size), residual(size), step(size);
+    while (find_residual(residual) > (is_large ? iterated_tolerance : factored_tolerance)) {
       if (++done.steps > most_steps) refuse("do not exist");
       try {
-        newton.factor(derivative());
+        is_large ? find_step_by_iteration(residual, step) : find_step_by_factor(residual, step);
       } catch (const NotPositiveDefinite&) {
         refuse("do not exist");
+      } catch (const NotConverged&) {
+        refuse("were not found");
       }
-      newton.solve(residual, step);
       multiplier -= std::min(1.0, longest_step / largest_exponent(step)) * step;
       set_weights(multiplier);
       find_range(done);
@@ -134,25 +146,44 @@ class MomentProjection {
     return sign;
   }
 
-  /// Calls use(bond, ln s) for every bond of a point.
+  /// The multipliers of all nodes as bonds that end there take them; 0 where there are none.
+  void spread(const Eigen::VectorXd& multiplier) {
+    at_node_.resize(static_cast<std::size_t>(T) * family_.node_count());
+    for_each_point(family_.node_count(), [&](Index node) {
+      const Index n = number_[source_of(node)];
+      const Moments sign = end_signs(node);
+      for (int k = 0; k < T; ++k) {
+        at_node_[T * node + k] = n < 0 ? 0.0 : sign[k] * multiplier[T * n + k];
+      }
+    });
+  }
+
+  /// A point's own, as its bonds take them.
+  Moments own_multipliers(const Eigen::VectorXd& multiplier, Index i) const {
+    Moments own{};
+    for (int k = 0; k < T && number_[i] >= 0; ++k) own[k] = multiplier[T * number_[i] + k];
+    return own;
+  }
+
+  /// ln s of a bond with moments t to a node, after spread().
+  double exponent(const Moments& own, Index node, const Moments& t) const {
+    double sum = 0.0;
+    for (int k = 0; k < T; ++k) sum += t[k] * (own[k] + at_node_[T * node + k]);
+    return sum;
+  }
+
+  /// Calls use(bond, ln s) for every bond of a point, after spread().
   template <class Use>
-  void for_exponents(const Eigen::MatrixXd& multiplier, Index i, Use&& use) const {
+  void for_exponents(const Eigen::VectorXd& multiplier, Index i, Use&& use) const {
+    const Moments own = own_multipliers(multiplier, i);
     for (Index bond = family_.offset[i]; bond < family_.offset[i + 1]; ++bond) {
       const Index node = family_.other[bond];
-      const Index own = T * number_[i], other = T * number_[source_of(node)];
-      const Moments t = moments_of(bond_vector(i, node));
-      const Moments sign = end_signs(node);
-      double sum = 0.0;
-      for (int k = 0; k < T; ++k) {
-        const double at_own = own < 0 ? 0.0 : multiplier(own + k);
-        const double at_other = other < 0 ? 0.0 : sign[k] * multiplier(other + k);
-        sum += t[k] * (at_own + at_other);
-      }
-      use(bond, sum);
+      use(bond, exponent(own, node, moments_of(bond_vector(i, node))));
     }
   }
 
-  double largest_exponent(const Eigen::MatrixXd& multiplier) const {
+  double largest_exponent(const Eigen::VectorXd& multiplier) {
+    spread(multiplier);
     double largest = 0.0;
     for (Index i = 0; i < family_.point_count; ++i) {
       for_exponents(multiplier, i,
@@ -161,7 +192,8 @@ class MomentProjection {
     return largest;
   }
 
-  void set_weights(const Eigen::MatrixXd& multiplier) {
+  void set_weights(const Eigen::VectorXd& multiplier) {
+    spread(multiplier);
     for_each_point(family_.point_count, [&](Index i) {
       for_exponents(multiplier, i, [&](Index bond, double e) {
         family_.weight.set(bond, plain_[bond] * std::exp(e));
@@ -170,7 +202,7 @@ class MomentProjection {
   }
 
   /// What the moments are off, times V_i; returns the largest of them relative to k.
-  double find_residual(Eigen::MatrixXd& residual) const {
+  double find_residual(Eigen::VectorXd& residual) const {
     double largest = 0.0;
     for (Index i = 0; i < family_.point_count; ++i) {
       if (number_[i] < 0) continue;
@@ -181,11 +213,69 @@ class MomentProjection {
       });
       for (int a = 0, k = D; a < D; k += D - a++) r[k] -= target_;
       for (int k = 0; k < T; ++k) {
-        residual(T * number_[i] + k) = family_.volume[i] * r[k];
+        residual[T * number_[i] + k] = family_.volume[i] * r[k];
         largest = std::max(largest, std::abs(r[k]) / target_);
       }
     }
     return largest;
+  }
+
+  void find_step_by_factor(const Eigen::VectorXd& residual, Eigen::VectorXd& step) {
+    SparseCholesky newton;
+    newton.factor(derivative());
+    newton.solve(residual, step);
+  }
+
+  void find_step_by_iteration(const Eigen::VectorXd& residual, Eigen::VectorXd& step) {
+    const auto blocks = inverse_blocks();
+    const auto precondition = [&](const Eigen::VectorXd& left, Eigen::VectorXd& correction) {
+      for_each_point(complete_count_, [&](Index n) {
+        correction.segment<T>(T * n) = blocks[n].template cast<double>() * left.segment<T>(T * n);
+      });
+    };
+    const auto apply = [this](const Eigen::VectorXd& change, Eigen::VectorXd& image) {
+      apply_derivative(change, image);
+    };
+    Eigen::VectorXd left = residual;
+    step.setZero();
+    ConjugateGradients().correct(left, step, left_by_step * residual.norm(), most_iterations, apply,
+                                 precondition);
+  }
+
+  /// image = derivative() change.
+  void apply_derivative(const Eigen::VectorXd& change, Eigen::VectorXd& image) {
+    spread(change);
+    for_each_point(family_.point_count, [&](Index i) {
+      if (number_[i] < 0) return;
+      const Moments own = own_multipliers(change, i);
+      const auto sum =
+          sum_over_bonds<T>(family_, i, [&](Index node, const Vector<D>& xi, double w) {
+            Moments t = moments_of(xi);
+            const double weight = w * exponent(own, node, t);
+            for (double& value : t) value *= weight;
+            return t;
+          });
+      for (int k = 0; k < T; ++k) image[T * number_[i] + k] = family_.volume[i] * sum[k];
+    });
+  }
+
+  /// By complete point, of what derivative() says of it alone.
+  std::vector<Eigen::Matrix<float, T, T>> inverse_blocks() const {
+    std::vector<Eigen::Matrix<float, T, T>> inverse(complete_count_);
+    for_each_point(family_.point_count, [&](Index i) {
+      if (number_[i] < 0) return;
+      const auto sum = sum_over_bonds<T * T>(family_, i, [&](Index, const Vector<D>& xi, double w) {
+        const Moments t = moments_of(xi);
+        std::array<double, T * T> square;
+        for (int k = 0; k < T; ++k) {
+          for (int l = 0; l < T; ++l) square[k * T + l] = w * t[k] * t[l];
+        }
+        return square;
+      });
+      const Block block = family_.volume[i] * Eigen::Map<const Block>(sum.data());
+      inverse[number_[i]] = block.llt().solve(Block::Identity()).template cast<float>();
+    });
+    return inverse;
   }
 
   /// The derivative of the residual by the multipliers, its lower half: symmetric and positive
@@ -223,7 +313,8 @@ class MomentProjection {
   double length_;              ///< bond vectors are measured in it
   std::vector<Index> number_;  ///< of a complete point, -1 at others
   Index complete_count_ = 0;
-  double target_ = 0.0;  ///< k
+  double target_ = 0.0;          ///< k
+  std::vector<double> at_node_;  ///< spread() multipliers, T a node
 };
 
 }  // namespace

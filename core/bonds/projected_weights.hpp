@@ -23,6 +23,7 @@ struct WeightProjection {
 ///
 /// A point is complete where it lies a horizon or more from each face that is not mirrored. Other
 /// points keep their moments as they are. Where the moments hold already, all factors are 1.
+/// They hold to 1e-12 of k; in 3D, beyond 600 complete points, to 2e-3.
 ///
 /// Throws BodyError where no such factors are found or they leave [1e-4, 100]: the family has too
 /// few bonds for the disorder of the cloud.

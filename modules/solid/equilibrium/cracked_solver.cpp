@@ -15,7 +15,7 @@ std::unique_ptr<CrackedBody<D>> make_cracked_body(
     bool has_friction, const SolverChoice& choice) {
   using Kind = SolverChoice::Kind;
   Eigen::SparseMatrix<double> free = boundary.free_unknowns(boundary.mirror_condition(*family));
-  std::string obstacle = StiffnessMultigrid<D>::obstacle(body, free);
+  std::string obstacle = StiffnessMultigrid<D>::obstacle(free);
   if (has_friction) obstacle = "friction asks for the whole compliance of its cracks";
   if (choice.kind == Kind::multigrid && !obstacle.empty()) {
     throw BodyError("multigrid cannot solve for this body: " + obstacle,

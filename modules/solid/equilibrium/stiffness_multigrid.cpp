@@ -152,9 +152,7 @@ std::optional<Coarser<D>> find_coarser(const LevelParts<D>& fine, const Vector<D
 }  // namespace
 
 template <int D>
-std::string StiffnessMultigrid<D>::obstacle(const Body<D>& body,
-                                            const Eigen::SparseMatrix<double>& free_unknowns) {
-  if (body.irregular()) return "its points are no lattice";
+std::string StiffnessMultigrid<D>::obstacle(const Eigen::SparseMatrix<double>& free_unknowns) {
   if (free_unknowns.nonZeros() != free_unknowns.cols()) {
     return "a rigid plate moves the points of a layer";
   }

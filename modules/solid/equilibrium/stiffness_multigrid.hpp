@@ -15,7 +15,7 @@
 
 namespace perifrac {
 
-/// The equilibrium of a body on a lattice by multigrid: no matrix, no factor but that of some
+/// The equilibrium of a body by multigrid: no matrix, no factor but that of some
 /// hundred points. Coarse levels are bodies of their own with points twice as far apart
 /// (coarse_body.hpp), the linear-exact operator on them, the same conditions at the faces, and
 /// moduli that are the means of what a point stands for. Cracks cut the bonds of all levels, and
@@ -29,8 +29,7 @@ class StiffnessMultigrid {
                      const Eigen::SparseMatrix<double>& free_unknowns);
 
   /// Why a body cannot be solved so, in words; empty where it can.
-  static std::string obstacle(const Body<D>& body,
-                              const Eigen::SparseMatrix<double>& free_unknowns);
+  static std::string obstacle(const Eigen::SparseMatrix<double>& free_unknowns);
 
   /// Adds to u what takes the force that is left over on the free unknowns, `residual` of all, to
   /// `tolerance` [N]. Returns the iterations that took. Throws NotConverged.

@@ -20,7 +20,7 @@ KeyTable linear_solver_keys() {
        .words = {"automatic", "direct", "multigrid"},
        .meaning = "quasi_static: direct factors the stiffness once, in 3D at a price beyond some "
                   "two thousand points and in 2D beyond a hundred thousand; multigrid takes time "
-                  "and memory in proportion to the points of a lattice; automatic chooses by "
+                  "and memory in proportion to the points; automatic chooses by "
                   "their number. Beside friction between faces: direct."},
       {.path = "linear_solver.tolerance",
        .range = "[1e-13, 1e-2]",
@@ -123,7 +123,7 @@ std::unique_ptr<StiffnessSolver<D>> make_stiffness_solver(
     const SolidBoundary<D>& boundary, Eigen::SparseMatrix<double> free_unknowns,
     const SolverChoice& choice) {
   using Kind = SolverChoice::Kind;
-  const std::string obstacle = StiffnessMultigrid<D>::obstacle(body, free_unknowns);
+  const std::string obstacle = StiffnessMultigrid<D>::obstacle(free_unknowns);
   if (choice.kind == Kind::multigrid && !obstacle.empty()) {
     throw BodyError("multigrid cannot solve for this body: " + obstacle,
                     "solid.linear_solver.type: direct or automatic");

@@ -49,7 +49,7 @@ class StiffnessSolver {
 };
 
 /// `free_unknowns` as of SolidBoundary; body and boundary must stay until it is prepared. Throws
-/// BodyError where the body has no lattice for the choice.
+/// BodyError where the choice cannot solve for the body.
 template <int D>
 std::unique_ptr<StiffnessSolver<D>> make_stiffness_solver(
     const Body<D>& body, std::shared_ptr<ElasticOperator<D>> elastic,

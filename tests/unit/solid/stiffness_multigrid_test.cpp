@@ -9,6 +9,7 @@
 #include "core/bonds/crack_cut.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
 #include "tests/unit/fracture/rock.hpp"
+#include "tests/unit/operators/irregular_body.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 #include "tests/unit/solid/elastic.hpp"
 
@@ -24,8 +25,8 @@ struct Case {
   std::vector<CrackFacet<D>> cracks{};
 
   explicit Case(const std::array<int, D>& counts, double horizon_ratio = 2.0)
-      : body(test::box_body<D>(counts, 0.5, test::Cloud::lattice, horizon_ratio)),
-        boundary(*body) {}
+      : Case(test::box_body<D>(counts, 0.5, test::Cloud::lattice, horizon_ratio)) {}
+  explicit Case(std::shared_ptr<const Body<D>> on) : body(std::move(on)), boundary(*body) {}
 
   void make(IsotropicElasticity<D> law = {1.0, 1.0}) {
     elastic = test::elastic<D>(*body, boundary, law);
@@ -60,7 +61,7 @@ struct Case {
     const auto family = body->family(boundary.mirrored());
     const auto mirror = boundary.mirror_condition(*family);
     const Eigen::SparseMatrix<double> free = boundary.free_unknowns(mirror);
-    EXPECT_EQ(StiffnessMultigrid<D>::obstacle(*body, free), "");
+    EXPECT_EQ(StiffnessMultigrid<D>::obstacle(free), "");
     Eigen::VectorXd load(free.rows());
     std::mt19937 bits(5);
     for (double& force : load) force = std::uniform_real_distribution<double>(-1.0, 1.0)(bits);
@@ -101,6 +102,21 @@ TEST(StiffnessMultigrid, TakesOddNumbersOfPoints) {
   plane.on_rollers();
   plane.make();
   expect_agreement(plane.solve(), 16);
+}
+
+/// Coarse points are on a lattice all the same.
+TEST(StiffnessMultigrid, TakesIrregularClouds) {
+  Case<2> plane(test::irregular_box<2>({51, 38}, 0.5, 4));
+  plane.on_rollers();
+  plane.make();
+  expect_agreement(plane.solve(), 20);
+  for (const double jitter : {0.2, 0.4}) {
+    Case<3> box(test::irregular_box<3>({10, 9, 8}, 0.5, 4, test::Volumes::voronoi,
+                                       test::Weights::plain, jitter));
+    box.on_rollers();
+    box.make();
+    expect_agreement(box.solve(), 20);
+  }
 }
 
 TEST(StiffnessMultigrid, HoldsFacesPlatesAndPins) {
