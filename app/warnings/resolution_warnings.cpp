@@ -7,6 +7,7 @@
 
 #include "app/references/comparison.hpp"
 #include "app/references/rock.hpp"
+#include "app/warnings/body_box.hpp"
 #include "app/warnings/inlet_places.hpp"
 #include "modules/pore_flow/material/mobility.hpp"
 #include "modules/pore_flow/material/pore_material.hpp"
@@ -15,7 +16,7 @@ namespace perifrac {
 
 namespace {
 
-constexpr double least_filled = 2.5;   // spacings an inlet
+constexpr double least_filled = 4.0;   // spacings a wing
 constexpr double least_wet = 2.0;      // spacings
 constexpr double least_waves = 5.0;    // spacings: by half of one, energies are a tenth off then
 constexpr double most_residual = 0.5;  // of the widest opening; volumes are 3 % off then
@@ -28,6 +29,31 @@ double largest_of(const Simulation& simulation, const std::string& name) {
     for (const double value : field.values()) largest = std::max(largest, value);
   }
   return largest;
+}
+
+/// Within a spacing of where a crack in 2D begins or ends, or of a face of the body.
+bool is_at_an_end(const Section& scene, const std::vector<double>& place) {
+  const double spacing = scene.number("body.spacing");
+  if (distance_to_faces(scene, place) <= spacing) return true;
+  for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
+    const std::string key = fmt::format("cracks[{}].path", k);
+    if (!scene.has(key)) continue;
+    const std::vector<double> path = scene.numbers(key);
+    for (const std::size_t first : {std::size_t{0}, path.size() - 2}) {
+      if (std::hypot(place[0] - path[first], place[1] - path[first + 1]) <= spacing) return true;
+    }
+  }
+  return false;
+}
+
+/// How many ways fluid takes from where it comes in: in 2D to both sides, or to one from an end;
+/// in 3D discs.
+double wings_from_inlets(const Section& scene) {
+  double wings = 0.0;
+  for (const std::vector<double>& place : inlet_places(scene)) {
+    wings += scene.integer("dimension") == 2 && !is_at_an_end(scene, place) ? 2.0 : 1.0;
+  }
+  return std::max(1.0, wings);
 }
 
 /// A length of what is wet in 2D; in 3D the radius of a disc as large [m].
@@ -99,8 +125,8 @@ Seepage where_fluid_seeps(const Section& scene) {
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("crack_fluid")) return {};
   const double spacing = scene.number("body.spacing");
-  const auto inlets = static_cast<double>(std::max<std::size_t>(1, inlet_places(scene).size()));
-  const double share = scene.integer("dimension") == 2 ? 1.0 / inlets : std::sqrt(1.0 / inlets);
+  const double wings = wings_from_inlets(scene);
+  const double share = scene.integer("dimension") == 2 ? 1.0 / wings : std::sqrt(1.0 / wings);
   const double filled = share * wetted_size(scene, simulation);
   const double dry = scene.integer("dimension") == 2
                          ? largest_of(simulation, "fluid_lag")
@@ -110,7 +136,7 @@ std::optional<std::string> filling_warning(const Section& scene, const Simulatio
       "fluid fills {:.2g} m of the cracks in the end{}, {:.1f} spacings: its pressure and what it "
       "opens are those of facets as long as body.spacing, not of a crack; a later time.end or a "
       "finer body.spacing",
-      filled, inlets > 1.0 ? " for each inlet" : "", filled / spacing);
+      filled, wings > 1.0 ? " for each wing" : "", filled / spacing);
 }
 
 std::optional<std::string> residual_aperture_warning(const Section& scene,
