@@ -10,9 +10,9 @@ namespace perifrac {
 
 namespace {
 
-constexpr int smoothing_steps = 2, most_iterations = 300;
+constexpr int most_iterations = 300;
 /// What smoothing has to damp: eigenvalues of D^-1 A from the largest down to this part of it.
-constexpr double smoothed_part = 0.2;
+constexpr double smoothed_part(int steps) { return 0.4 / steps; }
 /// Steps of Lanczos' iteration find the largest eigenvalue from below, to some hundredths.
 constexpr int lanczos_steps = 8;
 constexpr double beyond_lanczos = 1.1;
@@ -31,8 +31,8 @@ Eigen::VectorXd mixed_vector(Eigen::Index size) {
 }  // namespace
 
 Multigrid::Multigrid(std::vector<std::unique_ptr<MultigridLevel>> levels,
-                     const Eigen::SparseMatrix<double>& coarsest)
-    : levels_(std::move(levels)), work_(levels_.size()) {
+                     const Eigen::SparseMatrix<double>& coarsest, int smoothing_steps)
+    : smoothing_steps_(smoothing_steps), levels_(std::move(levels)), work_(levels_.size()) {
   coarsest_.factor(coarsest);
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     const Eigen::Index size = levels_[k]->size();
@@ -93,8 +93,9 @@ void Multigrid::take_off_image(std::size_t level, const Eigen::VectorXd& step) {
 void Multigrid::smooth(std::size_t level, bool from_zero) {
   Work& work = work_[level];
   const Eigen::VectorXd& inverse = levels_[level]->inverse_diagonal();
-  const double middle = 0.5 * (1.0 + smoothed_part) * work.largest;
-  const double half = 0.5 * (1.0 - smoothed_part) * work.largest;
+  const double part = smoothed_part(smoothing_steps_);
+  const double middle = 0.5 * (1.0 + part) * work.largest;
+  const double half = 0.5 * (1.0 - part) * work.largest;
   double ratio = half / middle;
   work.step = inverse.cwiseProduct(work.residual) / middle;
   if (from_zero) {
@@ -102,7 +103,7 @@ void Multigrid::smooth(std::size_t level, bool from_zero) {
   } else {
     work.correction += work.step;
   }
-  for (int k = 1; k < smoothing_steps; ++k) {
+  for (int k = 1; k < smoothing_steps_; ++k) {
     take_off_image(level, work.step);
     const double next = 1.0 / (2.0 * middle / half - ratio);
     work.step =

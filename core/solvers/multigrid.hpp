@@ -29,15 +29,16 @@ class MultigridLevel {
   virtual void add_correction(const Eigen::VectorXd& coarse, Eigen::VectorXd& u) const = 0;
 };
 
-/// Solves A x = b by conjugate gradients, preconditioned by one V-cycle: two steps of Chebyshev's
+/// Solves A x = b by conjugate gradients, preconditioned by one V-cycle: some steps of Chebyshev's
 /// iteration before and after each correction, the coarsest level by its factor. Memory and time in
 /// proportion to the unknowns. Gives the same bits at any number of threads if its levels do.
 class Multigrid {
  public:
   /// `levels`: from the finest to the coarsest; the latter is factored as `coarsest`, rows and
-  /// columns of held unknowns being those of the unit matrix. Throws NotPositiveDefinite.
+  /// columns of held unknowns being those of the unit matrix. The more `smoothing_steps`, at least
+  /// two, the lower the eigenvalues that they damp. Throws NotPositiveDefinite.
   Multigrid(std::vector<std::unique_ptr<MultigridLevel>> levels,
-            const Eigen::SparseMatrix<double>& coarsest);
+            const Eigen::SparseMatrix<double>& coarsest, int smoothing_steps = 2);
 
   /// Goes on from x until the residual is `tolerance` of b. Returns the iterations that took.
   /// Throws NotConverged.
@@ -62,6 +63,7 @@ class Multigrid {
   void take_off_image(std::size_t level, const Eigen::VectorXd& step);
   double largest_eigenvalue(MultigridLevel& level, Work& work) const;
 
+  int smoothing_steps_;
   std::vector<std::unique_ptr<MultigridLevel>> levels_;
   std::vector<Work> work_;  ///< by level
   ConjugateGradients gradients_;
