@@ -11,7 +11,8 @@ FINE = SMALL | {"body.spacing": "0.25 m", "body.size": "[40 m, 13 m]", "output.t
                 "time.end": "0.02 s"}
 SCHEMES = {"explicit": {"pore_flow.integrator.type": "explicit"},
            "cvode, krylov": {"pore_flow.integrator.linear_solver": "krylov"},
-           "stabilised": {"pore_flow.undrained_stabilisation": "0.25"},
+           "stabilised, solid by multigrid": {"pore_flow.undrained_stabilisation": "0.25",
+                                              "solid.linear_solver.type": "multigrid"},
            "cvode, direct, iterated": {"coupling.iterations.max": "20", "coupling.iterations.tolerance": "1e-3",
                         "coupling.acceleration": "quasi_newton"}}
 
