@@ -9,6 +9,7 @@
 #include "modules/solid/fracture/condensed_body.hpp"
 #include "tests/unit/fracture/rock.hpp"
 #include "tests/unit/fracture/round_crack.hpp"
+#include "tests/unit/operators/irregular_body.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {
@@ -30,7 +31,12 @@ struct Both {
   Both(const std::array<int, D>& counts, double horizon_ratio,
        const std::vector<CrackFacet<D>>& seeds, std::optional<InitialStress<D>> stress = {},
        test::Rock rock = test::Rock::linear_exact)
-      : body(test::box_body<D>(counts, 1.0, test::Cloud::lattice, horizon_ratio)), boundary(*body) {
+      : Both(test::box_body<D>(counts, 1.0, test::Cloud::lattice, horizon_ratio), seeds, stress,
+             rock) {}
+
+  Both(std::shared_ptr<const Body<D>> in, const std::vector<CrackFacet<D>>& seeds,
+       std::optional<InitialStress<D>> stress = {}, test::Rock rock = test::Rock::linear_exact)
+      : body(std::move(in)), boundary(*body) {
     for (int a = 0; a < D; ++a) boundary.roller(2 * a, 0.0);
     const auto part = [&] {
       auto family = std::make_shared<Family<D>>(*body->family(boundary.mirrored()));
@@ -115,6 +121,15 @@ TEST(IteratedBody, IsWhatTheFactorSaysIn3D) {
     ASSERT_TRUE(both.iterated->cut(next));
   }
   both.expect_same(falling(both.condensed->jumps().size()));
+}
+
+TEST(IteratedBody, IsWhatTheFactorSaysOfIrregularClouds) {
+  Both<2> plane(test::irregular_box<2>({48, 40}, 1.0, 3), straight_crack({20.0, 20.0}, 0.4, 12));
+  plane.expect_same(falling(12));
+  Both<3> box(
+      test::irregular_box<3>({12, 12, 12}, 1.0, 3, test::Volumes::voronoi, test::Weights::plain),
+      disc(4.0, 6.0));
+  box.expect_same(falling(box.condensed->jumps().size()));
 }
 
 TEST(IteratedBody, SolvesForTheLinearPeridynamicSolid) {
