@@ -30,21 +30,24 @@ bool TaitStorage::set_dilatation(const DilatationInput& input) {
   return changed;
 }
 
-double TaitStorage::density_ratio(double fluid, double pores, double softness) const {
+double TaitStorage::relative_pressure(double excess, double pores, double softness) const {
+  const double fluid = pores + excess;
   if (!(fluid > 0.0 && (pores > 0.0 || softness > 0.0))) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  // x [pores + softness (x^gamma - 1)] - fluid is convex, negative at 0 and not negative at the
-  // first x: from there Newton's method falls to the root without a detour, down to rounding.
+  // Of y = rho/rho_0 - 1, pores y + (1 + y) softness [(1 + y)^gamma - 1] - excess is convex,
+  // negative at -1 and not negative at the first y: from there Newton's method falls to the root
+  // without a detour, down to rounding.
   const double gamma = fluid_.tait_exponent;
-  double x = pores > 0.0 ? std::max(1.0, fluid / pores)
-                         : std::pow(1.0 + (fluid - pores) / softness, 1.0 / gamma);
+  const auto raised = [gamma](double y) { return std::expm1(gamma * std::log1p(y)); };
+  double y = pores > 0.0 ? std::max(0.0, excess / pores)
+                         : std::expm1(std::log1p(excess / softness) / gamma);
   while (true) {
-    const double power = std::pow(x, gamma);
-    const double excess = x * (pores + softness * (power - 1.0)) - fluid;
-    const double next = x - excess / (pores + softness * ((gamma + 1.0) * power - 1.0));
-    if (!(next < x)) return x;
-    x = next;
+    const double power = raised(y);
+    const double beyond = pores * y + (1.0 + y) * softness * power - excess;
+    const double next = y - beyond / (pores + softness * (gamma + (gamma + 1.0) * power));
+    if (!(next < y)) return power;
+    y = next;
   }
 }
 
@@ -52,9 +55,9 @@ void TaitStorage::pressure(double t, std::span<const double> zeta, std::span<dou
   const double scale = fluid_.bulk_modulus / fluid_.tait_exponent;
   for_each_point(materials().points(), [&](Index i) {
     const PoreMaterial& rock = materials().at(i);
-    const double pores = rock.porosity + rock.biot_coefficient * dilatation_.at(i, t);
-    const double ratio = density_ratio(rock.porosity + zeta[i], pores, scale * pore_answer_[i]);
-    p[i] = scale * (std::pow(ratio, fluid_.tait_exponent) - 1.0);
+    const double opened = rock.biot_coefficient * dilatation_.at(i, t);
+    p[i] = scale *
+           relative_pressure(zeta[i] - opened, rock.porosity + opened, scale * pore_answer_[i]);
   });
 }
 

@@ -22,10 +22,11 @@ class TaitStorage final : public PoreStorage {
   double energy(Index i, double zeta, double p) const override;
 
  private:
-  /// rho/rho_0 at which pores of a volume `pores` + `softness` [(rho/rho_0)^gamma - 1] hold `fluid`
-  /// (all per volume of rock). `pores` may be negative, where only the answer to pressure opens
+  /// (rho/rho_0)^gamma - 1 at which pores of a volume `pores` + `softness` [(rho/rho_0)^gamma - 1]
+  /// hold as much fluid as `pores` + `excess` would at rho_0 (all per volume of rock): to rounding
+  /// of itself, however small. `pores` may be negative, where only the answer to pressure opens
   /// them.
-  double density_ratio(double fluid, double pores, double softness) const;
+  double relative_pressure(double excess, double pores, double softness) const;
 
   PoreFluid fluid_;
   DilatationInput dilatation_;

@@ -52,6 +52,23 @@ TEST(TaitStorage, FindsThePressureToRounding) {
   }
 }
 
+/// Of pressures that are a part in 1e12 of the modulus: an implicit integrator takes noise for
+/// something to resolve.
+TEST(TaitStorage, KeepsTheDigitsOfSmallPressures) {
+  for (const double slope : {0.0, 3e-8}) {
+    TaitStorage storage(one_point(soft), soft);
+    for (const double relative : {1e-12, -1e-12}) {
+      const double p = relative * soft.bulk_modulus;
+      const std::vector<double> value = {0.0}, rate = {0.0}, slopes = {slope};
+      storage.set_dilatation({value, rate, slopes, 0.0});
+      const double answer = porosity / soft.bulk_modulus + grain_storage + alpha * alpha * slope;
+      std::vector<double> found(1);
+      storage.pressure(0.0, std::vector<double>{answer * p}, found);
+      EXPECT_NEAR(found[0] / p, 1.0, 1e-10) << slope;
+    }
+  }
+}
+
 TEST(TaitStorage, GivesItsDerivatives) {
   const std::vector<double> value = {0.01}, rate = {0.0}, slope = {2e-9};
   TaitStorage storage(one_point(soft), soft);
