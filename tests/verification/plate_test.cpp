@@ -22,7 +22,7 @@ TEST(DrainedPlate, IsExactInThreeDimensions) {
   EXPECT_LE(last["displacement_z_error"], 1e-10);
 }
 
-/// Beyond 600 points moments are projected to 2e-3: no more of that is seen at twice the points.
+/// Moments of so many points are projected to 2e-3 only, which errors still fall beside.
 TEST(DrainedPlate, ConvergesOnAJitteredCloudInThreeDimensions) {
   double coarser = 0.0;
   for (const char* spacing : {"1 m", "0.5 m"}) {

@@ -30,7 +30,8 @@ using Laws = LawByRegion<IsotropicElasticity<D>>;
 
 /// The diagonal knows how stiff rock is against changes of volume, not how soft it is beside that
 /// against all others: those are damped by steps in proportion to the root of the ratio. So a
-/// solve takes some 50 iterations at most, and two steps do up to a Poisson's ratio of 0.35.
+/// solve takes some 50 iterations at most up to a Poisson's ratio of 0.4999, and two steps do up to
+/// 0.35.
 template <int D>
 int smoothing_steps(const std::vector<IsotropicElasticity<D>>& by_point) {
   double largest = 0.0;
