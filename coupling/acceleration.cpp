@@ -1,8 +1,10 @@
 #include "coupling/acceleration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <deque>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -51,36 +53,76 @@ struct Step {
   VectorXd answer;
 };
 
-/// The combination of steps whose residuals, scaled, come nearest to `residual`; steps come newest
-/// first, and those that say next to nothing beyond newer ones are left out of `steps`.
-VectorXd combine(std::deque<Step>& steps, const VectorXd& residual, const VectorXd& scale) {
-  constexpr double new_part = 0.02;
-  MatrixXd basis(residual.size(), std::ssize(steps));
-  MatrixXd parts = MatrixXd::Zero(std::ssize(steps), std::ssize(steps));
-  Eigen::Index used = 0;
-  for (std::size_t i = 0; i < steps.size();) {
-    VectorXd left = scale.cwiseProduct(steps[i].residual);
-    const double whole = left.norm();
-    double rest = whole;
-    // Once leaves rounding of what it takes off, which counts where little is left.
-    for (int twice = 0; twice < 2 && (twice == 0 || rest < 0.1 * whole); ++twice) {
-      const VectorXd along = basis.leftCols(used).transpose() * left;
-      left -= basis.leftCols(used) * along;
-      parts.col(used).head(used) =
-          twice == 0 ? along : VectorXd(parts.col(used).head(used) + along);
-      rest = left.norm();
+/// Which combination of steps comes nearest to a residual, by the products of their residuals, all
+/// scaled. The products are found once a window, and those of a step when it comes.
+class StepFit {
+ public:
+  /// Steps come newest first; at most `most` will be there at once.
+  void start(const std::deque<Step>& steps, const VectorXd& scale, std::size_t most) {
+    columns_.setZero(scale.size(), static_cast<Eigen::Index>(most));
+    places_.clear();
+    free_.clear();
+    for (Eigen::Index k = columns_.cols() - 1; k >= std::ssize(steps); --k) free_.push_back(k);
+    for (Eigen::Index k = 0; k < std::ssize(steps); ++k) {
+      columns_.col(k) = scale.cwiseProduct(steps[static_cast<std::size_t>(k)].residual);
+      places_.push_back(k);
     }
-    if (!(rest > new_part * whole)) {
-      steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
-      continue;
-    }
-    basis.col(used) = left / rest;
-    parts(used, used) = rest;
-    ++used, ++i;
+    products_.noalias() = columns_.transpose() * columns_;
   }
-  const VectorXd along = basis.leftCols(used).transpose() * residual;
-  return parts.topLeftCorner(used, used).triangularView<Eigen::Upper>().solve(along);
-}
+
+  void add_newest(const VectorXd& scaled_residual) {
+    const Eigen::Index place = free_.back();
+    free_.pop_back();
+    places_.push_front(place);
+    columns_.col(place) = scaled_residual;
+    products_.col(place).noalias() = columns_.transpose() * scaled_residual;
+    products_.row(place) = products_.col(place).transpose();
+  }
+
+  void drop(std::size_t step) {
+    const Eigen::Index place = places_[step];
+    columns_.col(place).setZero();
+    free_.push_back(place);
+    places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(step));
+  }
+
+  /// A factor by step; those that say next to nothing beyond newer ones are dropped here and there.
+  VectorXd factors(std::deque<Step>& steps, const VectorXd& scaled_residual) {
+    constexpr double new_part = 0.02;
+    const VectorXd wanted = columns_.transpose() * scaled_residual;
+    MatrixXd lower(std::ssize(places_), std::ssize(places_));  // Cholesky's, of the products
+    VectorXd along(std::ssize(places_));
+    Eigen::Index used = 0;
+    for (std::size_t i = 0; i < places_.size();) {
+      VectorXd row(used);
+      for (Eigen::Index k = 0; k < used; ++k) {
+        row[k] = products_(places_[static_cast<std::size_t>(k)], places_[i]);
+      }
+      const auto known = lower.topLeftCorner(used, used);
+      known.triangularView<Eigen::Lower>().solveInPlace(row);
+      const double whole = products_(places_[i], places_[i]);
+      const double rest = whole - row.squaredNorm();
+      if (!(rest > new_part * new_part * whole)) {
+        drop(i);
+        steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
+        continue;
+      }
+      const double pivot = std::sqrt(rest);
+      along[used] = (wanted[places_[i]] - row.dot(along.head(used))) / pivot;
+      lower.row(used).head(used) = row.transpose();
+      lower(used, used) = pivot;
+      ++used, ++i;
+    }
+    const auto all = lower.topLeftCorner(used, used);
+    return all.transpose().triangularView<Eigen::Upper>().solve(along.head(used));
+  }
+
+ private:
+  MatrixXd columns_;                 ///< the steps' residuals
+  MatrixXd products_;                ///< of columns
+  std::deque<Eigen::Index> places_;  ///< the column of each step
+  std::vector<Eigen::Index> free_;   ///< columns of none
+};
 
 /// Answers as linear in the input as its steps say.
 class Secants final : public Acceleration {
@@ -116,12 +158,18 @@ class Secants final : public Acceleration {
     const VectorXd residual = answer - used;
     if (!steps_.empty() && steps_.front().answer.size() != answer.size()) reset();
     if (residual_.size() == residual.size()) {
+      if (steps_.size() == depth_) {
+        steps_.pop_back();
+        fit_.drop(steps_.size());
+      }
       steps_.push_front({residual - residual_, answer - answer_});
-      if (steps_.size() > depth_) steps_.pop_back();
+      fit_.add_newest(scale.cwiseProduct(steps_.front().residual));
+    } else {
+      fit_.start(steps_, scale, depth_);
     }
     residual_ = residual;
     answer_ = answer;
-    const VectorXd factors = combine(steps_, scale.cwiseProduct(residual), scale);
+    const VectorXd factors = fit_.factors(steps_, scale.cwiseProduct(residual));
     VectorXd next = answer;
     for (Eigen::Index i = 0; i < factors.size(); ++i) next -= factors[i] * steps_[i].answer;
     return next;
@@ -150,6 +198,7 @@ class Secants final : public Acceleration {
   std::size_t depth_;
   std::size_t kept_;
   std::deque<Step> steps_;  ///< the newest first
+  StepFit fit_;             ///< in the window at hand
   VectorXd residual_;
   VectorXd answer_;
 };

@@ -68,6 +68,10 @@ double WindowSolver::solve(const TimeWindow& window, const Iterations& iteration
 
   const std::int64_t passes_before = work_.passes;
   TimeWindow tried = window;
+  if (is_saved_) {
+    for (const ModuleSlot& slot : modules_)
+      tried.end = std::min(tried.end, slot.module->expected_end(window));
+  }
   double reached = conclude(tried, iterate(tried, iterations));
   for (int redone = 0; reached < tried.end; ++redone) {
     if (redone == most_redos)

@@ -42,6 +42,10 @@ class PhysicsModule {
   /// (PortView::forecast) is of it.
   virtual void prepare([[maybe_unused]] const TimeWindow& window) {}
 
+  /// Where, by what came before, this window will end early [s], or window.end; that is tried
+  /// first.
+  virtual double expected_end(const TimeWindow& window) const { return window.end; }
+
   /// Advances over the window with steps of its own; returns the time reached [s]. Less than
   /// window.end means an event: the manager takes every module back and ends the window there.
   /// Throws NumericalError.

@@ -68,6 +68,9 @@ class FracturingSolid final : public PhysicsModule {
     cracked_->renew_slope();
     growth_.begin(window);
   }
+  double expected_end(const TimeWindow& window) const override {
+    return growth_.expected_end(window);
+  }
   double advance(const TimeWindow& window) override;
   bool wants_another_pass() const override { return !tips_are_found_; }
   double conclude(const TimeWindow& window) override;

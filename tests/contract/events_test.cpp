@@ -1,3 +1,5 @@
+#include <tuple>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -93,6 +95,27 @@ TEST(EventsAlone, AModuleAloneIsTakenBackAsAnyOther) {
   EXPECT_EQ(manager.advance(1.0), 0.15);
   EXPECT_EQ(alarm->rings(), 1);
   EXPECT_EQ(manager.modules()[0].advances, 4) << "settled, a window, one to its event, and again";
+}
+
+/// Expected where it is, too early, too late and beyond the window.
+TEST(EventsAlone, AnEventThatIsExpectedIsTriedFirst) {
+  using Times = std::vector<double>;
+  const std::vector<std::tuple<Times, Times, int>> cases = {{{0.15}, {0.1, 0.15}, 3},
+                                                            {{0.13}, {0.1, 0.13, 0.15}, 5},
+                                                            {{0.17}, {0.1, 0.15}, 4},
+                                                            {{0.35}, {0.1, 0.15}, 4},
+                                                            {{0.02}, {0.02, 0.12, 0.15}, 5}};
+  for (const auto& [expected, ends, advances] : cases) {
+    std::vector<ModuleSlot> modules;
+    modules.push_back({"alarm", std::make_unique<Alarm>(0.15, expected)});
+    auto* alarm = static_cast<Alarm*>(modules[0].module.get());
+    CouplingManager manager(std::move(modules), even_windows(0.1));
+    manager.initialize(0.0);
+    manager.settle();
+    for (const double end : ends) EXPECT_DOUBLE_EQ(manager.advance(1.0), end) << expected[0];
+    EXPECT_EQ(alarm->rings(), 1);
+    EXPECT_EQ(manager.modules()[0].advances, advances) << expected[0];
+  }
 }
 
 TEST(EventsAlone, WindowsDoNotGrowByAnEvent) {

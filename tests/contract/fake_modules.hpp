@@ -227,12 +227,18 @@ class DrainingPores final : public PhysicsModule {
 /// Rings once, at a known time, and ends the window there. Counts rings in its state.
 class Alarm final : public PhysicsModule {
  public:
-  explicit Alarm(double rings_at) : rings_at_(rings_at) {}
+  /// `expects`: times at which it expects to ring, ascending.
+  explicit Alarm(double rings_at, std::vector<double> expects = {})
+      : rings_at_(rings_at), expects_(std::move(expects)) {}
 
   std::span<const Port> ports() const override { return {}; }
   PortView port(PortId) override { return {}; }
   void initialize(double) override {}
   double stable_time_step() const override { return std::numeric_limits<double>::infinity(); }
+  double expected_end(const TimeWindow& window) const override {
+    const auto next = std::ranges::upper_bound(expects_, window.begin);
+    return next == expects_.end() ? window.end : *next;
+  }
   double advance(const TimeWindow& window) override {
     if (rings_ > 0 || window.end < rings_at_) return window.end;
     ++rings_;
@@ -245,6 +251,7 @@ class Alarm final : public PhysicsModule {
 
  private:
   double rings_at_;
+  std::vector<double> expects_;
   std::int64_t rings_ = 0;
 };
 

@@ -73,6 +73,8 @@ NETWORK = {**{f"crack_fluid/{name}": FACETS
            **{f"crack_fluid/{name}_lost": 1 for name in TOTALS},
            **link("solid.free_crack_opening.crack_fluid", FACETS, slope=True, lagged=True),
            **link("crack_fluid.crack_pressure.solid", FACETS), **link("crack_fluid.crack_viscosity.solid", FACETS)}
+# When the next facet is due beside pores, where tips do not move within facets.
+FORESEEN = {"solid/growth_interval": 1, "solid/readiness_rate": 1}
 LEAK_OFF = {"crack_fluid/leak_off_rate": 1, **exchange("crack_fluid")}
 
 # Arrays that each effect of a chain of bench/effects brings, and those it takes away; modules and links in all.
@@ -83,7 +85,7 @@ EXPECTED = {
     "dynamic, bonds that break by stretch": [(MOTION, {}), ({"solid/fracture_energy": 1}, {}), (PORES_LAST, {})],
     "quasi_static": [
         (EQUILIBRIUM, {}), (CRACKS_AT_REST, {}), (PORES_FIRST, {}), ({}, {}),
-        ({**NETWORK, "solid/crack_pressure": FACETS,
+        ({**NETWORK, **FORESEEN, "solid/crack_pressure": FACETS,
           **link("solid.crack_part.crack_fluid", FACETS, lagged=True)}, {}),
         ({**LEAK_OFF, "pore_flow/pore_pressure_slope": POINTS}, {})],
 }

@@ -128,6 +128,15 @@ TEST(HfStoragePores, LiesBetweenDrainedAndUndrainedRock) {
   EXPECT_GT(run.summary["ledger"]["pore_fluid_mass"]["value"], 0.0);
 }
 
+/// Windows about as long as a facet takes, most of which one ends, are not tried in vain.
+TEST(HfStoragePores, TakesFewPassesAWindow) {
+  const SceneRun run =
+      run_config("hf_storage_pores", {"time.end=20 ms", "coupling.window.largest=1.5 ms"});
+  ASSERT_EQ(run.exit_code, 0);
+  const int passes = run.summary["counts"]["passes"], windows = run.summary["counts"]["windows"];
+  EXPECT_LE(2 * passes, 5 * windows);
+}
+
 /// A sloped seed turns to where the stress lets it open, and the run ends well.
 TEST(HfStorage, TurnsFromASlopedNotch) {
   const SceneRun run =

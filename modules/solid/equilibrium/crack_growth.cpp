@@ -23,6 +23,9 @@ constexpr double late_nucleus = 1e-3;
 /// Windows are not cut to less than this part of the time.
 constexpr double shortest = 1e-9;
 
+/// Nor is one expected to end before this part of it.
+constexpr double shortest_expected = 0.01;
+
 /// A crack begins within this of its criterion.
 constexpr double begins = 0.999;
 
@@ -49,11 +52,31 @@ void CrackGrowth<D>::start(const std::vector<CrackFacet<D>>& seeds, double t) {
   tips_.start(seeds, t);
   if (moving_) moving_->start();
   last_growth_ = t;
-  readiness_before_ = nucleus_before_ = 0.0;
+  readiness_before_ = nucleus_before_ = growth_interval_ = readiness_rate_ = 0.0;
+}
+
+/// Whose tips move know where they will be; the squares of a front come in no order.
+template <int D>
+bool CrackGrowth<D>::expects_facets() const {
+  return D == 2 && equilibrium_.is_wet() && !tips_move();
+}
+
+template <int D>
+double CrackGrowth<D>::expected_end(const TimeWindow& window) const {
+  if (!expects_facets()) return window.end;
+  double wait = 0.0;
+  if (readiness_before_ == 0.0) {
+    wait = last_growth_ + growth_interval_ - window.begin;
+  } else if (readiness_rate_ > 0.0) {
+    wait = (1.0 - readiness_before_) / readiness_rate_;
+  }
+  if (!(wait > 0.0 && wait < 0.95 * window.length())) return window.end;
+  return window.begin + std::max(wait, shortest_expected * window.length());
 }
 
 template <int D>
 void CrackGrowth<D>::begin(const TimeWindow& window) {
+  begun_ = window.begin;
   if (moving_) moving_->begin(window);
 }
 
@@ -115,6 +138,10 @@ double CrackGrowth<D>::due_share(double length, double most) const {
 template <int D>
 void CrackGrowth<D>::grow() {
   cuts_ = 0;
+  const double lasted = equilibrium_.time() - begun_;
+  if (readiness_before_ > 0.0 && readiness_ > readiness_before_ && lasted > 0.0) {
+    readiness_rate_ = (readiness_ - readiness_before_) / lasted;
+  }
   // Windows that come up to the criterion in small steps pass it as often as they stop short.
   const double due = std::clamp(1.0 - 0.5 * (readiness_ - readiness_before_), ready, 1.0);
   readiness_before_ = readiness_;
@@ -157,6 +184,9 @@ bool CrackGrowth<D>::grow_tips(double most, double due) {
     const double spent = moves ? 0.0 : tips_.grow(equilibrium_.state());
     has_grown = has_grown || spent > 0.0 || (moves && start_moving());
     work_.spend(spent);
+    if (is_wet && equilibrium_.time() > last_growth_) {
+      growth_interval_ = equilibrium_.time() - last_growth_;
+    }
     last_growth_ = equilibrium_.time();
     readiness_before_ = 0.0;
     equilibrium_.solve(equilibrium_.time());
@@ -211,6 +241,10 @@ template <int D>
 void CrackGrowth<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("readiness", readiness_before_);
   visitor.visit("last_growth", last_growth_);
+  if (expects_facets()) {
+    visitor.visit("growth_interval", growth_interval_);
+    visitor.visit("readiness_rate", readiness_rate_);
+  }
   if (nucleation_) visitor.visit("nucleus_readiness", nucleus_before_);
   tips_.visit_state(visitor);
   if (moving_ && equilibrium_.is_wet()) moving_->visit_state(visitor);

@@ -27,6 +27,9 @@ class CrackGrowth {
               const std::optional<TensileStrength<D>>& tensile_strength);
 
   void start(const std::vector<CrackFacet<D>>& seeds, double t);
+  /// Where a facet will be due in this window [s], as it came to be last time; the window's end
+  /// where none will, or nothing is known.
+  double expected_end(const TimeWindow& window) const;
   /// A window is about to be tried.
   void begin(const TimeWindow& window);
   /// Once its equilibrium was solved; false where it has to be passed through once more.
@@ -46,6 +49,7 @@ class CrackGrowth {
  private:
   double due_share(double length, double most) const;
   bool tips_move() const;
+  bool expects_facets() const;
   bool start_moving();
   bool grow_tips(double most, double due);
   double find_nucleus_readiness();
@@ -64,6 +68,9 @@ class CrackGrowth {
   double readiness_before_ = 0.0;   ///< at the beginning of the window
   double nucleus_before_ = 0.0;     ///< likewise
   double last_growth_ = 0.0;        ///< [s]
+  double growth_interval_ = 0.0;    ///< between the last two, 0 before [s]
+  double readiness_rate_ = 0.0;     ///< in the last window where it rose, 0 before [1/s]
+  double begun_ = 0.0;              ///< the window at hand [s]
   int cuts_ = 0;                    ///< of the window at hand
   struct {
     double length, readiness;
