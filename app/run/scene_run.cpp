@@ -104,7 +104,7 @@ void SceneRun::finish(bool stopped) {
   log_if_any(filling_warning(scene_, simulation_));
   log_if_any(residual_aperture_warning(scene_, simulation_));
   if (!stopped) {
-    log_if_any(seepage_warning(scene_, simulation_.manager->time()));
+    log_if_any(seepage_warning(scene_, simulation_));
     log_if_any(wave_warning(scene_, simulation_.manager->time()));
   }
   recorder_.write_checkpoint(false);

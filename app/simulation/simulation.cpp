@@ -127,11 +127,17 @@ std::vector<Field> fields_of(const CouplingManager& manager) {
   return fields;
 }
 
-Field field_named(const CouplingManager& manager, const std::string& name) {
+std::optional<Field> find_field(const CouplingManager& manager, const std::string& name) {
   for (const Field& field : fields_of(manager)) {
     if (field.port.name == name) return field;
   }
-  throw std::logic_error("no field " + name);
+  return {};
+}
+
+Field field_named(const CouplingManager& manager, const std::string& name) {
+  const auto field = find_field(manager, name);
+  if (!field) throw std::logic_error("no field " + name);
+  return *field;
 }
 
 }  // namespace perifrac

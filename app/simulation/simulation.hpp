@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct Field {
 /// Every field of every module, in the modules' order; one that several have is
 /// `<name>_from_<module>`.
 std::vector<Field> fields_of(const CouplingManager& manager);
+
+/// The first field of that name, if any.
+std::optional<Field> find_field(const CouplingManager& manager, const std::string& name);
 
 /// The field of that name; throws std::logic_error where there is none.
 Field field_named(const CouplingManager& manager, const std::string& name);

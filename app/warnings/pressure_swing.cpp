@@ -29,15 +29,35 @@ std::vector<Index> next_along(const Body<D>& body, const Family<D>& family, int 
   return next;
 }
 
+/// What values range over; of nearly equal ones a thousandth of their size.
+double range_of(std::span<const double> values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return std::max(high - low, 1e-3 * std::max(std::abs(low), std::abs(high)));
+}
+
 }  // namespace
+
+template <int D>
+double largest_step(const Body<D>& body, std::span<const double> values) {
+  const auto families = body.families();
+  if (families.empty() || body.irregular()) return 1.0;
+  const double range = range_of(values);
+  double largest = 0.0;
+  for (int axis = 0; axis < D; ++axis) {
+    const std::vector<Index> next = next_along(body, *families.front(), axis);
+    for (Index i = 0; i < static_cast<Index>(next.size()); ++i) {
+      if (next[i] >= 0) largest = std::max(largest, std::abs(values[next[i]] - values[i]));
+    }
+  }
+  return range > 0.0 ? largest / range : 0.0;
+}
 
 template <int D>
 double largest_swing(const Body<D>& body, std::span<const double> values) {
   constexpr double noticed = 0.1;  // of the steps beside it
   const auto families = body.families();
   if (families.empty() || body.irregular()) return 0.0;
-  const auto [low, high] = std::ranges::minmax(values);
-  const double range = std::max(high - low, 1e-3 * std::max(std::abs(low), std::abs(high)));
+  const double range = range_of(values);
   double largest = 0.0;
   for (int axis = 0; axis < D; ++axis) {
     const std::vector<Index> next = next_along(body, *families.front(), axis);
@@ -54,6 +74,8 @@ double largest_swing(const Body<D>& body, std::span<const double> values) {
   return range > 0.0 ? largest / range : 0.0;
 }
 
+template double largest_step(const Body<2>&, std::span<const double>);
+template double largest_step(const Body<3>&, std::span<const double>);
 template double largest_swing(const Body<2>&, std::span<const double>);
 template double largest_swing(const Body<3>&, std::span<const double>);
 

@@ -9,6 +9,7 @@
 #include "app/references/rock.hpp"
 #include "app/warnings/body_box.hpp"
 #include "app/warnings/inlet_places.hpp"
+#include "app/warnings/pressure_swing.hpp"
 #include "modules/pore_flow/material/mobility.hpp"
 #include "modules/pore_flow/material/pore_material.hpp"
 
@@ -16,17 +17,19 @@ namespace perifrac {
 
 namespace {
 
-constexpr double least_filled = 4.0;   // spacings a wing
-constexpr double least_wet = 2.0;      // spacings
-constexpr double least_waves = 5.0;    // spacings: by half of one, energies are a tenth off then
+constexpr double least_filled = 4.0;  // spacings a wing
+constexpr double least_wet = 2.0;     // spacings
+constexpr double least_waves = 5.0;   // spacings: by half of one, energies are a tenth off then
+// Half of the first step of pressures that have gone 2.5 spacings from where they jumped.
+constexpr double steep = 0.1;
 constexpr double most_residual = 0.5;  // of the widest opening; volumes are 3 % off then
 
 /// Of a field; 0 where there is none.
 double largest_of(const Simulation& simulation, const std::string& name) {
+  const auto field = find_field(*simulation.manager, name);
   double largest = 0.0;
-  for (const Field& field : fields_of(*simulation.manager)) {
-    if (field.port.name != name) continue;
-    for (const double value : field.values()) largest = std::max(largest, value);
+  if (field) {
+    for (const double value : field->values()) largest = std::max(largest, value);
   }
   return largest;
 }
@@ -181,6 +184,15 @@ std::optional<std::string> seepage_warning(const Section& scene, double time) {
       "flows through {} depends on the spacing; bring points closer together, or look at later "
       "times",
       depth, time, least_depth * blur, through);
+}
+
+std::optional<std::string> seepage_warning(const Section& scene, const Simulation& simulation) {
+  const auto warning = seepage_warning(scene, simulation.manager->time());
+  const auto pressure = find_field(*simulation.manager, "pore_pressure");
+  if (!warning || !pressure) return {};
+  const double step = std::visit(
+      [&](const auto& body) { return largest_step(*body, pressure->values()); }, simulation.body);
+  return step > steep ? warning : std::nullopt;
 }
 
 }  // namespace perifrac

@@ -18,16 +18,10 @@ namespace {
 
 constexpr double large_strain = 0.1;
 constexpr double large_rotation = 0.1;  ///< [rad]; taken for strains, it makes half its square
-constexpr double far_density = 0.1;     ///< relative
+constexpr double far_density = 0.1;     ///< of free fluid, relative
+constexpr double far_pressure = 0.18;   ///< over the bulk modulus: Tait's density is 5 % less there
 constexpr double large_fall = 0.05;     ///< of all energy that there is or was
-constexpr double large_swing = 0.02;    ///< of all that pressures range over
-
-std::optional<Field> find_field(const Simulation& simulation, const std::string& name) {
-  for (const Field& field : fields_of(*simulation.manager)) {
-    if (field.port.name == name) return field;
-  }
-  return {};
-}
+constexpr double large_swing = 0.05;    ///< of all that pressures range over; they are off by half
 
 std::string place_of(const PointSet& points, std::size_t i) {
   std::vector<double> place;
@@ -42,7 +36,7 @@ std::optional<std::string> density_warning(const Field& pressure, double bulk_mo
   if (values.empty()) return {};
   const auto farthest = std::ranges::max_element(values, {}, [](double p) { return std::abs(p); });
   const double off = *farthest / bulk_modulus;
-  if (!(std::abs(off) > far_density)) return {};
+  if (!(std::abs(off) > far_pressure)) return {};
   return fmt::format(
       "{} is {:.2g} of the fluid's bulk modulus at {}: its density is far from what it was taken "
       "for; {}",
@@ -71,7 +65,7 @@ std::vector<std::string> ValidityWatch::look() {
 }
 
 void ValidityWatch::watch_strains(const Section& scene, const Simulation& simulation) {
-  const auto field = find_field(simulation, "displacement");
+  const auto field = find_field(*simulation.manager, "displacement");
   if (!field || !simulation.has_body()) return;
   const bool turns =
       scene.has("solid.kinematics") && scene.word("solid.kinematics") == "corotational";
@@ -103,7 +97,7 @@ void ValidityWatch::watch_strains(const Section& scene, const Simulation& simula
 }
 
 void ValidityWatch::watch_pores(const Section& scene, const Simulation& simulation) {
-  const auto pressure = find_field(simulation, "pore_pressure");
+  const auto pressure = find_field(*simulation.manager, "pore_pressure");
   if (!pressure || !scene.has("pore_flow.fluid.cavitation_pressure")) return;
   const double least = scene.number("pore_flow.fluid.cavitation_pressure");
   limits_.push_back([=]() -> std::optional<std::string> {
@@ -120,7 +114,7 @@ void ValidityWatch::watch_pores(const Section& scene, const Simulation& simulati
 /// Rock that scatters, and points beside cracks, may have pressures that differ from one point to
 /// the next for good reasons.
 void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulation) {
-  const auto pressure = find_field(simulation, "pore_pressure");
+  const auto pressure = find_field(*simulation.manager, "pore_pressure");
   const bool scatters =
       writes(scene, "pore_flow.permeability_scatter") || writes(scene, "solid.material.scatter");
   if (!pressure || scatters || writes(scene, "cracks")) return;
@@ -144,7 +138,7 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
 }
 
 void ValidityWatch::watch_density(const Section& scene, const Simulation& simulation) {
-  const auto in_pores = find_field(simulation, "pore_pressure");
+  const auto in_pores = find_field(*simulation.manager, "pore_pressure");
   if (in_pores && scene.has("pore_flow.fluid.equation_of_state") &&
       scene.word("pore_flow.fluid.equation_of_state") == "linear") {
     const double bulk_modulus = scene.number("pore_flow.fluid.bulk_modulus");
@@ -153,14 +147,14 @@ void ValidityWatch::watch_density(const Section& scene, const Simulation& simula
                              "take `pore_flow.fluid.equation_of_state: tait`");
     });
   }
-  const auto in_cracks = find_field(simulation, "crack_pressure");
+  const auto in_cracks = find_field(*simulation.manager, "crack_pressure");
   if (in_cracks && writes(scene, "crack_fluid")) {
     const double bulk_modulus = scene.number("crack_fluid.bulk_modulus");
     limits_.push_back([=] {
       return density_warning(*in_cracks, bulk_modulus, "raise `crack_fluid.bulk_modulus`");
     });
   }
-  const auto density = find_field(simulation, "fluid_density");
+  const auto density = find_field(*simulation.manager, "fluid_density");
   if (!density) return;
   const double reference = scene.number("fluid.density");
   limits_.push_back([=]() -> std::optional<std::string> {
@@ -199,10 +193,10 @@ void ValidityWatch::watch_rubble(const Section& scene, const Simulation& simulat
 
 /// Rock that is `open` where it is damaged lets points in on purpose.
 void ValidityWatch::watch_leaks(const Section& scene, const Simulation& simulation) {
-  const auto fluid = find_field(simulation, "fluid_density");
+  const auto fluid = find_field(*simulation.manager, "fluid_density");
   if (!fluid || !simulation.has_body()) return;
   if (scene.has("interface.damaged_rock") && scene.word("interface.damaged_rock") == "open") return;
-  const auto moved = find_field(simulation, "displacement");
+  const auto moved = find_field(*simulation.manager, "displacement");
   limits_.push_back([=, &any = simulation.body]() -> std::optional<std::string> {
     const FluidInRock found = std::visit(
         [&]<int D>(const std::shared_ptr<const Body<D>>& body) {

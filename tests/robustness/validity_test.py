@@ -103,10 +103,17 @@ class Validity(RunTest):
                           "below pore_flow.fluid.cavitation_pressure")
         self.assert_warns(MANDEL, SHORT | {"pore_flow.fluid.cavitation_pressure": "-1 kPa"})
 
+    def test_soft_fluid_in_cracks(self):
+        soft = {"body.spacing": "5 mm", "time.end": "20 ms", "output.interval": "20 ms"}
+        for modulus, warns in (("3 MPa", True), ("6 MPa", False)):  # pressed to 0.26 and 0.13 of them
+            warned = self.warnings(self.without_reference("hf_storage.yaml"), soft | {"crack_fluid.bulk_modulus": modulus})
+            self.assertEqual(any("of the fluid's bulk modulus" in warning for warning in warned), warns, warned)
+
     def test_sudden_drainage(self):
-        swinging = SHORT | {"pore_flow.undrained_stabilisation": "0"}
+        tight = SHORT | {"pore_flow.permeability": "3e-12 m^2"}
+        swinging = tight | {"pore_flow.undrained_stabilisation": "0"}
         self.assert_warns(MANDEL, swinging, "of first order only", "pore_pressure swings from point to point")
-        self.assert_warns(MANDEL, SHORT)
+        self.assert_warns(MANDEL, tight)
 
     def test_sudden_drainage_where_storage_cannot_be_stabilised(self):
         layers = SHORT | {"pore_flow.undrained_stabilisation": "0"}
@@ -144,6 +151,9 @@ class Validity(RunTest):
             keys = {"time.end": end, "output.times": "[]", "output.interval": end}
             warned = self.warnings(self.without_reference("constant_head.yaml"), keys)
             self.assertEqual(any("through what free fluid touches" in warning for warning in warned), warns, warned)
+        # From the flow that comes to be nothing enters that was not there.
+        warm = {"time.end": "5 s", "output.interval": "5 s"}
+        self.assert_warns(CONFIGS / "constant_head_warm.yaml", warm)
         # Far from a crack that does not leak a face holds what was there.
         tight = {"body.spacing": "5 mm", "time.end": "1 ms", "output.interval": "1 ms", "crack_fluid.leak_off": "none"}
         for pressure, warns in (("0 Pa", False), ("10 kPa", True)):

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -10,13 +11,28 @@
 namespace perifrac {
 namespace {
 
-double swing_of(const std::function<double(const Vector<2>&)>& pressure) {
+double found(double (*find)(const Body<2>&, std::span<const double>),
+             const std::function<double(const Vector<2>&)>& pressure) {
   const Body<2> body(box_lattice<2>({12, 8}, 1.0, {0, 0}), {}, 1.0, 2.5,
                      InfluenceFunction::constant);
   const auto family = body.family(0);
   std::vector<double> values;
   for (Index i = 0; i < body.points().size(); ++i) values.push_back(pressure(body.points().at(i)));
-  return largest_swing(body, values);
+  return find(body, values);
+}
+
+double swing_of(const std::function<double(const Vector<2>&)>& pressure) {
+  return found(largest_swing<2>, pressure);
+}
+
+/// Of an even fall one part in as many as there are spacings; of a front as it falls there.
+TEST(PressureStep, IsTheLargestFromPointToPoint) {
+  EXPECT_NEAR(found(largest_step<2>, [](const Vector<2>& x) { return 7.0 - 3.0 * x[0]; }), 1.0 / 11,
+              1e-12);
+  EXPECT_EQ(found(largest_step<2>, [](const Vector<2>& x) { return x[1] < 3.0 ? 0.0 : 2.0; }), 1.0);
+  const auto front = [](double x) { return std::erfc(0.2 * x); };
+  EXPECT_NEAR(found(largest_step<2>, [&](const Vector<2>& x) { return front(x[0]); }),
+              (front(0.5) - front(1.5)) / (front(0.5) - front(11.5)), 1e-12);
 }
 
 TEST(PressureSwing, OfSmoothPressuresIsNone) {
