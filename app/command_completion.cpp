@@ -112,11 +112,16 @@ complete -F _perifrac perifrac
   return text;
 }
 
-std::string replaced(std::string text, char what, const std::string& by) {
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
-    text.replace(at, 1, by);
+std::string replaced(const std::string& text, char what, const std::string& by) {
+  std::string result;
+  for (const char c : text) {
+    if (c == what) {
+      result += by;
+    } else {
+      result += c;
+    }
   }
-  return text;
+  return result;
 }
 
 std::string zsh(const CLI::App& app) {

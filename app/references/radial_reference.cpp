@@ -20,7 +20,7 @@ const std::string radial_problem =
     "a quarter of a crack that fluid drives from an edge of the body";
 
 /// Of the whole crack's rate and area, what the scene holds.
-constexpr double share = 0.25;
+constexpr double part_of_disc = 0.25;
 
 /// All fluid enters by the one facet at the corner, a square that makes four with its mirror
 /// images. With fluxes between neighbours of a square grid its pressure is that which a disc of
@@ -70,7 +70,7 @@ RadialProblem read_radial(const Section& scene) {
                "damage, and one inlet with a volume_rate");
   }
   return {read_elastic_rock(scene).plane_strain_modulus(), read_fracture_energy(scene),
-          crack_viscosity(scene), scene.number("crack_fluid.inlets[0].volume_rate") / share};
+          crack_viscosity(scene), scene.number("crack_fluid.inlets[0].volume_rate") / part_of_disc};
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ std::unique_ptr<Reference> make_radial_reference(const Section& scene,
            .place = "the edge",
            .unit = "m",
            .between = BetweenRows::held,
-           .computed = [=] { return std::sqrt(area.values()[0] / (share * M_PI)); },
+           .computed = [=] { return std::sqrt(area.values()[0] / (part_of_disc * M_PI)); },
            .exact = [=](double t) { return solution.radius(t); }});
   compare({.quantity = "pressure",
            .place = "the inlet",

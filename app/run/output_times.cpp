@@ -10,10 +10,10 @@ namespace perifrac {
 namespace {
 
 /// Times that differ by rounding only are one: the window between them would be a sliver.
-constexpr double rounding = 1e-9;
+constexpr double time_rounding = 1e-9;
 
 bool has_near(const std::vector<double>& times, double t) {
-  return std::ranges::any_of(times, [=](double s) { return std::abs(s - t) <= rounding * t; });
+  return std::ranges::any_of(times, [=](double s) { return std::abs(s - t) <= time_rounding * t; });
 }
 
 void add_multiples(const Section& output, double end, std::vector<double>& times) {
@@ -25,7 +25,7 @@ void add_multiples(const Section& output, double end, std::vector<double>& times
   }
   const std::vector<double> written = times;
   // By multiplication, so that no rounding adds up.
-  for (double n = 1.0; n * interval <= end * (1.0 + rounding); ++n) {
+  for (double n = 1.0; n * interval <= end * (1.0 + time_rounding); ++n) {
     if (!has_near(written, n * interval)) times.push_back(n * interval);
   }
 }
@@ -46,7 +46,7 @@ std::vector<double> read_output_times(const Section& output, double scene_end,
   if (!has_near(times, scene_end)) times.push_back(scene_end);
   if (output.has("interval")) add_multiples(output, end, times);
   if (!has_near(times, end)) times.push_back(end);
-  std::erase_if(times, [=](double t) { return t <= 0.0 || t > end * (1.0 + rounding); });
+  std::erase_if(times, [=](double t) { return t <= 0.0 || t > end * (1.0 + time_rounding); });
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

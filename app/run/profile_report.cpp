@@ -39,7 +39,7 @@ std::map<std::string, std::size_t> field_bytes(const Simulation& simulation) {
   return bytes;
 }
 
-double share(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
+double share_of(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
 /// The parts within one, in the order in which they were met.
 SortedJson parts_json(const std::vector<Profile::Part>& parts, int within) {
@@ -50,7 +50,7 @@ SortedJson parts_json(const std::vector<Profile::Part>& parts, int within) {
     SortedJson json = {{"name", part.name},
                        {"calls", part.calls},
                        {"seconds", part.seconds},
-                       {"share", share(part.seconds, parts[0].seconds)},
+                       {"share", share_of(part.seconds, parts[0].seconds)},
                        {"cpu_seconds", part.cpu_seconds},
                        {"heap_bytes", part.bytes}};
     SortedJson inner = parts_json(parts, static_cast<int>(k));
@@ -111,7 +111,7 @@ SortedJson profile_json(Profile& profile, const Simulation& simulation) {
           {"instructions", instruction_set()},
           {"unaccounted",
            {{"seconds", whole.seconds - named_seconds},
-            {"share", share(whole.seconds - named_seconds, whole.seconds)}}},
+            {"share", share_of(whole.seconds - named_seconds, whole.seconds)}}},
           {"memory",
            {{"at_start", at_start},
             {"parts", held},

@@ -13,8 +13,8 @@ namespace perifrac {
 
 namespace {
 
-constexpr std::array words = {"done",   "diverged",    "killed", "invalid",
-                              "failed", "over budget", "not run"};
+constexpr std::array status_words = {"done",   "diverged",    "killed", "invalid",
+                                     "failed", "over budget", "not run"};
 constexpr const char* file_name = "record.json";
 
 std::string content(const std::filesystem::path& path) {
@@ -26,7 +26,7 @@ std::string content(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string word(VariantStatus status) { return words[static_cast<std::size_t>(status)]; }
+std::string word(VariantStatus status) { return status_words[static_cast<std::size_t>(status)]; }
 
 std::vector<std::string> assignments(const Variant& variant) {
   std::vector<std::string> result;
@@ -48,8 +48,8 @@ VariantRecord read_record(const std::filesystem::path& folder, const Variant& va
       kept.value("made_from", nlohmann::json()) != record.made_from) {
     return record;
   }
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (kept.at("status") == words[i]) record.status = static_cast<VariantStatus>(i);
+  for (std::size_t i = 0; i < status_words.size(); ++i) {
+    if (kept.at("status") == status_words[i]) record.status = static_cast<VariantStatus>(i);
   }
   record.message = kept.at("message");
   record.budget = kept.at("budget").is_null() ? INFINITY : kept.at("budget").get<double>();

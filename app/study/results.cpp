@@ -13,7 +13,7 @@ namespace {
 // Wall times nearer to each other than this factor are taken for equal.
 constexpr double blur = 1.25;
 // Errors below it come from rounding: they have no order.
-constexpr double rounding = 1e-11;
+constexpr double error_rounding = 1e-11;
 
 class Conclusion {
  public:
@@ -120,7 +120,7 @@ class Conclusion {
     for (const std::size_t i : members) {
       order.numbers.push_back(number(i));
       const double error = *results_.points[i].error.error;
-      errors.push_back(error > rounding ? error : 0.0);
+      errors.push_back(error > error_rounding ? error : 0.0);
       costs.push_back(results_.points[i].cost.median);
     }
     if (!study_.axes[along].problem) order.error = power(order.numbers, errors);

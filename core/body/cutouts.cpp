@@ -12,7 +12,8 @@ namespace perifrac {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-9;  // of a place on the lattice, in spacings; of a bond's length
+constexpr double place_rounding =
+    1e-9;  // of a place on the lattice, in spacings; of a bond's length
 
 /// The cut-outs, and their images behind mirrored faces in the order in which ghosts are made.
 template <int D>
@@ -103,7 +104,7 @@ bool passes_through(const Region<D>& box, const Vector<D>& x, const Vector<D>& y
   for (int a = 0; a < D; ++a) {
     const double along = y[a] - x[a];
     const double low = box.from[a] - x[a], high = box.to[a] - x[a];
-    const double margin = rounding * (high - low < infinity ? high - low : 0.0);
+    const double margin = place_rounding * (high - low < infinity ? high - low : 0.0);
     if (along == 0.0) {
       if (low >= -margin || high <= margin) return false;
       continue;
@@ -111,7 +112,7 @@ bool passes_through(const Region<D>& box, const Vector<D>& x, const Vector<D>& y
     enters = std::max(enters, (along > 0.0 ? low : high) / along);
     leaves = std::min(leaves, (along > 0.0 ? high : low) / along);
   }
-  return leaves - enters > rounding;
+  return leaves - enters > place_rounding;
 }
 
 template <int D>

@@ -9,14 +9,14 @@ namespace perifrac {
 
 namespace {
 
-constexpr std::size_t most = 256;  // that a byte tells apart
+constexpr std::size_t most_numbers = 256;  // that a byte tells apart
 
 /// Finds places in a table of few numbers, most of them at once.
 class TableSearch {
  public:
   explicit TableSearch(std::vector<double>& table) : table_(table) {}
 
-  /// The place of a number, up to rounding; `most` where there is no room for it any more.
+  /// The place of a number, up to rounding; `most_numbers` where there is no room for it any more.
   std::size_t place_of(double number) {
     constexpr double rounding = 1e-12;
     const auto is_it = [&](double known) {
@@ -26,7 +26,7 @@ class TableSearch {
     if (is_it(table_[guess])) return guess;
     const auto found = std::ranges::find_if(table_, is_it);
     const auto place = static_cast<std::size_t>(found - table_.begin());
-    if (place == most) return most;
+    if (place == most_numbers) return most_numbers;
     if (found == table_.end()) table_.push_back(number);
     guess = static_cast<std::uint8_t>(place);
     return place;
@@ -46,7 +46,7 @@ void BondWeights::pack() {
   TableSearch search(table);
   for (const double weight : all_) {
     const std::size_t place = search.place_of(weight);
-    if (place == most) return;
+    if (place == most_numbers) return;
     if (code.empty()) code.reserve(all_.size());
     code.push_back(static_cast<std::uint8_t>(place));
   }
@@ -59,7 +59,7 @@ void BondWeights::set(std::size_t bond, double weight) {
   if (is_packed()) {
     const auto found = std::ranges::find(table_, weight);
     const auto place = static_cast<std::size_t>(found - table_.begin());
-    if (place < most) {
+    if (place < most_numbers) {
       if (found == table_.end()) table_.push_back(weight);
       code_[bond] = static_cast<std::uint8_t>(place);
       return;

@@ -37,7 +37,9 @@ TEST(DrainedPlate, ConvergesOnAJitteredCloudInThreeDimensions) {
       largest = std::max(largest, error);
     }
     EXPECT_LE(largest, 0.015);
-    if (coarser > 0.0) EXPECT_LE(largest, 0.6 * coarser);
+    if (coarser > 0.0) {
+      EXPECT_LE(largest, 0.6 * coarser);
+    }
     coarser = largest;
   }
 }

@@ -15,7 +15,7 @@ namespace {
 using Row = std::array<double, 4>;
 
 /// tests/references/kgd.py, table_row(K_m).
-constexpr Row table[] = {
+constexpr Row by_toughness[] = {
     {0.15, 0.61540, 1.12565, 0.54486}, {0.3, 0.61504, 1.12595, 0.54506},
     {0.6, 0.61189, 1.12871, 0.54696},  {0.9, 0.60351, 1.13687, 0.55265},
     {1.16, 0.59104, 1.15068, 0.56261}, {1.5, 0.56779, 1.18123, 0.58582},
@@ -25,22 +25,23 @@ constexpr Row table[] = {
     {6, 0.28175, 2.26136, 2.01082},
 };
 
-static_assert(table[0][0] == KgdSolution::least_toughness &&
-              table[std::size(table) - 1][0] == KgdSolution::most_toughness);
+static_assert(by_toughness[0][0] == KgdSolution::least_toughness &&
+              by_toughness[std::size(by_toughness) - 1][0] == KgdSolution::most_toughness);
 
 /// A parabola through the three rows nearest to a toughness.
 double interpolated(double toughness, std::size_t column) {
   const auto after =
-      std::ranges::lower_bound(table, toughness, {}, [](const Row& r) { return r[0]; });
-  const auto at = static_cast<std::size_t>(after - std::begin(table));
-  const std::size_t first = std::clamp<std::size_t>(at, 2, std::size(table) - 1) - 2;
+      std::ranges::lower_bound(by_toughness, toughness, {}, [](const Row& r) { return r[0]; });
+  const auto at = static_cast<std::size_t>(after - std::begin(by_toughness));
+  const std::size_t first = std::clamp<std::size_t>(at, 2, std::size(by_toughness) - 1) - 2;
   double sum = 0.0;
   for (std::size_t i = first; i < first + 3; ++i) {
     double weight = 1.0;
     for (std::size_t j = first; j < first + 3; ++j) {
-      if (j != i) weight *= (toughness - table[j][0]) / (table[i][0] - table[j][0]);
+      if (j != i)
+        weight *= (toughness - by_toughness[j][0]) / (by_toughness[i][0] - by_toughness[j][0]);
     }
-    sum += weight * table[i][column];
+    sum += weight * by_toughness[i][column];
   }
   return sum;
 }

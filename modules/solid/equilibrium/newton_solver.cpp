@@ -14,7 +14,7 @@ namespace perifrac {
 namespace {
 
 // Of displacements; squared, as errors are energies.
-constexpr double tolerance = 1e-10, beside_rounding = 1e-8, linear_tolerance = 1e-4;
+constexpr double balance_tolerance = 1e-10, beside_rounding = 1e-8, linear_tolerance = 1e-4;
 constexpr int most_rounds = 30, most_halvings = 10, most_iterations = 500;
 
 constexpr const char* remedy =
@@ -84,7 +84,7 @@ void NewtonSolver<D>::solve(const Eigen::VectorXd& load, const Eigen::VectorXd&,
   double scale = error_;
   for (int round = 0; round < most_rounds; ++round) {
     scale = std::max(scale, unknowns.cwiseProduct(inner_).cwiseAbs().sum());
-    if (error_ <= tolerance * tolerance * scale) return;
+    if (error_ <= balance_tolerance * balance_tolerance * scale) return;
     elastic_->nonlinear()->linearise(view(std::as_const(unknowns)));
     const Eigen::VectorXd before = unknowns, change = step(left_over_, answer_);
     const double error_before = error_;

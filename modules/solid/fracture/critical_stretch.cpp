@@ -113,7 +113,7 @@ double CriticalStretch<D>::left_to_limit(Index i, std::span<const double> u) con
   const Index end = budget_.end_of_real_bonds(i);
   constexpr double whole = std::numeric_limits<double>::infinity();
   const Index begin = family_->offset[i];
-  const double least = family_->weight.with([&](const auto& weight) {
+  const double smallest = family_->weight.with([&](const auto& weight) {
     double least = whole;
 #pragma omp simd reduction(min : least)
     for (Index bond = begin; bond < end; ++bond) {
@@ -131,7 +131,7 @@ double CriticalStretch<D>::left_to_limit(Index i, std::span<const double> u) con
     }
     return least;
   });
-  return least / (2.0 * (1.0 + limit_));
+  return smallest / (2.0 * (1.0 + limit_));
 }
 
 template <int D>

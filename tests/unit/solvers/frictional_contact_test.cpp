@@ -36,7 +36,9 @@ TEST(FrictionalContact, KeepsSignorinisAndCoulombsConditions) {
       const double limit = coefficient * x[i], shear = x[n + i], slip = y[n + i];
       EXPECT_LE(std::abs(shear), (1.0 + 1e-8) * limit) << seed;
       EXPECT_LE(shear * slip, 0.0) << seed;
-      if (slip != 0.0) EXPECT_NEAR(std::abs(shear), limit, 1e-13 * limit) << seed;
+      if (slip != 0.0) {
+        EXPECT_NEAR(std::abs(shear), limit, 1e-13 * limit) << seed;
+      }
       (x[i] == 0.0 ? open : slip == 0.0 ? stuck : sliding) += 1;
     }
   }
