@@ -83,7 +83,7 @@ void SceneRun::advance(double stop) {
       recorder_.windows_since_restart_point() >=
       (is_output ? windows_before_an_output : windows_between_restart_points);
   if (is_output || is_restart_point || ValidityWatch::is_due(manager.step())) {
-    log_all(watch_.look());
+    log_all(watch_.look(is_output));
   }
   if (is_output) {
     recorder_.record_output();
@@ -100,6 +100,7 @@ void SceneRun::settle() {
 }
 
 void SceneRun::finish(bool stopped) {
+  log_all(watch_.look(true));
   log_if_any(balance_warning(scene_, simulation_));
   log_if_any(filling_warning(scene_, simulation_));
   log_if_any(residual_aperture_warning(scene_, simulation_));
@@ -115,7 +116,7 @@ RunEnd SceneRun::fail(const std::exception& error) {
   RunEnd end{.outcome = RunOutcome::failed, .failure = failure_of(error)};
   log_error(describe(*end.failure));
   if (!end.failure->time) return end;
-  log_all(watch_.look());  // what it had come to may say why
+  log_all(watch_.look(true));  // what it had come to may say why
   recorder_.record_failure();
   recorder_.write_checkpoint(false);
   return end;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "app/warnings/pressure_swing.hpp"
 #include "app/warnings/small_strains.hpp"
 #include "core/base/errors.hpp"
+#include "core/io/log.hpp"
 #include "modules/pore_flow/storage/storage_choice.hpp"
 
 namespace perifrac {
@@ -54,12 +56,17 @@ ValidityWatch::ValidityWatch(const Section& scene, const Simulation& simulation)
   watch_leaks(scene, simulation);
 }
 
-std::vector<std::string> ValidityWatch::look() {
+std::vector<std::string> ValidityWatch::look(bool is_output) {
   std::vector<std::string> warnings;
-  std::erase_if(limits_, [&](const Limit& limit) {
-    const auto warning = limit();
-    if (warning) warnings.push_back(*warning);
-    return warning.has_value();
+  std::erase_if(limits_, [&](Limit& limit) {
+    const auto warning = limit.find();
+    if (!warning) return false;
+    if (limit.may_pass && !is_output) {
+      if (!std::exchange(limit.is_told, true)) log_info(*warning);
+      return false;
+    }
+    warnings.push_back(*warning);
+    return true;
   });
   return warnings;
 }
@@ -76,16 +83,16 @@ void ValidityWatch::watch_strains(const Section& scene, const Simulation& simula
         },
         body);
   };
-  limits_.push_back([=]() -> std::optional<std::string> {
+  limits_.push_back({[=]() -> std::optional<std::string> {
     const LargestStrain found = largest();
     if (!(found.strain > large_strain)) return {};
     return fmt::format(
         "strains reach {:.2g} at {}, and the solid is for small ones, up to {}: its answer is off "
         "by as much; lower the loads, or look for a stiffness that is not meant",
         found.strain, place_of(field->points(), found.strained), large_strain);
-  });
+  }});
   if (turns) return;
-  limits_.push_back([=]() -> std::optional<std::string> {
+  limits_.push_back({[=]() -> std::optional<std::string> {
     const LargestStrain found = largest();
     if (!(found.rotation > large_rotation)) return {};
     return fmt::format(
@@ -93,14 +100,14 @@ void ValidityWatch::watch_strains(const Section& scene, const Simulation& simula
         "{:.2g}; take `type: dynamic` with `kinematics: corotational`",
         found.rotation, place_of(field->points(), found.rotated),
         0.5 * found.rotation * found.rotation);
-  });
+  }});
 }
 
 void ValidityWatch::watch_pores(const Section& scene, const Simulation& simulation) {
   const auto pressure = find_field(*simulation.manager, "pore_pressure");
   if (!pressure || !scene.has("pore_flow.fluid.cavitation_pressure")) return;
   const double least = scene.number("pore_flow.fluid.cavitation_pressure");
-  limits_.push_back([=]() -> std::optional<std::string> {
+  limits_.push_back({[=]() -> std::optional<std::string> {
     const auto values = pressure->values();
     const auto lowest = std::ranges::min_element(values);
     if (lowest == values.end() || *lowest >= least) return {};
@@ -108,7 +115,7 @@ void ValidityWatch::watch_pores(const Section& scene, const Simulation& simulati
         "pore_pressure falls to {:.3g} Pa at {}, below pore_flow.fluid.cavitation_pressure, {:g} "
         "Pa: fluid would boil, and the pores would not stay full, as they do here",
         *lowest, place_of(pressure->points(), lowest - values.begin()), least);
-  });
+  }});
 }
 
 /// Rock that scatters, and points beside cracks, may have pressures that differ from one point to
@@ -125,16 +132,18 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
                  simulation.body);
   const char* const advice = can_be_stabler ? "raise pore_flow.undrained_stabilisation, or"
                                             : "drain it gradually, by a schedule, or";
-  limits_.push_back([=, &any = simulation.body]() -> std::optional<std::string> {
-    const double swing =
-        std::visit([&](const auto& body) { return largest_swing(*body, pressure->values()); }, any);
-    if (!(swing > large_swing)) return {};
-    return fmt::format(
-        "pore_pressure swings from point to point by {:.0f} % of what it ranges over: points are "
-        "too far apart for what drained so suddenly; {} bring points closer together; later the "
-        "swings die away",
-        100.0 * swing, advice);
-  });
+  limits_.push_back(
+      {[=, &any = simulation.body]() -> std::optional<std::string> {
+         const double swing = std::visit(
+             [&](const auto& body) { return largest_swing(*body, pressure->values()); }, any);
+         if (!(swing > large_swing)) return {};
+         return fmt::format(
+             "pore_pressure swings from point to point by {:.0f} % of what it ranges over: points "
+             "are too far apart for what drained so suddenly; {} bring points closer together; "
+             "later the swings die away",
+             100.0 * swing, advice);
+       },
+       true});
 }
 
 void ValidityWatch::watch_density(const Section& scene, const Simulation& simulation) {
@@ -142,22 +151,22 @@ void ValidityWatch::watch_density(const Section& scene, const Simulation& simula
   if (in_pores && scene.has("pore_flow.fluid.equation_of_state") &&
       scene.word("pore_flow.fluid.equation_of_state") == "linear") {
     const double bulk_modulus = scene.number("pore_flow.fluid.bulk_modulus");
-    limits_.push_back([=] {
+    limits_.push_back({[=] {
       return density_warning(*in_pores, bulk_modulus,
                              "take `pore_flow.fluid.equation_of_state: tait`");
-    });
+    }});
   }
   const auto in_cracks = find_field(*simulation.manager, "crack_pressure");
   if (in_cracks && writes(scene, "crack_fluid")) {
     const double bulk_modulus = scene.number("crack_fluid.bulk_modulus");
-    limits_.push_back([=] {
+    limits_.push_back({[=] {
       return density_warning(*in_cracks, bulk_modulus, "raise `crack_fluid.bulk_modulus`");
-    });
+    }});
   }
   const auto density = find_field(*simulation.manager, "fluid_density");
   if (!density) return;
   const double reference = scene.number("fluid.density");
-  limits_.push_back([=]() -> std::optional<std::string> {
+  limits_.push_back({[=]() -> std::optional<std::string> {
     const auto values = density->values();
     const auto farthest =
         std::ranges::max_element(values, {}, [=](double rho) { return std::abs(rho - reference); });
@@ -167,15 +176,15 @@ void ValidityWatch::watch_density(const Section& scene, const Simulation& simula
         "fluid_density is {:.4g} kg/m^3 at {}, far from fluid.density, {:g} kg/m^3; raise "
         "`fluid.bulk_modulus`, so that loads change it by a hundredth",
         *farthest, place_of(density->points(), farthest - values.begin()), reference);
-  });
+  }});
 }
 
 /// Points with few bonds left take strains from what is left of their families, and breaking the
 /// rest may release less than nothing.
 void ValidityWatch::watch_rubble(const Section& scene, const Simulation& simulation) {
   if (!scene.has("damage.type") || scene.word("damage.type") != "critical_stretch") return;
-  limits_.push_back([&ledger = simulation.manager->ledger(),
-                     most = 0.0]() mutable -> std::optional<std::string> {
+  limits_.push_back({[&ledger = simulation.manager->ledger(),
+                      most = 0.0]() mutable -> std::optional<std::string> {
     const auto columns = ledger.columns();
     const auto broken = std::ranges::find(columns, "fracture_energy", &LedgerColumn::name);
     const auto energy = ledger.energy();
@@ -188,7 +197,7 @@ void ValidityWatch::watch_rubble(const Section& scene, const Simulation& simulat
         "to few others, for which bonds say nothing of a crack; lower the loads, end before that, "
         "or take `damage.type: energy_release`",
         most, broken->value, broken->unit);
-  });
+  }});
 }
 
 /// Rock that is `open` where it is damaged lets points in on purpose.
@@ -197,7 +206,7 @@ void ValidityWatch::watch_leaks(const Section& scene, const Simulation& simulati
   if (!fluid || !simulation.has_body()) return;
   if (scene.has("interface.damaged_rock") && scene.word("interface.damaged_rock") == "open") return;
   const auto moved = find_field(*simulation.manager, "displacement");
-  limits_.push_back([=, &any = simulation.body]() -> std::optional<std::string> {
+  limits_.push_back({[=, &any = simulation.body]() -> std::optional<std::string> {
     const FluidInRock found = std::visit(
         [&]<int D>(const std::shared_ptr<const Body<D>>& body) {
           Positions<D> places;
@@ -212,7 +221,7 @@ void ValidityWatch::watch_leaks(const Section& scene, const Simulation& simulati
         "have passed through a wall; shorter steps (`fluid.courant`), or body.spacing finer where "
         "walls are thin or meet",
         found.count, place_of(fluid->points(), found.one));
-  });
+  }});
 }
 
 }  // namespace perifrac

@@ -18,16 +18,20 @@ class ValidityWatch {
  public:
   ValidityWatch(const Section& scene, const Simulation& simulation);
 
-  /// What is beyond a limit now and never was before, one sentence each.
-  std::vector<std::string> look();
+  /// What is beyond a limit now and never was before, one sentence each. `is_output`: who reads the
+  /// outputs sees the run as it stands; what passes between them is only told.
+  std::vector<std::string> look(bool is_output);
 
   /// Whether it is time to, after so many windows, where nothing else calls for it: what swings
   /// does so soon after a jump.
   static bool is_due(std::int64_t step) { return (step & (step - 1)) == 0; }
 
  private:
-  /// Says what is wrong, if something is.
-  using Limit = std::function<std::optional<std::string>()>;
+  struct Limit {
+    std::function<std::optional<std::string>()> find;  ///< says what is wrong, if something is
+    bool may_pass = false;
+    bool is_told = false;
+  };
 
   void watch_strains(const Section& scene, const Simulation& simulation);
   void watch_pores(const Section& scene, const Simulation& simulation);
