@@ -101,6 +101,7 @@ bool is_left_as_it_was(const Section& scene, const std::string& face) {
 struct Seepage {
   std::string through;
   double least_depth = 1.0;
+  bool may_be_steady = false;  ///< a scene may begin with the flow that comes to be
 };
 
 /// Through a face whose pressure is given, cracks that leak off into pores, or where free fluid,
@@ -111,7 +112,7 @@ Seepage where_fluid_seeps(const Section& scene) {
     return {"the faces of cracks"};
   }
   if (writes(scene, "fluid") && scene.word("interface.exchange") != "none") {
-    return {"what free fluid touches", 2.5};
+    return {"what free fluid touches", 2.5, true};
   }
   if (!writes(scene, "pore_flow.boundary")) return {};
   for (const std::string& name : scene.names("pore_flow.boundary")) {
@@ -170,26 +171,26 @@ std::optional<std::string> wave_warning(const Section& scene, double time) {
 }
 
 std::optional<std::string> seepage_warning(const Section& scene, double time) {
-  const auto [through, least_depth] = where_fluid_seeps(scene);
-  if (through.empty() || !scene.has("body.spacing")) return {};
+  const Seepage seepage = where_fluid_seeps(scene);
+  if (seepage.through.empty() || !scene.has("body.spacing")) return {};
   // Points that see farther than 2.5 spacings tell depths as if they lay as much farther apart.
   const double blur = std::max(1.0, scene.number("body.horizon_ratio") / 2.5);
   const double resolved = blur * scene.number("body.spacing");
   const bool is_flat = scene.integer("dimension") == 2;
   const double c = is_flat ? diffusivity<2>(scene) : diffusivity<3>(scene);
   const double depth = std::sqrt(c * time);
-  if (!(depth < least_depth * resolved)) return {};
+  if (!(depth < seepage.least_depth * resolved)) return {};
   return fmt::format(
       "pressure goes {:.2g} m into the pores by t = {:.3g} s, less than {:.3g} body.spacing: what "
       "flows through {} depends on the spacing; bring points closer together, or look at later "
       "times",
-      depth, time, least_depth * blur, through);
+      depth, time, seepage.least_depth * blur, seepage.through);
 }
 
 std::optional<std::string> seepage_warning(const Section& scene, const Simulation& simulation) {
   const auto warning = seepage_warning(scene, simulation.manager->time());
   const auto pressure = find_field(*simulation.manager, "pore_pressure");
-  if (!warning || !pressure) return {};
+  if (!warning || !pressure || !where_fluid_seeps(scene).may_be_steady) return warning;
   const double step = std::visit(
       [&](const auto& body) { return largest_step(*body, pressure->values()); }, simulation.body);
   return step > steep ? warning : std::nullopt;

@@ -23,8 +23,8 @@ std::optional<std::string> wave_warning(const Section& scene, double time);
 /// Where pressure has gone less than a spacing into the pores by `time` [s], from a face that holds
 /// it or a crack: what seeps then is what points so far apart take, not rock.
 std::optional<std::string> seepage_warning(const Section& scene, double time);
-/// Of a run as it ends: not where pressures are even, as they are where the scene begins with the
-/// flow that comes to be.
+/// Of a run as it ends: not below free fluid where pressures fall evenly, as they do where the
+/// scene begins with the flow that comes to be.
 std::optional<std::string> seepage_warning(const Section& scene, const Simulation& simulation);
 
 }  // namespace perifrac

@@ -133,7 +133,7 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
   const char* const advice = can_be_stabler ? "raise pore_flow.undrained_stabilisation, or"
                                             : "drain it gradually, by a schedule, or";
   limits_.push_back(
-      {[=, &any = simulation.body]() -> std::optional<std::string> {
+      {.find = [=, &any = simulation.body]() -> std::optional<std::string> {
          const double swing = std::visit(
              [&](const auto& body) { return largest_swing(*body, pressure->values()); }, any);
          if (!(swing > large_swing)) return {};
@@ -143,7 +143,7 @@ void ValidityWatch::watch_swings(const Section& scene, const Simulation& simulat
              "later the swings die away",
              100.0 * swing, advice);
        },
-       true});
+       .may_pass = true});
 }
 
 void ValidityWatch::watch_density(const Section& scene, const Simulation& simulation) {

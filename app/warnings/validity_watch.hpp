@@ -29,7 +29,7 @@ class ValidityWatch {
  private:
   struct Limit {
     std::function<std::optional<std::string>()> find;  ///< says what is wrong, if something is
-    bool may_pass = false;
+    bool may_pass = false;                             ///< before anything is written
     bool is_told = false;
   };
 

@@ -12,8 +12,8 @@ namespace perifrac {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double place_rounding =
-    1e-9;  // of a place on the lattice, in spacings; of a bond's length
+// Of a place on the lattice, in spacings; of a bond's length.
+constexpr double place_rounding = 1e-9;
 
 /// The cut-outs, and their images behind mirrored faces in the order in which ghosts are made.
 template <int D>
