@@ -22,15 +22,25 @@ struct Period {
     return false;
   }
 
-  /// x, brought back between the ends along `axis`.
-  double wrapped(int axis, double x) const {
-    if (!ends[axis]) return x;
+  /// By how many whole periods x is to be moved, to be between the ends along `axis` [m].
+  double shift(int axis, double x) const {
+    if (!ends[axis]) return 0.0;
     const auto [low, high] = *ends[axis];
-    return x - (high - low) * std::floor((x - low) / (high - low));
+    return -(high - low) * std::floor((x - low) / (high - low));
   }
+  /// x, brought back between the ends along `axis`.
+  double wrapped(int axis, double x) const { return x + shift(axis, x); }
   Vector<D> wrapped(Vector<D> x) const {
     for (int a = 0; a < D; ++a) x[a] = wrapped(a, x[a]);
     return x;
+  }
+
+  /// Of all that lead from one place to the images of another, one of which is `way`.
+  Vector<D> shortest(Vector<D> way) const {
+    for (int a = 0; a < D; ++a) {
+      if (ends[a]) way[a] = std::remainder(way[a], ends[a]->second - ends[a]->first);
+    }
+    return way;
   }
 };
 

@@ -56,7 +56,25 @@ const std::array<std::vector<double>, D>& WallMotion<D>::positions(double t) {
   for (Index w = 0; w < cloud_.size(); ++w) {
     set_at(position_, w, cloud_.at(w) + displacement(w, t));
   }
+  for (int a = 0; a < D; ++a) {
+    if (!period_.ends[a]) continue;
+    shift_[a].resize(cloud_.size());
+    for (Index w = 0; w < cloud_.size(); ++w) {
+      double& x = position_[a][w];
+      shift_[a][w] = period_.shift(a, x);
+      x += shift_[a][w];
+    }
+  }
   return position_;
+}
+
+template <int D>
+Vector<D> WallMotion<D>::brought_back(Index w) const {
+  Vector<D> shift{};
+  for (int a = 0; a < D; ++a) {
+    if (period_.ends[a]) shift[a] = shift_[a][w];
+  }
+  return shift;
 }
 
 template <int D>
@@ -67,7 +85,7 @@ void WallMotion<D>::place(double t, const PeriodicImages<D>& images, NearWalls<D
   }
   for (Index k = 0; k < near.count; ++k) {
     const Index w = near.wall[k];
-    set_at(near.position, k, cloud_.at(w) + displacement(w, t));
+    set_at(near.position, k, cloud_.at(w) + displacement(w, t) + brought_back(w));
     set_at(near.velocity, k, velocity(w));
   }
   images.copy_positions(near.position, near.count);
@@ -83,7 +101,7 @@ void WallMotion<D>::copy_volumes(NearWalls<D>& near) const {
 template <int D>
 bool WallMotion<D>::leaves_room(const Vector<D>& x, double t, double spacing) const {
   for (Index w = 0; w < cloud_.size(); ++w) {
-    const double square = squared_norm(cloud_.at(w) + displacement(w, t) - x);
+    const double square = squared_norm(period_.shortest(cloud_.at(w) + displacement(w, t) - x));
     const double reach = 0.45 * (spacing + std::pow(cloud_.volume[w], 1.0 / D));
     if (square < reach * reach) return false;
   }

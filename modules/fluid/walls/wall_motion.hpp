@@ -21,8 +21,12 @@ struct BodyInput {
 template <int D>
 class WallMotion {
  public:
-  WallMotion(WallCloud<D> cloud, std::vector<RigidWall<D>> rigid, std::size_t body_points)
-      : cloud_(std::move(cloud)), rigid_(std::move(rigid)), body_points_(body_points) {}
+  WallMotion(WallCloud<D> cloud, std::vector<RigidWall<D>> rigid, std::size_t body_points,
+             Period<D> period)
+      : cloud_(std::move(cloud)),
+        rigid_(std::move(rigid)),
+        body_points_(body_points),
+        period_(std::move(period)) {}
 
   void set_body(const BodyInput& body) { body_ = body; }
   const WallCloud<D>& cloud() const { return cloud_; }
@@ -39,9 +43,11 @@ class WallMotion {
   void kick(double t, double length, const Vector<D>& gravity, const NearWalls<D>& near,
             std::vector<double>& impulse);
 
-  /// Positions of the whole cloud at time t [s]; valid until the next call.
+  /// Positions of the whole cloud at time t [s], brought back between the ends of periods; valid
+  /// until the next call.
   const std::array<std::vector<double>, D>& positions(double t);
-  /// Positions and velocities of the near points and their images.
+  /// Positions and velocities of the near points and their images, in the same period as at the
+  /// last call of positions().
   void place(double t, const PeriodicImages<D>& images, NearWalls<D>& near) const;
   /// Volumes of the near points and their images.
   void copy_volumes(NearWalls<D>& near) const;
@@ -52,14 +58,17 @@ class WallMotion {
 
  private:
   Vector<D> displacement(Index w, double t) const;
+  Vector<D> brought_back(Index w) const;
   Vector<D> velocity(Index w) const;
 
   WallCloud<D> cloud_;
   std::vector<RigidWall<D>> rigid_;
   std::size_t body_points_;
+  Period<D> period_;
   BodyInput body_;
   std::vector<Vector<D>> on_rigid_;  ///< the fluid's force on each rigid wall [N]
   std::array<std::vector<double>, D> position_;
+  std::array<std::vector<double>, D> shift_;  ///< by whole periods; empty where there are none [m]
 };
 
 }  // namespace perifrac
