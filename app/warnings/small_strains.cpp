@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <vector>
 
-#include <Eigen/Dense>
+#include "app/warnings/least_squares_gradient.hpp"
 
 namespace perifrac {
 
 namespace {
 
 template <int D>
-using StrainMatrix = Eigen::Matrix<double, D, D>;
+using StrainMatrix = typename LeastSquaresGradient<D>::Matrix;
 
 template <int D>
-using Column = Eigen::Matrix<double, D, 1>;
+using Column = typename LeastSquaresGradient<D>::Column;
 
 template <int D>
 class Displaced {
@@ -39,18 +39,13 @@ class Displaced {
 
 template <int D>
 StrainMatrix<D> gradient_at(const Family<D>& family, Index i, const Displaced<D>& displaced) {
-  StrainMatrix<D> shape = StrainMatrix<D>::Zero(), spread = StrainMatrix<D>::Zero();
+  LeastSquaresGradient<D> gradient;
   for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) {
     const Index j = family.other[b];
     if (j >= family.point_count) continue;  // what a ghost does follows from the others
-    const Column<D> bond = displaced.bond(i, j);
-    shape += family.weight[b] * bond * bond.transpose();
-    spread += family.weight[b] * displaced.moved_apart(i, j) * bond.transpose();
+    gradient.add(displaced.bond(i, j), displaced.moved_apart(i, j), family.weight[b]);
   }
-  const Eigen::FullPivLU<StrainMatrix<D>> factor(shape);
-  if (!factor.isInvertible())
-    return StrainMatrix<D>::Zero();  // bonds in one line say nothing across it
-  return spread * factor.inverse();
+  return gradient.matrix();
 }
 
 bool moves_as_one(std::span<const double> displacement, std::size_t points, double negligible) {

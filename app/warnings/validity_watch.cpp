@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include "app/references/comparison.hpp"
+#include "app/references/free_fluid.hpp"
 #include "app/warnings/fluid_in_rock.hpp"
 #include "app/warnings/pressure_swing.hpp"
 #include "app/warnings/small_strains.hpp"
+#include "app/warnings/viscous_fall.hpp"
 #include "core/base/errors.hpp"
 #include "core/io/log.hpp"
 #include "modules/pore_flow/storage/storage_choice.hpp"
@@ -24,11 +26,45 @@ constexpr double far_density = 0.1;     ///< of free fluid, relative
 constexpr double far_pressure = 0.18;   ///< over the bulk modulus: Tait's density is 5 % less there
 constexpr double large_fall = 0.05;     ///< of all energy that there is or was
 constexpr double large_swing = 0.05;    ///< of all that pressures range over; they are off by half
+constexpr double large_drag = 0.25;     ///< of artificial viscosity, of what drives the fluid
+constexpr double far_flow = 5.0;        ///< [spacings]; fluid at rest trembles
 
 std::string place_of(const PointSet& points, std::size_t i) {
   std::vector<double> place;
   for (int a = 0; a < points.dimension; ++a) place.push_back(points.position[a][i]);
   return describe_point(i, place);
+}
+
+/// Along each axis.
+template <int D>
+Positions<D> places_of(const PointSet& points) {
+  Positions<D> places;
+  std::copy_n(points.position.begin(), D, places.begin());
+  return places;
+}
+
+/// Of a vector, component by component.
+double mean_size(std::span<const double> vectors, const PointSet& points) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    double square = 0.0;
+    for (int a = 0; a < points.dimension; ++a) {
+      const double component = vectors[a * points.count + i];
+      square += component * component;
+    }
+    sum += std::sqrt(square);
+  }
+  return sum / static_cast<double>(points.count);
+}
+
+/// From one end of what they take up to the other, along the axis where that is most [m].
+double extent_of(const PointSet& points) {
+  double extent = 0.0;
+  for (int a = 0; a < points.dimension; ++a) {
+    const auto [low, high] = std::ranges::minmax(points.position[a]);
+    extent = std::max(extent, high - low);
+  }
+  return extent;
 }
 
 /// Of a fluid whose pressure is linear in its density.
@@ -54,6 +90,7 @@ ValidityWatch::ValidityWatch(const Section& scene, const Simulation& simulation)
   watch_density(scene, simulation);
   watch_rubble(scene, simulation);
   watch_leaks(scene, simulation);
+  watch_viscosity(scene, simulation);
 }
 
 std::vector<std::string> ValidityWatch::look(bool is_output) {
@@ -209,10 +246,8 @@ void ValidityWatch::watch_leaks(const Section& scene, const Simulation& simulati
   limits_.push_back({[=, &any = simulation.body]() -> std::optional<std::string> {
     const FluidInRock found = std::visit(
         [&]<int D>(const std::shared_ptr<const Body<D>>& body) {
-          Positions<D> places;
-          std::copy_n(fluid->points().position.begin(), D, places.begin());
           return fluid_in_rock<D>(*body, moved ? moved->values() : std::span<const double>(),
-                                  places);
+                                  places_of<D>(fluid->points()));
         },
         any);
     if (found.count == 0) return {};
@@ -222,6 +257,45 @@ void ValidityWatch::watch_leaks(const Section& scene, const Simulation& simulati
         "walls are thin or meet",
         found.count, place_of(fluid->points(), found.one));
   }});
+}
+
+/// Fluid under pressure or weight hardly feels what a channel's flow is held back by. Pressure that
+/// swings through 0 drives as it did.
+void ValidityWatch::watch_viscosity(const Section& scene, const Simulation& simulation) {
+  const auto velocity = find_field(*simulation.manager, "fluid_velocity");
+  const auto pressure = find_field(*simulation.manager, "fluid_pressure");
+  if (!velocity || !pressure || !scene.has("fluid.artificial_viscosity")) return;
+  const FreeFluid fluid = read_free_fluid(scene);
+  const double least = scene.number("fluid.artificial_viscosity") * fluid.spacing *
+                       std::sqrt(fluid.density * fluid.bulk_modulus);
+  if (least <= fluid.viscosity) return;
+  double weight = 0.0;
+  if (scene.has("gravity")) {
+    for (const double g : scene.numbers("gravity")) weight = std::hypot(weight, fluid.density * g);
+  }
+  limits_.push_back(
+      {.find = [=, &manager = *simulation.manager,
+                highest = 0.0]() mutable -> std::optional<std::string> {
+         const PointSet& points = velocity->points();
+         for (const double p : pressure->values()) highest = std::max(highest, std::abs(p));
+         if (points.count < 2) return {};
+         const double way = manager.time() * mean_size(velocity->values(), points);
+         if (!(way > far_flow * fluid.spacing)) return {};
+         const double reach = 2.0 * fluid.spacing;
+         const double fall = points.dimension == 2
+                                 ? viscous_fall<2>(places_of<2>(points), velocity->values(), reach)
+                                 : viscous_fall<3>(places_of<3>(points), velocity->values(), reach);
+         const double drive = weight + highest / extent_of(points);
+         const double share = (least - fluid.viscosity) * fall / drive;
+         if (!(share > large_drag)) return {};
+         return fmt::format(
+             "artificial viscosity takes up {:.0f} % of what drives the fluid: between its points "
+             "it is {:.2g} Pa s, and fluid.viscosity {:.2g}; velocities are off by as much and "
+             "more; lower `fluid.spacing`, `fluid.bulk_modulus`, of whose root it is, or "
+             "`fluid.artificial_viscosity`",
+             100.0 * share, least, fluid.viscosity);
+       },
+       .may_pass = true});
 }
 
 }  // namespace perifrac

@@ -12,8 +12,9 @@ namespace perifrac {
 
 /// Looks at a run now and then for what its modules cannot do: large strains and rotations, fluid
 /// under suction that it does not bear, or far from the density that it was taken to have,
-/// pressures that swing from point to point, rock that has come apart, and fluid points in the
-/// rock. Modules have no part in it, so that steps cost nothing.
+/// pressures that swing from point to point, rock that has come apart, fluid points in the rock,
+/// and fluid that artificial viscosity holds back. Modules have no part in it, so that steps cost
+/// nothing.
 class ValidityWatch {
  public:
   ValidityWatch(const Section& scene, const Simulation& simulation);
@@ -39,6 +40,7 @@ class ValidityWatch {
   void watch_density(const Section& scene, const Simulation& simulation);
   void watch_rubble(const Section& scene, const Simulation& simulation);
   void watch_leaks(const Section& scene, const Simulation& simulation);
+  void watch_viscosity(const Section& scene, const Simulation& simulation);
 
   std::vector<Limit> limits_;
 };

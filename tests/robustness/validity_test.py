@@ -229,6 +229,13 @@ class Validity(RunTest):
         water = self.without_reference("hydrostatic.yaml")
         self.assert_warns(water, soft | {"time.end": "20 ms", "output.times": "[]"}, "far from fluid.density")
 
+    def test_artificial_viscosity(self):
+        """As large as the fluid's own, it adds nothing."""
+        channel = self.without_reference("poiseuille.yaml")
+        steadied = {"fluid.artificial_viscosity": "0.1", "time.end": "1 s"}
+        self.assert_warns(channel, steadied)
+        self.assert_warns(channel, steadied | {"fluid.viscosity": "20 cP"}, "artificial viscosity takes up")
+
 
 if __name__ == "__main__":
     unittest.main()
