@@ -12,6 +12,7 @@
 #include "app/references/table_reference.hpp"
 #include "app/simulation/place_reader.hpp"
 #include "app/warnings/crack_across_stress_warning.hpp"
+#include "app/warnings/inlet_room_warning.hpp"
 #include "app/warnings/meeting_tips_warning.hpp"
 #include "app/warnings/nucleus_warning.hpp"
 #include "app/warnings/short_leg_warning.hpp"
@@ -151,6 +152,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (const auto warning = short_leg_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = crack_across_stress_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = inlet_room_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = border_warning(scene)) warnings.push_back(*warning);
   for (const std::string& warning : table_warnings(scene)) warnings.push_back(warning);
   return warnings;

@@ -222,6 +222,16 @@ void FluidDynamics<D>::feed_cracks(double length) {
   if (!exchange_.law) even_masses_.step(step_view(), length, points_);
 }
 
+template <int D>
+bool FluidDynamics<D>::is_beside_wall(Index i) const {
+  const Neighbours& near = neighbours_.walls_of_fluid();
+  const auto begin = near.other.begin();
+  return std::any_of(begin + near.offset[i], begin + near.offset[i + 1], [&](Index w) {
+    return squared_norm(vector_at(walls_.position, w) - points_.at(i)) <
+           scheme_.horizon * scheme_.horizon;
+  });
+}
+
 /// Continuity, diffusion of density, and what passes into the pores; then pressures.
 template <int D>
 void FluidDynamics<D>::find_densities(double t, double length) {
@@ -230,7 +240,9 @@ void FluidDynamics<D>::find_densities(double t, double length) {
   const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
   if (exchange_.law) exchange_mass(t, length);
   if (openings_.mouths) feed_cracks(length);
-  if (openings_.inlets) openings_.inlets->feed(points_, t, length);
+  if (openings_.inlets) {
+    openings_.inlets->feed(points_, t, length, [&](Index i) { return is_beside_wall(i); });
+  }
   const double unpacking = unpacking_rate * fluid_.sound_speed() / scheme_.spacing;
   for (auto& values : stress_) values.resize(points_.count);
   for_each_point(points_.count, [&](Index i) {

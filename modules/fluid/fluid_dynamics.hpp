@@ -78,6 +78,7 @@ class FluidDynamics {
   void copy_to_images();
   void exchange_mass(double t, double length);
   void feed_cracks(double length);
+  bool is_beside_wall(Index i) const;
   void find_densities(double t, double length);
   void kick(double t, double length);
   void insert_points(double t);

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from perifrac_runs import CONFIGS, MANDEL, RunTest, SMALL, perifrac, settings
+from perifrac_runs import CONFIGS, FLUIDS, MANDEL, RunTest, SMALL, perifrac, settings
 
 FLUID = CONFIGS / "hf_storage.yaml"
 COARSE = {"body.spacing": "5 mm", "time.end": "10 ms"}
@@ -228,6 +228,14 @@ class Validity(RunTest):
         soft = {"fluid.bulk_modulus": "20 kPa"}
         water = self.without_reference("hydrostatic.yaml")
         self.assert_warns(water, soft | {"time.end": "20 ms", "output.times": "[]"}, "far from fluid.density")
+
+    def test_an_inlet_beside_walls(self):
+        """Of the other one, in the air, no wall is near."""
+        known = self.foreknown(FLUIDS["tank"])
+        self.assertEqual(len(known), 1, known)
+        self.assertIn("'pump' lies so near walls", known[0])
+        higher = {"fluid.inlets[0].from": "[0.2 m, 0.15 m]", "fluid.inlets[0].to": "[0.4 m, 0.25 m]"}
+        self.assertEqual(self.foreknown(FLUIDS["tank"], higher), [])
 
     def test_artificial_viscosity(self):
         """As large as the fluid's own, it adds nothing."""

@@ -26,7 +26,8 @@ void Inlets<D>::find_inside(const FluidPoints<D>& points, const Region<D>& box) 
 }
 
 template <int D>
-void Inlets<D>::feed(FluidPoints<D>& points, double t, double length) {
+void Inlets<D>::feed(FluidPoints<D>& points, double t, double length,
+                     const std::function<bool(Index)>& is_beside_wall) {
   for (Inlet<D>& inlet : inlets_) {
     double amount = inlet.rate * inlet.schedule.factor(t) * length;
     find_inside(points, inlet.box);
@@ -37,6 +38,7 @@ void Inlets<D>::feed(FluidPoints<D>& points, double t, double length) {
     const double late = std::min(inlet.waiting, amount);
     inlet.waiting -= late;
     amount += late;
+    if (!std::ranges::all_of(inside_, is_beside_wall)) std::erase_if(inside_, is_beside_wall);
     double volume = 0.0;
     for (const Index i : inside_) volume += points.volume[i];
     for (const Index i : inside_) {
@@ -82,7 +84,8 @@ KeyTable inlet_keys() {
                   .unit = "kg/(m s)|kg/s",
                   .range = "(0, inf)",
                   .required = true,
-                  .meaning = "Mass per time, times the schedule. Points in the box grow and split; "
+                  .meaning = "Mass per time, times the schedule. Points in the box grow and split, "
+                             "those within a horizon of a wall only where there are no others; "
                              "where there are none, one is made at its centre."});
   const KeyTable schedule = schedule_keys("inlets[].");
   keys.insert(keys.end(), schedule.begin(), schedule.end());

@@ -25,9 +25,10 @@ struct Inlet {
 };
 
 /// The sources of mass of a fluid. Points in the box of an inlet grow, in proportion to volume:
-/// their density rises, what enters has their velocity. While the box holds none, mass waits until
-/// it makes a point at the centre; what still waits when points come follows at the rate of the
-/// inlet.
+/// their density rises, what enters has their velocity. Those beside a wall see too little of how
+/// fluid parts there, so that they would drive out more than comes in: they take a share only where
+/// the box holds no others. While it holds none at all, mass waits until it makes a point at the
+/// centre; what still waits when points come follows at the rate of the inlet.
 template <int D>
 class Inlets {
  public:
@@ -35,8 +36,10 @@ class Inlets {
   Inlets(std::vector<Inlet<D>> inlets, const FluidProperties& fluid, double point_mass,
          Period<D> period);
 
-  /// Gives points the mass of a step about t [s]; needs their volumes.
-  void feed(FluidPoints<D>& points, double t, double length);
+  /// Gives points the mass of a step about t [s]; needs their volumes. `is_beside_wall`: whether a
+  /// wall is within the horizon of a point.
+  void feed(FluidPoints<D>& points, double t, double length,
+            const std::function<bool(Index)>& is_beside_wall);
 
   /// Makes points at rest and at zero pressure where a whole one waits, no other is in the box, and
   /// is_free(centre); returns how many.

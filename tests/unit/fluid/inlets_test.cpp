@@ -39,7 +39,8 @@ double total(const std::vector<double>& values) {
 }
 
 TEST(Inlets, GiveMassToPointsInTheBoxInProportionToVolume) {
-  FluidRun run(vessel + water + pump);
+  FluidRun run(vessel + water + pump,
+               {"fluid.inlets[0].from=[0.8 m, 0.4 m]", "fluid.inlets[0].to=[1.2 m, 0.6 m]"});
   const auto x = run.field("position_x"), y = run.field("position_y"), mass = run.field("mass"),
              density = run.field("density");
   const double length = run.module().stable_time_step();
@@ -49,11 +50,51 @@ TEST(Inlets, GiveMassToPointsInTheBoxInProportionToVolume) {
   const auto new_mass = run.field("mass"), new_density = run.field("density");
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const std::size_t i = ids[k];
-    const bool inside = x[i] > 0.8 && x[i] < 1.2 && y[i] > 0.1 && y[i] < 0.3;
+    const bool inside = x[i] > 0.8 && x[i] < 1.2 && y[i] > 0.4 && y[i] < 0.6;
     const double gained = inside ? 100.0 * length / 8.0 : 0.0;
     EXPECT_NEAR(new_mass[k] - mass[i], gained, 1e-12 * mass[i]);
     EXPECT_NEAR(new_density[k] - density[i], gained / 0.01, 1e-9 * density[i]);
   }
+}
+
+TEST(Inlets, GiveMassToPointsAwayFromWallsWhereThereAreSome) {
+  FluidRun run(vessel + water + pump, {"fluid.inlets[0].from=[0.8 m, 0 m]"});
+  const auto y = run.field("position_y"), mass = run.field("mass");
+  run.steps(1);
+  const auto ids = run.ids();
+  const auto new_mass = run.field("mass");
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const std::size_t i = ids[k];
+    // The row at 0.25 is 0.3 from the wall's first one, farther than the horizon.
+    if (y[i] > 0.2 && y[i] < 0.3) continue;
+    EXPECT_EQ(new_mass[k], mass[i]);
+  }
+  EXPECT_GT(run.value("injected_fluid_mass"), 0.0);
+}
+
+TEST(Inlets, DriveThroughAChannelWhatTheyLetIn) {
+  // Into 10 mm by 40 mm at 0.02 kg/(m s); the box ends at three walls.
+  FluidRun run(R"(
+dimension: 2
+time: {end: 10 s}
+fluid:
+  type: semi_lagrangian
+  spacing: 1 mm
+  bulk_modulus: 1 kPa
+  viscosity: 50 cP
+  artificial_viscosity: 0
+  blocks: [{name: all, from: [0 mm, 0 mm], to: [40 mm, 10 mm]}]
+  inlets: [{name: in, from: [0 mm, 0 mm], to: [6 mm, 10 mm], rate: 0.02 kg/(m s), schedule: {ramp: 0.2 s}}]
+  outlets: [{name: out, from: [38 mm, 0 mm], to: [40 mm, 10 mm]}]
+  container: {from: [0 mm, 0 mm], to: [40 mm, 10 mm], faces: {right: open}}
+)");
+  run.run_for(1.5);
+  const auto x = run.field("position_x"), mass = run.field("mass"), v = run.field("velocity_x");
+  double flow = 0.0;  // in the middle quarter, times its length
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (std::abs(x[i] - 0.02) < 0.005) flow += mass[i] * v[i];
+  }
+  EXPECT_NEAR(flow / 0.01, 0.02, 0.1 * 0.02);
 }
 
 TEST(Inlets, MassIsExact) {
