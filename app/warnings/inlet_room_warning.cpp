@@ -1,12 +1,12 @@
 #include "app/warnings/inlet_room_warning.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "app/references/free_fluid.hpp"
 #include "app/simulation/place_reader.hpp"
 #include "app/warnings/body_box.hpp"
 #include "core/geometry/faces.hpp"
@@ -17,21 +17,17 @@ namespace {
 
 constexpr double rows = 2.0;  ///< that have to be away from walls [spacings]
 
-/// A box by its lower and its upper corner [m].
-using Corners = std::array<std::vector<double>, 2>;
-
-Corners corners_of(const Section& scene, const std::string& path) {
+/// Without end where the scene says none.
+Box open_box(const Section& scene, const std::string& path) {
   constexpr double far = std::numeric_limits<double>::infinity();
-  Corners box{std::vector<double>(scene.integer("dimension"), -far),
-              std::vector<double>(scene.integer("dimension"), far)};
-  if (scene.has(path + ".from")) box[0] = scene.numbers(path + ".from");
-  if (scene.has(path + ".to")) box[1] = scene.numbers(path + ".to");
-  return box;
+  const std::vector<double> all(scene.integer("dimension"), far), none(all.size(), -far);
+  return {scene.has(path + ".from") ? scene.numbers(path + ".from") : none,
+          scene.has(path + ".to") ? scene.numbers(path + ".to") : all};
 }
 
-bool holds(const Corners& outer, const Corners& inner) {
-  for (std::size_t a = 0; a < inner[0].size(); ++a) {
-    if (inner[0][a] < outer[0][a] || inner[1][a] > outer[1][a]) return false;
+bool holds(const Box& outer, const Box& inner) {
+  for (std::size_t a = 0; a < inner.from.size(); ++a) {
+    if (inner.from[a] < outer.from[a] || inner.to[a] > outer.to[a]) return false;
   }
   return true;
 }
@@ -39,60 +35,62 @@ bool holds(const Corners& outer, const Corners& inner) {
 /// What of a box is farther from walls than a horizon.
 class Room {
  public:
-  Room(Corners box, double horizon) : box_(box), room_(std::move(box)), horizon_(horizon) {}
+  Room(Box box, double horizon) : box_(box), room_(std::move(box)), horizon_(horizon) {}
 
   /// A wall with the fluid inside, open beyond the sides that `is_open(axis, end)`.
-  void stay_inside(const Corners& walls, const auto& is_open) {
-    for (std::size_t a = 0; a < box_[0].size(); ++a) {
-      if (!is_open(a, 0)) room_[0][a] = std::max(room_[0][a], walls[0][a] + horizon_);
-      if (!is_open(a, 1)) room_[1][a] = std::min(room_[1][a], walls[1][a] - horizon_);
+  void stay_inside(const Box& walls, const auto& is_open) {
+    for (std::size_t a = 0; a < box_.from.size(); ++a) {
+      if (!is_open(a, 0)) room_.from[a] = std::max(room_.from[a], walls.from[a] + horizon_);
+      if (!is_open(a, 1)) room_.to[a] = std::min(room_.to[a], walls.to[a] - horizon_);
     }
   }
   /// A wall beside the box.
-  void stay_outside(const Corners& wall) {
-    for (std::size_t a = 0; a < box_[0].size(); ++a) {
-      for (std::size_t b = 0; b < box_[0].size(); ++b) {
-        if (b != a && (wall[1][b] <= box_[0][b] || wall[0][b] >= box_[1][b])) return;
+  void stay_outside(const Box& wall) {
+    for (std::size_t a = 0; a < box_.from.size(); ++a) {
+      for (std::size_t b = 0; b < box_.from.size(); ++b) {
+        if (b != a && (wall.to[b] <= box_.from[b] || wall.from[b] >= box_.to[b])) return;
       }
-      if (wall[1][a] <= box_[0][a]) room_[0][a] = std::max(room_[0][a], wall[1][a] + horizon_);
-      if (wall[0][a] >= box_[1][a]) room_[1][a] = std::min(room_[1][a], wall[0][a] - horizon_);
+      if (wall.to[a] <= box_.from[a])
+        room_.from[a] = std::max(room_.from[a], wall.to[a] + horizon_);
+      if (wall.from[a] >= box_.to[a]) room_.to[a] = std::min(room_.to[a], wall.from[a] - horizon_);
     }
   }
 
   /// Along some axis walls leave less than that.
   bool is_narrower(double width) const {
-    for (std::size_t a = 0; a < box_[0].size(); ++a) {
-      const double left = room_[1][a] - room_[0][a];
-      if (left < width && left < box_[1][a] - box_[0][a]) return true;
+    for (std::size_t a = 0; a < box_.from.size(); ++a) {
+      const double left = room_.to[a] - room_.from[a];
+      if (left < width && left < box_.to[a] - box_.from[a]) return true;
     }
     return false;
   }
 
  private:
-  Corners box_, room_;
+  Box box_, room_;
   double horizon_;
 };
 
 void leave_container(const Section& scene, Room& room) {
   if (!scene.has("fluid.container.from")) return;
   const auto names = scene.integer("dimension") == 2 ? face_names<2>() : face_names<3>();
-  room.stay_inside(corners_of(scene, "fluid.container"), [&](std::size_t axis, int end) {
+  room.stay_inside(open_box(scene, "fluid.container"), [&](std::size_t axis, int end) {
     const std::string face = "fluid.container.faces." + names[2 * axis + end];
     return scene.has(face) && scene.word(face) != "wall";
   });
 }
 
 /// The fluid is beside the body, or in one of its cut-outs.
-void leave_body(const Section& scene, const Corners& box, Room& room) {
+void leave_body(const Section& scene, const Box& box, Room& room) {
   if (!scene.has("body.size")) return;
-  const Corners body = body_box(scene);
+  const auto corners = body_box(scene);
+  const Box body{corners[0], corners[1]};
   bool is_in_cutout = false;
   for (const std::string& name : scene.names("body.cutouts")) {
-    const Corners cutout = corners_of(scene, "body.cutouts." + name);
+    const Box cutout = open_box(scene, "body.cutouts." + name);
     if (!holds(cutout, box)) continue;
     is_in_cutout = true;
     room.stay_inside(cutout, [&](std::size_t a, int end) {
-      return end == 0 ? cutout[0][a] <= body[0][a] : cutout[1][a] >= body[1][a];
+      return end == 0 ? cutout.from[a] <= body.from[a] : cutout.to[a] >= body.to[a];
     });
   }
   if (!is_in_cutout) room.stay_outside(body);
@@ -106,11 +104,11 @@ std::optional<std::string> inlet_room_warning(const Section& scene) {
   const double horizon = scene.number("fluid.horizon_ratio") * spacing;
   for (std::size_t k = 0; k < scene.count("fluid.inlets"); ++k) {
     const std::string inlet = fmt::format("fluid.inlets[{}]", k);
-    const Corners box = corners_of(scene, inlet);
+    const Box box = open_box(scene, inlet);
     Room room(box, horizon);
     leave_container(scene, room);
     for (std::size_t w = 0; w < scene.count("fluid.walls"); ++w)
-      room.stay_outside(corners_of(scene, fmt::format("fluid.walls[{}]", w)));
+      room.stay_outside(open_box(scene, fmt::format("fluid.walls[{}]", w)));
     leave_body(scene, box, room);
     if (!room.is_narrower(rows * spacing * (1.0 - 1e-9))) continue;
     return fmt::format(

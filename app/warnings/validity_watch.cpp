@@ -9,9 +9,9 @@
 #include "app/references/comparison.hpp"
 #include "app/references/free_fluid.hpp"
 #include "app/warnings/fluid_in_rock.hpp"
+#include "app/warnings/mean_dissipation.hpp"
 #include "app/warnings/pressure_swing.hpp"
 #include "app/warnings/small_strains.hpp"
-#include "app/warnings/viscous_fall.hpp"
 #include "core/base/errors.hpp"
 #include "core/io/log.hpp"
 #include "modules/pore_flow/storage/storage_choice.hpp"
@@ -279,14 +279,16 @@ void ValidityWatch::watch_viscosity(const Section& scene, const Simulation& simu
          const PointSet& points = velocity->points();
          for (const double p : pressure->values()) highest = std::max(highest, std::abs(p));
          if (points.count < 2) return {};
-         const double way = manager.time() * mean_size(velocity->values(), points);
-         if (!(way > far_flow * fluid.spacing)) return {};
+         const double speed = mean_size(velocity->values(), points);
+         if (!(manager.time() * speed > far_flow * fluid.spacing)) return {};
          const double reach = 2.0 * fluid.spacing;
-         const double fall = points.dimension == 2
-                                 ? viscous_fall<2>(places_of<2>(points), velocity->values(), reach)
-                                 : viscous_fall<3>(places_of<3>(points), velocity->values(), reach);
-         const double drive = weight + highest / extent_of(points);
-         const double share = (least - fluid.viscosity) * fall / drive;
+         const double dissipation =
+             points.dimension == 2
+                 ? mean_dissipation<2>(places_of<2>(points), velocity->values(), reach)
+                 : mean_dissipation<3>(places_of<3>(points), velocity->values(), reach);
+         // Pressure falls by so much a length along a straight channel.
+         const double fall = (least - fluid.viscosity) * dissipation / speed;
+         const double share = fall / (weight + highest / extent_of(points));
          if (!(share > large_drag)) return {};
          return fmt::format(
              "artificial viscosity takes up {:.0f} % of what drives the fluid: between its points "

@@ -25,10 +25,10 @@ struct Inlet {
 };
 
 /// The sources of mass of a fluid. Points in the box of an inlet grow, in proportion to volume:
-/// their density rises, what enters has their velocity. Those beside a wall see too little of how
-/// fluid parts there, so that they would drive out more than comes in: they take a share only where
-/// the box holds no others. While it holds none at all, mass waits until it makes a point at the
-/// centre; what still waits when points come follows at the rate of the inlet.
+/// their density rises, what enters has their velocity. Those beside a wall would drive out more
+/// than comes in (docs/decisions/0011-free-fluid.md): they take a share only where the box holds no
+/// others. While it holds none at all, mass waits until it makes a point at the centre; what still
+/// waits when points come follows at the rate of the inlet.
 template <int D>
 class Inlets {
  public:

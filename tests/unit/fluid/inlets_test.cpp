@@ -170,6 +170,18 @@ TEST(Inlets, WaitWhileAWallIsInTheWay) {
   EXPECT_GT(run.field("pump/waiting_mass")[0], 10.0);
 }
 
+TEST(Inlets, WaitWhileAWallIsInTheWayWholePeriodsOn) {
+  FluidRun run(vessel + pump +
+                   "  walls: [{name: gate, from: [0.5 m, 0.4 m], to: [1.5 m, 0.7 m], motion: "
+                   "moving, velocity: [0 m/s, 0 m/s]}]\n",
+               {"fluid.container.faces={left: periodic, right: periodic}"});
+  run.set("gate/displacement_x", {4.0});  // two periods
+  run.set("gate/displacement_y", {-0.3});
+  run.run_for(0.5);
+  EXPECT_EQ(run.ids().size(), 0u);
+  EXPECT_GT(run.field("pump/waiting_mass")[0], 10.0);
+}
+
 const std::string drain = R"(
   outlets:
     - {name: drain, from: [1.8 m, 0 m], to: [2 m, 0.2 m]}

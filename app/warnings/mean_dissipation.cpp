@@ -1,14 +1,12 @@
-#include "app/warnings/viscous_fall.hpp"
-
-#include <cmath>
+#include "app/warnings/mean_dissipation.hpp"
 
 #include "app/warnings/least_squares_gradient.hpp"
-#include "core/base/small_vector.hpp"
 
 namespace perifrac {
 
 template <int D>
-double viscous_fall(const Positions<D>& places, std::span<const double> velocity, double reach) {
+double mean_dissipation(const Positions<D>& places, std::span<const double> velocity,
+                        double reach) {
   using Column = typename LeastSquaresGradient<D>::Column;
   const auto count = static_cast<Index>(places[0].size());
   CellGrid<D> grid;
@@ -21,7 +19,7 @@ double viscous_fall(const Positions<D>& places, std::span<const double> velocity
   const auto velocity_at = [&](Index i) -> Column {
     return Column::NullaryExpr([&](Eigen::Index a) { return velocity[a * count + i]; });
   };
-  double squares = 0.0, speeds = 0.0;
+  double sum = 0.0;
   for (Index i = 0; i < count; ++i) {
     LeastSquaresGradient<D> gradient;
     for (Index k = near.offset[i]; k < near.offset[i + 1]; ++k) {
@@ -29,13 +27,12 @@ double viscous_fall(const Positions<D>& places, std::span<const double> velocity
       gradient.add(place_at(j) - place_at(i), velocity_at(j) - velocity_at(i));
     }
     const auto rate = gradient.matrix();
-    squares += 0.5 * (rate + rate.transpose()).squaredNorm();
-    speeds += velocity_at(i).norm();
+    sum += 0.5 * (rate + rate.transpose()).squaredNorm();
   }
-  return speeds > 0.0 ? squares / speeds : 0.0;
+  return sum / count;
 }
 
-template double viscous_fall<2>(const Positions<2>&, std::span<const double>, double);
-template double viscous_fall<3>(const Positions<3>&, std::span<const double>, double);
+template double mean_dissipation<2>(const Positions<2>&, std::span<const double>, double);
+template double mean_dissipation<3>(const Positions<3>&, std::span<const double>, double);
 
 }  // namespace perifrac
