@@ -8,9 +8,6 @@ namespace {
 
 /// What stiffens its own place by less than this part counts as nothing.
 constexpr double least_stiffening = 1e-9;
-/// Cuts that are far from each other answer each other so often, to this of what they do.
-constexpr int most_trials = 30;
-constexpr double cuts_agree = 1e-14;
 
 /// A symmetric stiffness L as V d V^T, without what is nothing, with V^T A V = 1.
 void decompose(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& moved_by,
@@ -61,35 +58,32 @@ void PartialCuts::take(std::vector<Cut> cuts, const Eigen::MatrixXd& block) {
     part.softened = (1.0 + part.less.array()).inverse();
     set(part, part.at.opened);
   }
+  factor();
 }
 
 void PartialCuts::open(std::span<const double> opened) {
   for (std::size_t k = 0; k < parts_.size(); ++k) set(parts_[k], opened[k]);
-  answer();
+  factor();
 }
 
 void PartialCuts::tell(std::vector<Eigen::MatrixXd> rows, Eigen::VectorXd area) {
   rows_ = std::move(rows);
   area_ = std::move(area);
-  answer();
+  answers_.assign(rows_.size(), std::nullopt);
 }
 
-/// What tractions on all facets and on the partial cuts do, along each axis.
-void PartialCuts::answer() {
-  const auto axes = static_cast<int>(rows_.size());
-  of_facets_.resize(rows_.size());
-  acting_.resize(rows_.size());
-  of_cuts_.resize(rows_.size());
-  for (int a = 0; a < axes; ++a) {
-    of_facets_[a] = taken(rows_[a].transpose());
-    acting_[a] = Eigen::MatrixXd::Zero(gram_.rows(), std::ssize(parts_));
-    for (std::size_t k = 0; k < parts_.size(); ++k) {
-      const Part& part = parts_[k];
-      acting_[a].col(static_cast<Eigen::Index>(k)).segment(part.first, part.basis.cols()) =
-          part.acting.col(a);
-    }
-    of_cuts_[a] = acting_[a] - taken(gram_ * acting_[a]);
+const PartialCuts::Answer& PartialCuts::answer(int axis) {
+  if (answers_[axis]) return *answers_[axis];
+  Answer& found = answers_[axis].emplace();
+  found.of_facets = taken(rows_[axis].transpose());
+  found.acting = Eigen::MatrixXd::Zero(gram_.rows(), std::ssize(parts_));
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Part& part = parts_[k];
+    found.acting.col(static_cast<Eigen::Index>(k)).segment(part.first, part.basis.cols()) =
+        part.acting.col(axis);
   }
+  found.of_cuts = found.acting - taken(gram_ * found.acting);
+  return found;
 }
 
 /// V^T A m.
@@ -116,25 +110,24 @@ void PartialCuts::set(Part& part, double opened) {
              opened * opened * a.transpose() * part.held.asDiagonal() * a;
 }
 
-/// (1 / H + V^T A V)^-1 in the basis, times that: each cut by itself, and again with what the
-/// others take, until nothing changes.
-Eigen::MatrixXd PartialCuts::taken(const Eigen::MatrixXd& moved) const {
-  Eigen::VectorXd alone = Eigen::VectorXd::Zero(gram_.rows());
+void PartialCuts::factor() {
+  alone_ = Eigen::VectorXd::Zero(gram_.rows());
   for (const Part& part : parts_) {
-    alone.segment(part.first, part.rank) =
+    alone_.segment(part.first, part.rank) =
         (1.0 - part.at.opened) * part.less.cwiseProduct(part.softened);
   }
-  Eigen::MatrixXd taken = alone.asDiagonal() * moved;
-  if (parts_.size() == 1) return taken;
-  for (int trial = 0; trial < most_trials; ++trial) {
-    const Eigen::MatrixXd next = alone.asDiagonal() * (moved - between_ * taken);
-    const double change = (next - taken).cwiseAbs().maxCoeff();
-    taken = next;
-    if (change <= cuts_agree * taken.cwiseAbs().maxCoeff()) return taken;
+  if (parts_.size() > 1) {
+    Eigen::MatrixXd system = alone_.asDiagonal() * between_;
+    system.diagonal().array() += 1.0;
+    together_.compute(system);
   }
-  Eigen::MatrixXd system = alone.asDiagonal() * between_;  // of cuts that touch each other
-  system.diagonal().array() += 1.0;
-  return system.partialPivLu().solve(alone.asDiagonal() * moved);
+  answers_.assign(rows_.size(), std::nullopt);
+}
+
+/// (1 / H + V^T A V)^-1 in the basis, times that.
+Eigen::MatrixXd PartialCuts::taken(const Eigen::MatrixXd& moved) const {
+  if (parts_.size() == 1) return alone_.asDiagonal() * moved;
+  return together_.solve(alone_.asDiagonal() * moved);
 }
 
 Eigen::VectorXd PartialCuts::held(const Eigen::VectorXd& moved) const {
@@ -176,11 +169,12 @@ Eigen::MatrixXd PartialCuts::whole_compliance(std::size_t k) const {
   return own;
 }
 
-void PartialCuts::hold(Eigen::MatrixXd& compliance, int jump, int traction) const {
-  compliance -= rows_[jump] * of_facets_[traction] * area_.asDiagonal();
-  const Eigen::MatrixXd columns = rows_[jump] * of_cuts_[traction];
-  const Eigen::MatrixXd rows = area_.asDiagonal() * (rows_[traction] * of_cuts_[jump]);
-  const Eigen::MatrixXd between = acting_[jump].transpose() * (gram_ * of_cuts_[traction]);
+void PartialCuts::hold(Eigen::MatrixXd& compliance, int jump, int traction) {
+  const Answer &to_jump = answer(jump), &by_traction = answer(traction);
+  compliance -= rows_[jump] * by_traction.of_facets * area_.asDiagonal();
+  const Eigen::MatrixXd columns = rows_[jump] * by_traction.of_cuts;
+  const Eigen::MatrixXd rows = area_.asDiagonal() * (rows_[traction] * to_jump.of_cuts);
+  const Eigen::MatrixXd between = to_jump.acting.transpose() * (gram_ * by_traction.of_cuts);
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     compliance.col(parts_[k].at.facet) = parts_[k].area * columns.col(at);

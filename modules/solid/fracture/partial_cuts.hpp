@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "core/base/points.hpp"
 
@@ -15,6 +17,8 @@ struct PartialCut {
   /// How far the body's answers are from those without the cut to those with it: 0 to 1, and a
   /// little beyond, where a tip is looked for that has gone further.
   double opened;
+
+  bool operator==(const PartialCut&) const = default;
 };
 
 /// What loads do at a partial cut, its own faces' apart, and at its faces; linear in the loads.
@@ -70,7 +74,7 @@ class PartialCuts {
 
   /// Takes a compliance of the cut body, jumps along one axis by tractions along another, to that
   /// of the held one.
-  void hold(Eigen::MatrixXd& compliance, int jump, int traction) const;
+  void hold(Eigen::MatrixXd& compliance, int jump, int traction);
   /// What moves of the block a force on each cut's unknowns does, in the order of an inner basis.
   const Eigen::MatrixXd& columns() const { return columns_; }
 
@@ -99,19 +103,25 @@ class PartialCuts {
   Eigen::MatrixXd by_own_faces(const Part& part) const;
   Eigen::MatrixXd own_jumps(const Part& part) const;
   void set(Part& part, double opened);
-  void answer();
+  void factor();
+  /// What tractions along one axis do, in the basis; columns of facets, or of cuts.
+  struct Answer {
+    Eigen::MatrixXd of_facets;  ///< taken() of the jumps of all facets
+    Eigen::MatrixXd acting;     ///< f of each cut
+    Eigen::MatrixXd of_cuts;    ///< that less what is taken of its moves
+  };
+  const Answer& answer(int axis);
   Eigen::MatrixXd taken(const Eigen::MatrixXd& moved) const;
 
   std::vector<Part> parts_;
-  Eigen::MatrixXd columns_;  ///< A times all bases
-  Eigen::MatrixXd gram_;     ///< all bases^T A times all bases
-  Eigen::MatrixXd between_;  ///< of that, one V with another
+  Eigen::MatrixXd columns_;                        ///< A times all bases
+  Eigen::MatrixXd gram_;                           ///< all bases^T A times all bases
+  Eigen::MatrixXd between_;                        ///< of that, one V with another
+  Eigen::VectorXd alone_;                          ///< H of each cut by itself; 0 at mean jumps
+  Eigen::PartialPivLU<Eigen::MatrixXd> together_;  ///< 1 + alone between; not of a single cut
   std::vector<Eigen::MatrixXd> rows_;
   Eigen::VectorXd area_;
-  // By axis, in the basis:
-  std::vector<Eigen::MatrixXd> of_facets_;  ///< taken() of the jumps of all facets
-  std::vector<Eigen::MatrixXd> acting_;     ///< f of each cut
-  std::vector<Eigen::MatrixXd> of_cuts_;    ///< that less what is taken of its moves
+  std::vector<std::optional<Answer>> answers_;  ///< by axis, where it was asked for
 };
 
 }  // namespace perifrac

@@ -8,12 +8,16 @@ namespace perifrac {
 
 template <int D>
 void CondensedBody<D>::set_partial(std::span<const PartialCut> cuts) {
+  const auto are_held = [&](auto same) {
+    bool held = cuts.size() == partial_.count();
+    for (std::size_t k = 0; held && k < cuts.size(); ++k) held = same(cuts[k], partial_.at(k));
+    return held;
+  };
+  if (are_held(std::equal_to<>())) return;
   ++partial_version_;
-  bool same = cuts.size() == partial_.count();
-  for (std::size_t k = 0; same && k < cuts.size(); ++k) {
-    same = cuts[k].facet == partial_.at(k).facet;
+  if (!are_held([](const auto& a, const auto& b) { return a.facet == b.facet; })) {
+    return take_partial(cuts);
   }
-  if (!same) return take_partial(cuts);
   std::vector<double> opened;
   for (const PartialCut& cut : cuts) opened.push_back(cut.opened);
   partial_.open(opened);
