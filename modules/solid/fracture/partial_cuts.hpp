@@ -117,7 +117,7 @@ class PartialCuts {
   Eigen::MatrixXd columns_;                        ///< A times all bases
   Eigen::MatrixXd gram_;                           ///< all bases^T A times all bases
   Eigen::MatrixXd between_;                        ///< of that, one V with another
-  Eigen::VectorXd alone_;                          ///< H of each cut by itself; 0 at mean jumps
+  Eigen::VectorXd alone_;                          ///< 1 / (1 / H + 1); 0 at mean jumps
   Eigen::PartialPivLU<Eigen::MatrixXd> together_;  ///< 1 + alone between; not of a single cut
   std::vector<Eigen::MatrixXd> rows_;
   Eigen::VectorXd area_;

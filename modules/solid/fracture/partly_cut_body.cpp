@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 
 #include "modules/solid/fracture/condensed_body.hpp"
 
