@@ -1,5 +1,9 @@
 #include "core/operators/point_stiffness.hpp"
 
+#include <span>
+#include <string_view>
+#include <unordered_map>
+
 namespace perifrac {
 
 namespace {
@@ -47,22 +51,42 @@ Lists turned(const Lists& unknowns, Index size) {
   return result;
 }
 
+/// The first unknown that has the points of unknown k, for each k: mostly that of the first
+/// component there.
+std::vector<Index> first_of_same(const Lists& points) {
+  std::unordered_map<std::string_view, Index> first;
+  std::vector<Index> result;
+  for (Index k = 0; k < points.count(); ++k) {
+    const auto bytes = std::as_bytes(points.at(k));
+    result.push_back(
+        first.try_emplace({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, k)
+            .first->second);
+  }
+  return result;
+}
+
 /// An entry of 0 for each two unknowns that a point has.
-Matrix pattern(const Lists& unknowns, Index size) {
-  const Lists points = turned(unknowns, size);
-  std::vector<Index> column_of(size, -1), rows;
+/// `like` says which columns are the same.
+Matrix pattern(const Lists& unknowns, const Lists& points, const std::vector<Index>& like) {
+  const Index size = points.count();
+  std::vector<Index> column_of(size, -1), rows(size + 1);
   std::vector<int> begin = {0}, entries;
   for (Index column = 0; column < size; ++column) {
-    rows.clear();
-    for (const Index i : points.at(column)) {
-      for (const Index row : unknowns.at(i)) {
-        if (column_of[row] == column) continue;
-        column_of[row] = column;
-        rows.push_back(row);
+    if (like[column] < column) {  // the same rows
+      const int first = begin[like[column]], end = begin[like[column] + 1];
+      for (int k = first; k < end; ++k) entries.push_back(entries[k]);
+    } else {
+      Index count = 0;
+      for (const Index i : points.at(column)) {
+        for (const Index row : unknowns.at(i)) {
+          rows[count] = row;
+          count += static_cast<Index>(column_of[row] != column);
+          column_of[row] = column;
+        }
       }
+      std::sort(rows.begin(), rows.begin() + count);
+      entries.insert(entries.end(), rows.begin(), rows.begin() + count);
     }
-    std::ranges::sort(rows);
-    entries.insert(entries.end(), rows.begin(), rows.end());
     begin.push_back(static_cast<int>(entries.size()));
   }
   Matrix result(size, size);
@@ -79,15 +103,44 @@ Eigen::SparseMatrix<double> sum_of_points(
     Index size, Index points,
     const std::function<void(Index i, std::vector<Index>& unknowns)>& append_unknowns,
     const std::function<PointStiffness(Index i)>& stiffness) {
-  Matrix sum = pattern(unknowns_of_points(points, append_unknowns), size);
-  const int* const rows = sum.innerIndexPtr();
+  const Lists unknowns = unknowns_of_points(points, append_unknowns);
+  const Lists points_of = turned(unknowns, size);
+  const std::vector<Index> like = first_of_same(points_of);
+  Matrix sum = pattern(unknowns, points_of, like);
+  const int *const begin = sum.outerIndexPtr(), *const rows = sum.innerIndexPtr();
+  // Unknowns of a point that follow each other do so in the sum, and in each of its columns: where
+  // such a run begins is looked for once for all columns that are the same.
+  struct Run {
+    std::size_t first, count;
+  };
+  std::vector<Run> runs;
+  std::vector<std::ptrdiff_t> places;  // of each run, in the columns looked at
+  std::vector<std::size_t> at(size);   // where a column's are
   for (Index i = 0; i < points; ++i) {
     const PointStiffness part = stiffness(i);
-    for (std::size_t column = 0; column < part.unknowns.size(); ++column) {
-      int entry = sum.outerIndexPtr()[part.unknowns[column]];
-      for (std::size_t row = 0; row < part.unknowns.size(); ++row) {
-        while (rows[entry] != part.unknowns[row]) ++entry;
-        sum.valuePtr()[entry] += part.matrix(row, column);
+    runs.clear();
+    for (std::size_t row = 0; row < part.unknowns.size(); ++row) {
+      if (row > 0 && part.unknowns[row] == part.unknowns[row - 1] + 1)
+        ++runs.back().count;
+      else
+        runs.push_back({row, 1});
+    }
+    places.clear();
+    for (std::size_t k = 0; k < part.unknowns.size(); ++k) {
+      const Index column = part.unknowns[k];
+      if (like[column] == column) {
+        at[column] = places.size();
+        const int* place = rows + begin[column];
+        for (const Run& run : runs) {
+          place = std::lower_bound(place, rows + begin[column + 1], part.unknowns[run.first]);
+          places.push_back(place - (rows + begin[column]));
+        }
+      }
+      const std::ptrdiff_t* place = places.data() + at[like[column]];
+      const double* const from = part.matrix.col(static_cast<Eigen::Index>(k)).data();
+      for (const Run& run : runs) {
+        double* const to = sum.valuePtr() + begin[column] + *place++;
+        for (std::size_t row = 0; row < run.count; ++row) to[row] += from[run.first + row];
       }
     }
   }

@@ -51,26 +51,26 @@ PointStiffness on_unknowns(const Family<D>& family, const MirrorCondition<D, R>&
   std::ranges::sort(result.unknowns);
   const auto twice = std::ranges::unique(result.unknowns);
   result.unknowns.erase(twice.begin(), twice.end());
-  for (Combination& end : ends) {  // places from here on
-    for (int k = 0; k < end.count; ++k) {
-      const auto place = std::ranges::lower_bound(result.unknowns, end.terms[k].unknown);
-      end.terms[k].unknown = static_cast<Index>(place - result.unknowns.begin());
+  struct Term {
+    Eigen::Index node, place;
+    double coefficient;
+  };
+  std::vector<Term> terms;  // of all ends
+  for (std::size_t node = 0; node < ends.size(); ++node) {
+    for (int k = 0; k < ends[node].count; ++k) {
+      const auto [unknown, coefficient] = ends[node].terms[k];
+      const auto place = std::ranges::lower_bound(result.unknowns, unknown);
+      terms.push_back(
+          {static_cast<Eigen::Index>(node), place - result.unknowns.begin(), coefficient});
     }
   }
   const auto size = std::ssize(result.unknowns);
   result.matrix.setZero(size, size);
-  for (Eigen::Index column = 0; column < nodes.cols(); ++column) {
-    const Combination& right = ends[column];
-    for (Eigen::Index row = 0; row < nodes.rows(); ++row) {
-      const Combination& left = ends[row];
-      for (int l = 0; l < right.count; ++l) {
-        const double part = nodes(row, column) * right.terms[l].coefficient;
-        for (int k = 0; k < left.count; ++k) {
-          result.matrix(left.terms[k].unknown, right.terms[l].unknown) +=
-              part * left.terms[k].coefficient;
-        }
-      }
-    }
+  for (const Term& right : terms) {
+    const double* const from = nodes.col(right.node).data();
+    double* const to = result.matrix.col(right.place).data();
+    for (const Term& left : terms)
+      to[left.place] += from[left.node] * right.coefficient * left.coefficient;
   }
   return result;
 }

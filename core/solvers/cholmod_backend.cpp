@@ -10,6 +10,7 @@
 #include <omp.h>
 
 #include "core/solvers/cholesky_backend.hpp"
+#include "core/solvers/openblas_kernels.hpp"
 #include "core/solvers/supernodal_part.hpp"
 
 namespace perifrac {
@@ -72,6 +73,7 @@ cholmod_sparse lower_half_view(const Eigen::SparseMatrix<double>& a) {
 class CholmodBackend final : public CholeskyBackend {
  public:
   CholmodBackend() {
+    choose_openblas_kernels();
     cholmod_start(&common_);
     common_.print = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;

@@ -1,12 +1,17 @@
 #include "core/solvers/sparse_cholesky.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 #include <omp.h>
+
+// Not there where the program is built without OpenBLAS.
+extern "C" [[gnu::weak]] char* openblas_get_corename();
 
 namespace perifrac {
 namespace {
@@ -45,6 +50,18 @@ Eigen::MatrixXd right_hand_sides(Eigen::Index rows, Eigen::Index columns) {
 double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm() / b.norm();
 }
+
+#if defined(__x86_64__)
+TEST(SparseCholesky, RunsOnTheInstructionsOfThisProcessor) {
+  if (openblas_get_corename == nullptr) GTEST_SKIP() << "built without OpenBLAS";
+  if (std::getenv("OPENBLAS_CORETYPE") != nullptr) GTEST_SKIP() << "the environment chooses";
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    GTEST_SKIP() << "no better instructions here";
+  SparseCholesky cholesky;
+  cholesky.factor(grid_laplacian(3, 1, 0.5));
+  EXPECT_NE(openblas_get_corename(), std::string("Prescott"));
+}
+#endif
 
 TEST(SparseCholesky, AgreesWithDenseForOneAndForManyRightHandSides) {
   const Matrix a = grid_laplacian(12, 3, 0.5);
