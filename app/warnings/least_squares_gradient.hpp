@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/solvers/symmetric_spectrum.hpp"
+
 namespace perifrac {
 
 /// The gradient of a vector at a point, from how it differs at neighbours: exact where the vector
@@ -20,12 +22,14 @@ class LeastSquaresGradient {
 
   /// 0 where bonds in one line say nothing across it.
   Matrix matrix() const {
-    const Eigen::FullPivLU<Matrix> factor(shape_);
-    if (!factor.isInvertible()) return Matrix::Zero();
-    return spread_ * factor.inverse();
+    const auto spread = symmetric_spectrum(shape_).values;
+    if (!(spread[0] > in_one_line * spread[D - 1])) return Matrix::Zero();
+    return spread_ * shape_.inverse();
   }
 
  private:
+  static constexpr double in_one_line = 1e-12;  ///< that is rounding
+
   Matrix shape_ = Matrix::Zero();
   Matrix spread_ = Matrix::Zero();
 };

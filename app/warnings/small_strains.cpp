@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/warnings/least_squares_gradient.hpp"
+#include "core/solvers/symmetric_spectrum.hpp"
 
 namespace perifrac {
 
@@ -76,9 +77,7 @@ LargestStrain largest_strain(const Body<D>& body, std::span<const double> displa
     const double rotation = std::sqrt(0.5) * spin.norm();
     // The norm is above each principal strain; the costly ones only where it counts.
     if (strain.norm() > largest.strain) {
-      const Eigen::SelfAdjointEigenSolver<StrainMatrix<D>> principal(strain,
-                                                                     Eigen::EigenvaluesOnly);
-      const double size = principal.eigenvalues().cwiseAbs().maxCoeff();
+      const double size = symmetric_spectrum(strain).values.cwiseAbs().maxCoeff();
       if (size > largest.strain) largest.strain = size, largest.strained = i;
     }
     if (rotation > largest.rotation) largest.rotation = rotation, largest.rotated = i;

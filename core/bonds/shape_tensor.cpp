@@ -9,6 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
+#include "core/solvers/symmetric_spectrum.hpp"
 
 namespace perifrac {
 
@@ -60,9 +61,9 @@ FamilyMoments<D> family_moments(const Family<D>& family) {
   for (Index i = 0; i < family.point_count; ++i) {
     if (family.bond_count(i) == 0) continue;
     const auto sum = shape_tensor_at(family, i);
-    const Matrix shape = Eigen::Map<const Matrix>(sum.data());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spectrum(shape);
-    if (!(spectrum.eigenvalues()[0] > flat_family * spectrum.eigenvalues()[D - 1])) {
+    const Eigen::Matrix<double, D, D> shape = Eigen::Map<const Matrix>(sum.data());
+    const auto values = symmetric_spectrum(shape).values;
+    if (!(values[0] > flat_family * values[D - 1])) {
       refuse_flat_family(family, i);
     }
     set_inverse<D>(sum, i, moments);
@@ -75,9 +76,9 @@ template <int D>
 bool is_thin(const Family<D>& family, Index i) {
   using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
   const auto sum = shape_tensor_at(family, i);
-  const Matrix shape = Eigen::Map<const Matrix>(sum.data());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spectrum(shape);
-  return !(spectrum.eigenvalues()[0] > thin_family * spectrum.eigenvalues()[D - 1]);
+  const Eigen::Matrix<double, D, D> shape = Eigen::Map<const Matrix>(sum.data());
+  const auto values = symmetric_spectrum(shape).values;
+  return !(values[0] > thin_family * values[D - 1]);
 }
 
 template <int D>
@@ -85,7 +86,7 @@ bool set_moments(const Family<D>& family, Index i, FamilyMoments<D>& moments) {
   using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
   const bool thin = is_thin(family, i);
   const auto sum = shape_tensor_at(family, i);
-  const Matrix shape = Eigen::Map<const Matrix>(sum.data());
+  const Eigen::Matrix<double, D, D> shape = Eigen::Map<const Matrix>(sum.data());
   if (thin) {
     for (auto& entry : moments.inverse_shape) entry[i] = 0.0;
   } else {

@@ -112,25 +112,22 @@ class LinearExactOperator {
   PointStiffness point_stiffness(Index i) const {
     const Index first = family_->offset[i];
     const Index bonds = family_->offset[i + 1] - first;
-    Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(D, bonds + 1);  // the point itself is last
-    Eigen::MatrixXd bond = Eigen::MatrixXd::Zero(bonds + 1, bonds + 1);
+    const Index nodes = bonds + 1;  // the point itself is last
+    using Gradient = Eigen::Matrix<double, Eigen::Dynamic, D>;
+    Gradient gradient = Gradient::Zero(nodes, D);
     for (Index b = 0; b < bonds; ++b) {
       const double w = family_->weight[first + b];
       for (int a = 0; a < D; ++a) {
         for (int c = 0; c < D; ++c) {
-          gradient(a, b) +=
+          gradient(b, a) +=
               w * moments_.inverse_shape[a * D + c][i] *
               (family_->position[c][family_->other[first + b]] - family_->position[c][i]);
         }
       }
-      gradient.col(bonds) -= gradient.col(b);
-      bond(b, b) += w;
-      bond(bonds, bonds) += w;
-      bond(b, bonds) -= w;
-      bond(bonds, b) -= w;
+      gradient.row(bonds) -= gradient.row(b);
     }
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(R * (bonds + 1), R * (bonds + 1));
     // K_i enters because the second term of the energy is s (sum_j w |u_j - u_i|^2 - F : F K).
+    const double volume = family_->volume[i];
     const auto shape = shape_tensor_at(*family_, i);
     Eigen::Matrix<double, R * D, R * D> stiffness;
     for (int column = 0; column < R * D; ++column) {
@@ -140,19 +137,28 @@ class LinearExactOperator {
       for (int b = 0; b < D; ++b) {
         stress[column / D * D + b] -= bond_stiffness_[i] * shape[(column % D) * D + b];
       }
-      for (int row = 0; row < R * D; ++row) stiffness(row, column) = stress[row];
+      for (int row = 0; row < R * D; ++row) stiffness(row, column) = volume * stress[row];
     }
+    Eigen::MatrixXd matrix(R * nodes, R * nodes);
     for (int row = 0; row < R; ++row) {
       for (int column = 0; column < R; ++column) {
-        matrix.block(row * (bonds + 1), column * (bonds + 1), bonds + 1, bonds + 1).noalias() =
-            gradient.transpose() * (stiffness.template block<D, D>(row * D, column * D) * gradient);
+        const Eigen::Matrix<double, D, Eigen::Dynamic> stress =
+            stiffness.template block<D, D>(row * D, column * D).lazyProduct(gradient.transpose());
+        matrix.block(row * nodes, column * nodes, nodes, nodes) = gradient.lazyProduct(stress);
       }
     }
     for (int r = 0; r < R; ++r) {
-      matrix.block(r * (bonds + 1), r * (bonds + 1), bonds + 1, bonds + 1) +=
-          bond_stiffness_[i] * bond;
+      const Index own = r * nodes + bonds;
+      for (Index b = 0; b < bonds; ++b) {
+        const double pull = volume * bond_stiffness_[i] * family_->weight[first + b];
+        const Index other = r * nodes + b;
+        matrix(other, other) += pull;
+        matrix(own, own) += pull;
+        matrix(other, own) -= pull;
+        matrix(own, other) -= pull;
+      }
     }
-    return on_unknowns(*family_, mirror_, i, family_->volume[i] * matrix);
+    return on_unknowns(*family_, mirror_, i, matrix);
   }
 
   /// Adds the unknowns that the gradient and the energy of point i depend on.

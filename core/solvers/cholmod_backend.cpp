@@ -106,6 +106,10 @@ class CholmodBackend final : public CholeskyBackend {
 
   void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) override {
     assert(factor_ && factor_->minor == factor_->n);
+    if (x.cols() == 1) {
+      part().solve(values(), b.col(0), x.col(0));
+      return;
+    }
     const OneThread one_thread;
     // CHOLMOD writes columns without gaps between them only: others one at a time.
     const Eigen::Index together = x.outerStride() == x.rows() ? x.cols() : 1;

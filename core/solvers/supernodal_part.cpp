@@ -5,20 +5,15 @@
 
 namespace perifrac {
 
-namespace {
-
-using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-
-}  // namespace
-
 SupernodalPart::SupernodalPart(const Supernodes& factor)
     : factor_(factor),
+      sweep_(factor),
       place_(factor.permutation.size()),
       supernode_of_(factor.permutation.size()),
-      is_on_path_(factor.columns.size() - 1, 0) {
+      is_on_path_(factor.count(), 0) {
   for (std::size_t k = 0; k < place_.size(); ++k)
     place_[factor.permutation[k]] = static_cast<int>(k);
-  for (int s = 0; s < std::ssize(is_on_path_); ++s) {
+  for (int s = 0; s < factor.count(); ++s) {
     std::fill(supernode_of_.begin() + factor.columns[s],
               supernode_of_.begin() + factor.columns[s + 1], s);
   }
@@ -34,8 +29,8 @@ void SupernodalPart::find_paths(std::span<const int> rows, std::vector<int>& pat
     while (!is_on_path_[s]) {
       is_on_path_[s] = 1;
       path.push_back(s);
-      if (below(s).empty()) break;
-      s = supernode_of_[below(s).front()];
+      if (factor_.below(s).empty()) break;
+      s = supernode_of_[factor_.below(s).front()];
     }
   }
   for (const int s : path) is_on_path_[s] = 0;
@@ -45,15 +40,9 @@ void SupernodalPart::find_paths(std::span<const int> rows, std::vector<int>& pat
 /// `Columns`: int of many right-hand sides; of one, a constant, for which Eigen takes vectors.
 template <class Columns>
 void SupernodalPart::forward(const double* values, int s, Columns columns) {
-  const Block own(values + factor_.values_begin[s], width(s), width(s),
-                  Eigen::OuterStride<>(height(s)));
-  auto solved = work_.leftCols(columns).middleRows(factor_.columns[s], width(s));
-  own.triangularView<Eigen::Lower>().solveInPlace(solved);
-  const std::span<const int> rows = below(s);
-  const Block others(values + factor_.values_begin[s] + width(s), std::ssize(rows), width(s),
-                     Eigen::OuterStride<>(height(s)));
+  const std::span<const int> rows = factor_.below(s);
   auto change = gathered_.leftCols(columns).topRows(std::ssize(rows));
-  change.noalias() = others * solved;
+  factor_.eliminate(values, s, factor_.own(work_.leftCols(columns), s), change);
   for (Eigen::Index c = 0; c < change.cols(); ++c) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       work_(rows[k], c) -= change(static_cast<Eigen::Index>(k), c);
@@ -63,50 +52,50 @@ void SupernodalPart::forward(const double* values, int s, Columns columns) {
 
 template <class Columns>
 void SupernodalPart::backward(const double* values, int s, Columns columns) {
-  const Block own(values + factor_.values_begin[s], width(s), width(s),
-                  Eigen::OuterStride<>(height(s)));
-  const std::span<const int> rows = below(s);
-  const Block others(values + factor_.values_begin[s] + width(s), std::ssize(rows), width(s),
-                     Eigen::OuterStride<>(height(s)));
+  const std::span<const int> rows = factor_.below(s);
   auto known = gathered_.leftCols(columns).topRows(std::ssize(rows));
   for (Eigen::Index c = 0; c < known.cols(); ++c) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       known(static_cast<Eigen::Index>(k), c) = work_(rows[k], c);
     }
   }
-  auto solved = work_.leftCols(columns).middleRows(factor_.columns[s], width(s));
-  solved.noalias() -= others.transpose() * known;
-  own.transpose().triangularView<Eigen::Upper>().solveInPlace(solved);
+  factor_.substitute(values, s, factor_.own(work_.leftCols(columns), s), known);
 }
 
 void SupernodalPart::make_room(Eigen::Index columns) {
   if (work_.cols() >= columns) return;
   std::ptrdiff_t most = 0;
-  for (int s = 0; s < count(); ++s) most = std::max(most, std::ssize(below(s)));
+  for (int s = 0; s < factor_.count(); ++s) most = std::max(most, std::ssize(factor_.below(s)));
   work_.setZero(std::ssize(place_), columns);
   gathered_.resize(most, columns);
 }
 
-void SupernodalPart::begin(const double* values, const Eigen::VectorXd& b, Eigen::VectorXd& begun) {
+void SupernodalPart::solve(const double* values, const Eigen::Ref<const Eigen::VectorXd>& b,
+                           Eigen::Ref<Eigen::VectorXd> x) {
   make_room(1);
-  for (Eigen::Index k = 0; k < b.size(); ++k) work_(place_[k], 0) = b[k];
-  for (int s = 0; s < count(); ++s) forward(values, s, Eigen::fix<1>());
-  begun = work_.col(0);
-  work_.col(0).setZero();
+  auto work = work_.col(0);
+  for (Eigen::Index k = 0; k < b.size(); ++k) work[place_[k]] = b[k];
+  sweep_.forward(values, work);
+  sweep_.backward(values, work);
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = work[place_[k]];
+  work.setZero();
+}
+
+void SupernodalPart::begin(const double* values, const Eigen::VectorXd& b, Eigen::VectorXd& begun) {
+  begun.resize(b.size());
+  for (Eigen::Index k = 0; k < b.size(); ++k) begun[place_[k]] = b[k];
+  sweep_.forward(values, begun);
 }
 
 void SupernodalPart::part(const double* values, const Eigen::VectorXd& begun,
                           std::span<const int> wanted, Eigen::VectorXd& x) {
   make_room(1);
   find_paths(wanted, down_);
-  const auto own = [this](auto& vector, int s) {
-    return vector.middleRows(factor_.columns[s], width(s));
-  };
-  for (const int s : down_) own(work_, s).col(0) = own(begun, s);
+  for (const int s : down_) factor_.own(work_, s).col(0) = factor_.own(begun, s);
   for (auto s = down_.rbegin(); s != down_.rend(); ++s) backward(values, *s, Eigen::fix<1>());
   x.resize(std::ssize(wanted));
   for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = work_(place_[wanted[k]], 0);
-  for (const int s : down_) own(work_, s).col(0).setZero();
+  for (const int s : down_) factor_.own(work_, s).col(0).setZero();
 }
 
 void SupernodalPart::finish(const double* values, const Eigen::VectorXd& begun,
@@ -117,7 +106,7 @@ void SupernodalPart::finish(const double* values, const Eigen::VectorXd& begun,
   for (Eigen::Index k = 0; k < c.size(); ++k) work_(place_[rows[k]], 0) = c[k];
   for (const int s : up_) forward(values, s, Eigen::fix<1>());
   work_.col(0) += begun;
-  for (int s = count() - 1; s >= 0; --s) backward(values, s, Eigen::fix<1>());
+  sweep_.backward(values, work_.col(0));
   x.resize(begun.size());
   for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = work_(place_[k], 0);
   work_.col(0).setZero();
@@ -147,7 +136,7 @@ void SupernodalPart::solve(const double* values, std::span<const int> rows,
   }
   for (const std::vector<int>* path : {&up_, &down_}) {
     for (const int s : *path) {
-      work_.leftCols(columns).middleRows(factor_.columns[s], width(s)).setZero();
+      factor_.own(work_.leftCols(columns), s).setZero();
     }
   }
 }

@@ -5,18 +5,10 @@
 
 #include <Eigen/Core>
 
-namespace perifrac {
+#include "core/solvers/supernodal_sweep.hpp"
+#include "core/solvers/supernodes.hpp"
 
-/// A supernodal Cholesky factor L of P A P^T, without its values: supernode s has the columns
-/// columns[s] to columns[s + 1], and as rows these and then those below, ascending, from
-/// rows[rows_begin[s]] on; its values are dense, by column, from values_begin[s] on.
-struct Supernodes {
-  std::span<const int> columns;
-  std::span<const int> rows_begin;
-  std::span<const int> values_begin;
-  std::span<const int> rows;
-  std::span<const int> permutation;  ///< by row of P A P^T, that of A
-};
+namespace perifrac {
 
 /// Goes through the factor, or the part of it that a part of A^-1 b needs. A row of b that is not
 /// zero acts on the supernode of that row and on those that this one's rows lead up to, the path to
@@ -32,6 +24,10 @@ class SupernodalPart {
              const Eigen::Ref<const Eigen::MatrixXd>& b, std::span<const int> wanted,
              Eigen::Ref<Eigen::MatrixXd> x);
 
+  /// x = A^-1 b.
+  void solve(const double* values, const Eigen::Ref<const Eigen::VectorXd>& b,
+             Eigen::Ref<Eigen::VectorXd> x);
+
   /// As SparseCholesky::begin(), part() and finish(); what is begun is in the rows of P A P^T.
   void begin(const double* values, const Eigen::VectorXd& b, Eigen::VectorXd& begun);
   void part(const double* values, const Eigen::VectorXd& begun, std::span<const int> wanted,
@@ -40,12 +36,6 @@ class SupernodalPart {
               const Eigen::VectorXd& c, Eigen::VectorXd& x);
 
  private:
-  int width(int s) const { return factor_.columns[s + 1] - factor_.columns[s]; }
-  int height(int s) const { return factor_.rows_begin[s + 1] - factor_.rows_begin[s]; }
-  std::span<const int> below(int s) const {
-    return factor_.rows.subspan(factor_.rows_begin[s] + width(s), height(s) - width(s));
-  }
-  int count() const { return static_cast<int>(std::ssize(is_on_path_)); }
   void make_room(Eigen::Index columns);
   void find_paths(std::span<const int> rows, std::vector<int>& path);
   template <class Columns>
@@ -54,6 +44,7 @@ class SupernodalPart {
   void backward(const double* values, int s, Columns columns);
 
   Supernodes factor_;
+  SupernodalSweep sweep_;
   std::vector<int> place_;         ///< by row of A, that of P A P^T
   std::vector<int> supernode_of_;  ///< by row of P A P^T
   std::vector<char> is_on_path_;   ///< all 0 between calls

@@ -4,9 +4,17 @@
 
 namespace perifrac {
 
-SymmetricSpectrum symmetric_spectrum(const Eigen::MatrixXd& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+template <int N>
+SpectrumOf<N> symmetric_spectrum(const Eigen::Matrix<double, N, N>& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(matrix);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
+
+SymmetricSpectrum symmetric_spectrum(const Eigen::MatrixXd& matrix) {
+  return symmetric_spectrum<Eigen::Dynamic>(matrix);
+}
+
+template SpectrumOf<2> symmetric_spectrum(const Eigen::Matrix2d&);
+template SpectrumOf<3> symmetric_spectrum(const Eigen::Matrix3d&);
 
 }  // namespace perifrac

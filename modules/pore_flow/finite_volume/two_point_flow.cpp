@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/base/for_each_point.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/bonds/crack_cut.hpp"
+#include "core/solvers/symmetric_spectrum.hpp"
 
 namespace perifrac {
 
@@ -185,12 +185,12 @@ void TwoPointFlow<D>::velocity(std::span<const double> p, std::span<double> velo
   }
   for_each_point(points, [&](Index i) {
     // A cell that is cut off along some direction has no velocity there.
-    const Eigen::SelfAdjointEigenSolver<Matrix> axes(fits[i].normals);
-    const auto& seen = axes.eigenvalues();
+    const SpectrumOf<D> axes = symmetric_spectrum(fits[i].normals);
     Column v = Column::Zero();
     for (int k = 0; k < D; ++k) {
-      const Column axis = axes.eigenvectors().col(k);
-      if (seen[k] > 1e-9 * seen[D - 1]) v += axis.dot(fits[i].fluxes) / seen[k] * axis;
+      const Column axis = axes.vectors.col(k);
+      const double seen = axes.values[k];
+      if (seen > 1e-9 * axes.values[D - 1]) v += axis.dot(fits[i].fluxes) / seen * axis;
     }
     for (int a = 0; a < D; ++a) velocity[a * points + i] = v[a];
   });

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/geometry/scatter.hpp"
+#include "core/solvers/symmetric_spectrum.hpp"
 #include "modules/pore_flow/material/region_path.hpp"
 
 namespace perifrac {
@@ -35,8 +35,7 @@ Tensor<D, D> read_tensor(const Section& section, const std::string& path) {
   for (std::size_t k = 0; k < place.size(); ++k) {
     tensor(place[k][0], place[k][1]) = tensor(place[k][1], place[k][0]) = given[k];
   }
-  const auto values =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>>(tensor).eigenvalues();
+  const auto values = symmetric_spectrum(tensor).values;
   constexpr double rounding = 1e-12;
   if (values[0] < -rounding * std::abs(values[D - 1])) {
     section.fail(path,

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/solvers/symmetric_spectrum.hpp"
+
 namespace perifrac {
 
 namespace {
@@ -14,13 +16,13 @@ void decompose(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& moved_by
                Eigen::MatrixXd& vectors, Eigen::VectorXd& values) {
   const Eigen::LLT<Eigen::MatrixXd> factor(moved_by);
   const Eigen::MatrixXd root = factor.matrixL();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(root.transpose() * stiffness * root);
+  const SymmetricSpectrum found = symmetric_spectrum(root.transpose() * stiffness * root);
   std::vector<Eigen::Index> kept;
-  for (Eigen::Index n = 0; n < found.eigenvalues().size(); ++n) {
-    if (std::abs(found.eigenvalues()[n]) > least_stiffening) kept.push_back(n);
+  for (Eigen::Index n = 0; n < found.values.size(); ++n) {
+    if (std::abs(found.values[n]) > least_stiffening) kept.push_back(n);
   }
-  vectors = factor.matrixU().solve(found.eigenvectors()(Eigen::all, kept));
-  values = found.eigenvalues()(kept);
+  vectors = factor.matrixU().solve(found.vectors(Eigen::all, kept));
+  values = found.values(kept);
 }
 
 }  // namespace

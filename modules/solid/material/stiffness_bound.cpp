@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "core/bonds/shape_tensor.hpp"
+#include "core/solvers/symmetric_spectrum.hpp"
 
 namespace perifrac {
 
@@ -15,13 +16,12 @@ double stiffness_bound(const Family<D>& family, const IsotropicElasticity<D>& la
   }
   if (!(weight > 0.0)) return 0.0;
   const auto sum = shape_tensor_at(family, i);
-  const Matrix shape = Eigen::Map<const Matrix>(sum.data());
+  const Eigen::Matrix<double, D, D> shape = Eigen::Map<const Matrix>(sum.data());
   if (is_thin(family, i)) {
     return (D * D * law.drained_bulk_modulus() + D * (D + 2) * law.shear_modulus) * weight /
            shape.trace();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> spectrum(shape);
-  return D * law.drained_bulk_modulus() * weight / spectrum.eigenvalues()[0];
+  return D * law.drained_bulk_modulus() * weight / symmetric_spectrum(shape).values[0];
 }
 
 template double stiffness_bound<2>(const Family<2>&, const IsotropicElasticity<2>&, Index);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "tests/spectra.hpp"
+
 namespace perifrac::test {
 
 CrystalCrack::Roots::Roots(const CrystalCrack& crack) {
@@ -15,7 +17,7 @@ CrystalCrack::Roots::Roots(const CrystalCrack& crack) {
   companion.row(0) =
       Eigen::RowVector4d(2.0 * a(0, 2), -2.0 * a(0, 1) - a(2, 2), 2.0 * a(1, 2), -a(1, 1)) /
       a(0, 0);
-  const Eigen::Vector4cd all = companion.eigenvalues();
+  const Eigen::Vector4cd all = eigenvalues(companion);
   for (int k = 0, next = 0; k < 4; ++k) {
     if (all[k].imag() > 0.0) mu[next++] = all[k];
   }

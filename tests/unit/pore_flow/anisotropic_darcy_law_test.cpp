@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include "core/solvers/symmetric_spectrum.hpp"
 #include "modules/pore_flow/flux/conservative_flow.hpp"
 #include "modules/pore_flow/material/darcy_law.hpp"
+#include "tests/orthonormal.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {
@@ -22,9 +22,9 @@ template <int D>
 AnisotropicDarcyLaw<D> some_law() {
   Eigen::Matrix<double, D, D> axes;
   for (int a = 0; a < D; ++a) {
-    for (int b = 0; b < D; ++b) axes(a, b) = std::sin(1.0 + 3.0 * a + 1.7 * b);
+    for (int b = 0; b < D; ++b) axes(a, b) = std::sin(1.0 + 3.0 * a + 1.7 * b + a * b);
   }
-  const Eigen::Matrix<double, D, D> q = axes.householderQr().householderQ();
+  const Eigen::Matrix<double, D, D> q = test::orthonormal<D>(axes);
   Eigen::Matrix<double, D, 1> values;
   for (int a = 0; a < D; ++a) values[a] = std::array{1.0, 0.1, 0.4}[a];
   const Eigen::Matrix<double, D, D> tensor = q * values.asDiagonal() * q.transpose();

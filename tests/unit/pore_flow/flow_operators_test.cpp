@@ -1,7 +1,6 @@
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SparseLU>
+#include <Eigen/IterativeLinearSolvers>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -229,7 +228,10 @@ std::vector<double> errors_with_sealed_faces(FlowScheme scheme, const std::vecto
     for (Index i = 0; i < points.size(); ++i) matrix.coeffRef(i, i) += points.volume[i];
     Eigen::VectorXd p(points.size());
     if (scheme == FlowScheme::nested) {
-      p = Eigen::SparseLU<Eigen::SparseMatrix<double>>(matrix).solve(right_side);
+      Eigen::BiCGSTAB<Eigen::SparseMatrix<double>> solver(matrix);  // not symmetric
+      solver.setTolerance(1e-12);
+      p = solver.solve(right_side);
+      EXPECT_EQ(solver.info(), Eigen::Success);
     } else {
       SparseCholesky factor;
       factor.factor(matrix);

@@ -2,10 +2,10 @@
 #include <iterator>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/spectra.hpp"
 #include "tests/unit/pore_flow/pore_body.hpp"
 
 /// What the paper's scheme does, so that its limits stay on record.
@@ -22,7 +22,7 @@ double growth(double horizon_ratio, FaceSet mirrored, Cloud cloud = Cloud::latti
   const NestedFlow<2, DarcyLaw<2>> flow({family, MirrorCondition<2, 1>(*family), DarcyLaw<2>{1.0}});
   Eigen::MatrixXd rate = -Eigen::MatrixXd(flow.assemble());
   for (Index i = 0; i < family->point_count; ++i) rate.row(i) /= family->volume[i];
-  return Eigen::EigenSolver<Eigen::MatrixXd>(rate, false).eigenvalues().real().maxCoeff();
+  return test::eigenvalues(rate).real().maxCoeff();
 }
 
 TEST(NestedFlow, HasGrowingModesWhereFamiliesAreCut) {

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "tests/spectra.hpp"
+
 namespace perifrac {
 namespace {
 
@@ -52,9 +54,8 @@ struct Elements {
     const int free = size - 2;
     const Eigen::MatrixXd held = k.bottomRightCorner(free, free);
     deflection = held.llt().solve(f.tail(free))(free - 2);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-        held, m.bottomRightCorner(free, free), Eigen::EigenvaluesOnly);
-    angular_frequency = std::sqrt(modes.eigenvalues()(0));
+    angular_frequency =
+        std::sqrt(test::symmetric_spectrum(held, m.bottomRightCorner(free, free)).values(0));
   }
 };
 

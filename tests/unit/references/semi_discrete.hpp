@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include "tests/spectra.hpp"
 
 namespace perifrac::test {
 
@@ -9,15 +9,15 @@ namespace perifrac::test {
 class SemiDiscrete {
  public:
   SemiDiscrete(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen::VectorXd& start)
-      : solver_(b, a), amplitude_(solver_.eigenvectors().transpose() * a * start) {}
+      : modes_(symmetric_spectrum(b, a)), amplitude_(modes_.vectors.transpose() * a * start) {}
 
   Eigen::VectorXd at(double t) const {
-    const Eigen::VectorXd decay = (-t * solver_.eigenvalues().array()).exp();
-    return solver_.eigenvectors() * (decay.array() * amplitude_.array()).matrix();
+    const Eigen::VectorXd decay = (-t * modes_.values.array()).exp();
+    return modes_.vectors * (decay.array() * amplitude_.array()).matrix();
   }
 
  private:
-  Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver_;
+  SymmetricSpectrum modes_;
   Eigen::VectorXd amplitude_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
+#include "tests/spectra.hpp"
 
 namespace perifrac {
 namespace {
@@ -44,10 +45,7 @@ TEST(SpectralRadius, BoundsAPairOfSymmetricMatrices) {
       "field", 0.0, size,
       [&](std::span<const double> v, std::span<double> product) { view(product) = k * view(v); },
       [&](std::span<const double> mv, std::span<double> v) { view(v) = factor.solve(view(mv)); });
-  const double largest =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(k, m, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .maxCoeff();
+  const double largest = test::symmetric_spectrum(k, m).values.maxCoeff();
   EXPECT_GT(bound, largest);
   EXPECT_LT(bound, 1.1 * largest);
 }
