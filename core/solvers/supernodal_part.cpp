@@ -9,14 +9,10 @@ SupernodalPart::SupernodalPart(const Supernodes& factor)
     : factor_(factor),
       sweep_(factor),
       place_(factor.permutation.size()),
-      supernode_of_(factor.permutation.size()),
+      supernode_of_(factor.supernode_of()),
       is_on_path_(factor.count(), 0) {
   for (std::size_t k = 0; k < place_.size(); ++k)
     place_[factor.permutation[k]] = static_cast<int>(k);
-  for (int s = 0; s < factor.count(); ++s) {
-    std::fill(supernode_of_.begin() + factor.columns[s],
-              supernode_of_.begin() + factor.columns[s + 1], s);
-  }
 }
 
 /// The supernodes on the ways from these rows of A to the root, each once, ascending: those that

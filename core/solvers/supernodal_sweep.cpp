@@ -10,7 +10,7 @@ namespace perifrac {
 namespace {
 
 /// A branch has at most one part in this many of the factor's values.
-constexpr std::int64_t parts = 16;
+constexpr int parts = 16;
 /// Below this many values, waking a thread costs more than its share.
 constexpr std::int64_t values_worth_threads = 200'000;
 
@@ -30,9 +30,8 @@ bool are_nested(const Supernodes& factor, std::span<const int> parent) {
 
 /// By supernode, the one that it leads up to; -1 of a root.
 std::vector<int> parents(const Supernodes& factor) {
-  std::vector<int> supernode_of(factor.permutation.size()), result(factor.count(), -1);
-  for (int s = 0; s < factor.count(); ++s)
-    for (int k = factor.columns[s]; k < factor.columns[s + 1]; ++k) supernode_of[k] = s;
+  const std::vector<int> supernode_of = factor.supernode_of();
+  std::vector<int> result(factor.count(), -1);
   for (int s = 0; s < factor.count(); ++s)
     if (!factor.below(s).empty()) result[s] = supernode_of[factor.below(s).front()];
   return result;
@@ -79,9 +78,10 @@ void SupernodalSweep::find_branches() {
   }
 }
 
-void SupernodalSweep::make_room() {
-  const auto threads = static_cast<std::size_t>(omp_get_max_threads());
-  if (rooms_.size() >= threads) return;
+/// For as many threads as it returns: no more than there are large branches, for each takes room.
+int SupernodalSweep::make_room() {
+  const int threads = std::min(omp_get_max_threads(), parts);
+  if (std::ssize(rooms_) >= threads) return threads;
   std::ptrdiff_t most = 0;
   for (int s = 0; s < factor_.count(); ++s) most = std::max(most, std::ssize(factor_.below(s)));
   rooms_.resize(threads);
@@ -89,6 +89,7 @@ void SupernodalSweep::make_room() {
     room.gathered.resize(most);
     room.place.resize(factor_.permutation.size());
   }
+  return threads;
 }
 
 void SupernodalSweep::forward(const double* values, Branch& branch, ThreadRoom& room,
@@ -109,8 +110,8 @@ void SupernodalSweep::forward(const double* values, Branch& branch, ThreadRoom& 
 }
 
 void SupernodalSweep::forward(const double* values, Eigen::Ref<Eigen::VectorXd> x) {
-  make_room();
-#pragma omp parallel for schedule(dynamic, 1) if (is_worth_threads_)
+  const int threads = make_room();
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (is_worth_threads_)
   for (std::size_t b = 0; b < branches_.size(); ++b)
     forward(values, branches_[b], rooms_[omp_get_thread_num()], x);
   for (const Branch& branch : branches_) {
@@ -135,9 +136,9 @@ void SupernodalSweep::backward(const double* values, int s, ThreadRoom& room,
 }
 
 void SupernodalSweep::backward(const double* values, Eigen::Ref<Eigen::VectorXd> x) {
-  make_room();
+  const int threads = make_room();
   for (const int s : std::views::reverse(trunk_)) backward(values, s, rooms_[0], x);
-#pragma omp parallel for schedule(dynamic, 1) if (is_worth_threads_)
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) if (is_worth_threads_)
   for (std::size_t b = 0; b < branches_.size(); ++b) {
     ThreadRoom& room = rooms_[omp_get_thread_num()];
     for (int s = branches_[b].root; s >= branches_[b].first; --s) backward(values, s, room, x);

@@ -34,7 +34,7 @@ class SupernodalSweep {
   };
 
   void find_branches();
-  void make_room();
+  int make_room();
   void forward(const double* values, Branch& branch, ThreadRoom& room,
                Eigen::Ref<Eigen::VectorXd> x) const;
   void backward(const double* values, int s, ThreadRoom& room, Eigen::Ref<Eigen::VectorXd> x) const;

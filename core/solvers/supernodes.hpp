@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -24,6 +26,14 @@ struct Supernodes {
   std::int64_t size(int s) const { return std::int64_t{width(s)} * height(s); }
   std::span<const int> below(int s) const {
     return rows.subspan(rows_begin[s] + width(s), height(s) - width(s));
+  }
+
+  /// By row of P A P^T, the supernode whose own it is.
+  std::vector<int> supernode_of() const {
+    std::vector<int> result(permutation.size());
+    for (int s = 0; s < count(); ++s)
+      std::fill(result.begin() + columns[s], result.begin() + columns[s + 1], s);
+    return result;
   }
 
   /// The rows of the supernode's own columns in a vector or matrix of all.
