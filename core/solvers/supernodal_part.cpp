@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <type_traits>
 
 namespace perifrac {
 
@@ -33,29 +34,43 @@ void SupernodalPart::find_paths(std::span<const int> rows, std::vector<int>& pat
   std::ranges::sort(path);
 }
 
-/// `Columns`: int of many right-hand sides; of one, a constant, for which Eigen takes vectors.
+/// `columns`: a constant where there are few, each of which goes through a supernode while that is
+/// at hand; for more of them there are products of matrices.
+template <class Columns, class Go>
+void SupernodalPart::in_columns(Columns columns, Go&& go) {
+  if constexpr (std::is_same_v<Columns, Eigen::Index>) {
+    go(work_.leftCols(columns), gathered_.leftCols(columns));
+  } else {
+    for (int c = 0; c < columns; ++c) go(work_.col(c), gathered_.col(c));
+  }
+}
+
 template <class Columns>
 void SupernodalPart::forward(const double* values, int s, Columns columns) {
   const std::span<const int> rows = factor_.below(s);
-  auto change = gathered_.leftCols(columns).topRows(std::ssize(rows));
-  factor_.eliminate(values, s, factor_.own(work_.leftCols(columns), s), change);
-  for (Eigen::Index c = 0; c < change.cols(); ++c) {
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      work_(rows[k], c) -= change(static_cast<Eigen::Index>(k), c);
+  in_columns(columns, [&](auto work, auto gathered) {
+    auto change = gathered.topRows(std::ssize(rows));
+    factor_.eliminate(values, s, factor_.own(work, s), change);
+    for (Eigen::Index c = 0; c < change.cols(); ++c) {
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        work(rows[k], c) -= change(static_cast<Eigen::Index>(k), c);
+      }
     }
-  }
+  });
 }
 
 template <class Columns>
 void SupernodalPart::backward(const double* values, int s, Columns columns) {
   const std::span<const int> rows = factor_.below(s);
-  auto known = gathered_.leftCols(columns).topRows(std::ssize(rows));
-  for (Eigen::Index c = 0; c < known.cols(); ++c) {
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      known(static_cast<Eigen::Index>(k), c) = work_(rows[k], c);
+  in_columns(columns, [&](auto work, auto gathered) {
+    auto known = gathered.topRows(std::ssize(rows));
+    for (Eigen::Index c = 0; c < known.cols(); ++c) {
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        known(static_cast<Eigen::Index>(k), c) = work(rows[k], c);
+      }
     }
-  }
-  factor_.substitute(values, s, factor_.own(work_.leftCols(columns), s), known);
+    factor_.substitute(values, s, factor_.own(work, s), known);
+  });
 }
 
 void SupernodalPart::make_room(Eigen::Index columns) {
@@ -124,6 +139,8 @@ void SupernodalPart::solve(const double* values, std::span<const int> rows,
   };
   if (columns == 1) {
     pass(Eigen::fix<1>());
+  } else if (columns == 2) {
+    pass(Eigen::fix<2>());
   } else {
     pass(columns);
   }

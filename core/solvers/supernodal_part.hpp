@@ -38,6 +38,8 @@ class SupernodalPart {
  private:
   void make_room(Eigen::Index columns);
   void find_paths(std::span<const int> rows, std::vector<int>& path);
+  template <class Columns, class Go>
+  void in_columns(Columns columns, Go&& go);
   template <class Columns>
   void forward(const double* values, int s, Columns columns);
   template <class Columns>

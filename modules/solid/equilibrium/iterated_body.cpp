@@ -366,10 +366,7 @@ void IteratedBody<D>::solve(EvenAnswer& answer, std::span<const Index> faces) {
 }
 
 template <int D>
-auto IteratedBody<D>::even(std::span<const Index> faces, const Vector<D>& traction)
-    -> const EvenAnswer& {
-  const std::int64_t axis =
-      std::ranges::find_if(traction, [](double t) { return t != 0.0; }) - traction.begin();
+auto IteratedBody<D>::even(std::span<const Index> faces, std::int64_t axis) -> const EvenAnswer& {
   const std::int64_t first = std::ssize(faces) == facet_count() ? -1 : std::ranges::min(faces);
   const EvenAnswer* known = find_even(first, axis);
   if (known == nullptr) {
@@ -383,9 +380,7 @@ auto IteratedBody<D>::even(std::span<const Index> faces, const Vector<D>& tracti
 
 template <int D>
 auto IteratedBody<D>::evenly_pressed() -> const EvenAnswer& {
-  Vector<D> unit{};
-  unit[0] = 1.0;
-  return even(all_faces(), unit);
+  return even(all_faces(), 0);
 }
 
 /// By a pressure of 1.
@@ -406,18 +401,18 @@ double IteratedBody<D>::intensity_at_fixed_volume(Index facet) {
 }
 
 template <int D>
-std::optional<double> IteratedBody<D>::find_answer(std::span<const Index> faces,
-                                                   const Vector<D>& traction,
-                                                   std::span<const Index> named,
-                                                   std::span<double> all) {
-  const EvenAnswer& answer = even(faces, traction);
-  const double size = traction[answer.axis];
-  for (const Index unknown : named) all[unknown] = size * answer.move[unknown];
+std::optional<double> IteratedBody<D>::find_even_answers(std::span<const Index> faces,
+                                                         std::span<const Index> named,
+                                                         std::span<double> by_pressure,
+                                                         std::span<double> by_shear) {
+  const EvenAnswer& pressed = even(faces, 0);
+  for (const Index unknown : named) by_pressure[unknown] = pressed.move[unknown];
   double volume = 0.0;
   for (const Index f : faces) {
-    const double jump = this->jump(f, view(answer.move))[0];
-    volume += jumps_[f].area * (size * jump + pressed_[f] * traction[0]);
+    volume += jumps_[f].area * (this->jump(f, view(pressed.move))[0] + pressed_[f]);
   }
+  const EvenAnswer& sheared = even(faces, 1);
+  for (const Index unknown : named) by_shear[unknown] = sheared.move[unknown];
   return volume;
 }
 

@@ -46,8 +46,10 @@ class IteratedBody final : public CrackedBody<D> {
   /// By a solve a facet.
   Eigen::MatrixXd compliance(int jump, int traction) override;
   double intensity_at_fixed_volume(Index facet) override;
-  std::optional<double> find_answer(std::span<const Index> faces, const Vector<D>& traction,
-                                    std::span<const Index> named, std::span<double> all) override;
+  std::optional<double> find_even_answers(std::span<const Index> faces,
+                                          std::span<const Index> named,
+                                          std::span<double> by_pressure,
+                                          std::span<double> by_shear) override;
   std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure,
                                      std::span<const double> shear = {}) override;
   Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure,
@@ -122,7 +124,7 @@ class IteratedBody final : public CrackedBody<D> {
   const Answer& at(const Eigen::VectorXd& pressure, std::span<const double> shear);
   const EvenAnswer* find_even(std::int64_t first, std::int64_t axis) const;
   void solve(EvenAnswer& answer, std::span<const Index> faces);
-  const EvenAnswer& even(std::span<const Index> faces, const Vector<D>& traction);
+  const EvenAnswer& even(std::span<const Index> faces, std::int64_t axis);
   const EvenAnswer& evenly_pressed();  ///< the faces of all cracks, by a pressure of 1
   Vector<D> jump_of(std::size_t f, const Answer& answer) const;
   Eigen::VectorXd openings(const Answer& answer) const;

@@ -14,8 +14,9 @@ void visit_modes(StateVisitor& visitor, std::vector<MovingTip>& tips) {
   std::vector<double> all;
   const auto each = [&](const auto& see) {
     for (MovingTip& tip : tips) {
-      for (ModeAnswer& modes : tip.modes) {
-        for (double* value : {&modes.sliding, &modes.opens, &modes.slides, &modes.root_of_j}) {
+      for (auto& [root_of_j, modes, slid] : tip.even) {
+        for (double* value :
+             {&root_of_j, &modes.sliding, &modes.opens, &modes.slides, &modes.root_of_j, &slid}) {
           see(*value);
         }
       }
@@ -71,10 +72,8 @@ void visit_moving_tips(StateVisitor& visitor, std::vector<MovingTip>& tips) {
       FieldOfEach("part", [](MovingTip& tip) -> double& { return tip.part; }),
       FieldOfEach("per_spacing", [](MovingTip& tip) -> double& { return tip.per_spacing; }),
       FieldOfEach("rate", [](MovingTip& tip) -> double& { return tip.rate; }),
-      FieldOfEach("intensity_begin", [](MovingTip& tip) -> double& { return tip.root_of_j[0]; }),
-      FieldOfEach("intensity_end", [](MovingTip& tip) -> double& { return tip.root_of_j[1]; }),
+      FieldOfEach("facets", [](MovingTip& tip) -> std::int64_t& { return tip.facets; }),
       FieldOfEach("release", [](MovingTip& tip) -> double& { return tip.release; }),
-      FieldOfEach("slid", [](MovingTip& tip) -> double& { return tip.slid; }),
       FieldOfEach("held", [](MovingTip& tip) -> double& { return tip.held[0]; }),
       FieldOfEach("held_before", [](MovingTip& tip) -> double& { return tip.held[1]; }),
       FieldOfEach("cut", [](MovingTip& tip) -> double& { return tip.cut[0]; }),

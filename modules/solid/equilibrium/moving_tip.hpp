@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/state/state_visitor.hpp"
@@ -12,6 +13,13 @@
 #include "modules/solid/fracture/partial_cuts.hpp"
 
 namespace perifrac {
+
+/// Of even loads of 1 Pa on the faces of a crack, at its tip.
+struct EvenTip {
+  double root_of_j = 0.0;  ///< 0: not known
+  ModeAnswer modes{};
+  double slid = 0.0;  ///< by a shear [m/Pa]; 0: not known
+};
 
 /// A tip within its facet, and what is known of it while it crosses that.
 struct MovingTip {
@@ -26,10 +34,9 @@ struct MovingTip {
 
   // Of even loads of 1 Pa on the crack's faces; the first of two as its facet begins, the other as
   // it ends:
-  std::array<double, 2> root_of_j{};  ///< 0: not known
-  std::array<ModeAnswer, 2> modes{};
-  double slid = 0.0;     ///< by a shear, as its facet begins [m/Pa]; 0: not known
-  double release = 0.0;  ///< of its facet, whole, times 2 [m^2/Pa]
+  std::array<EvenTip, 2> even{};
+  std::int64_t facets = 0;  ///< that the body had when the other was asked
+  double release = 0.0;     ///< of its facet, whole, times 2 [m^2/Pa]
   /// Opening of the last facet and the one before, with its own not cut and cut [m].
   std::array<double, 2> held{}, cut{};
   std::array<double, 2> sheared_held{}, sheared_cut{};  ///< likewise, by a shear

@@ -48,31 +48,32 @@ void MovingTips::hold() {
   equilibrium_.set_partial(cuts);
 }
 
-/// `scales`: of the shapes at which they come, or empty.
-bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips,
-                     std::span<const double> scales) {
+bool MovingTips::add(std::span<const std::pair<CrackTip, double>> tips) {
+  std::vector<GoingOn> going_on;
+  for (const auto& [at, turn] : tips) going_on.push_back({.at = at, .turn = turn, .even = {}});
+  return add(std::move(going_on));
+}
+
+bool MovingTips::add(std::vector<GoingOn> tips) {
   const std::size_t first = moving_.size();
   if (tips.empty()) return false;
   equilibrium_.set_partial({});
   CrackedBody<2>& cracked = equilibrium_.body();
-  std::vector<MovingTip> found;
-  for (const auto& [at, turned] : tips) {
-    MovingTip& tip = found.emplace_back(MovingTip{.at = at});
-    ask_modes(tip, at, 0);
-    if (at.before != no_facet) tip.per_spacing = cracked.intensity_at_fixed_volume(at.before);
+  for (GoingOn& tip : tips) {
+    if (!tip.even) tip.even = even_at(tip.at);
+    const Index before = tip.at.before;
+    if (before != no_facet) tip.per_spacing = cracked.intensity_at_fixed_volume(before);
   }
-  for (std::size_t k = 0; k < tips.size(); ++k) {
+  for (const GoingOn& tip : tips) {
     try {
-      if (!cut_for(tips[k].first, tips[k].second)) continue;
+      if (!cut_for(tip.at, tip.turn)) continue;
     } catch (...) {  // a cut that parts the body: the others are what they were
       hold();
       throw;
     }
-    moving_.back().root_of_j[0] = found[k].root_of_j[0];
-    moving_.back().modes[0] = found[k].modes[0];
-    moving_.back().slid = found[k].slid;
-    moving_.back().per_spacing = found[k].per_spacing;
-    if (!scales.empty()) moving_.back().scale = scales[k];
+    moving_.back().even[0] = *tip.even;
+    moving_.back().per_spacing = tip.per_spacing;
+    moving_.back().scale = tip.scale;
   }
   ask_loads(first);
   hold();
@@ -93,14 +94,10 @@ bool MovingTips::cut_for(const CrackTip& at, double turn) {
   return true;
 }
 
-/// As its facet begins (0) or ends (1).
-void MovingTips::ask_modes(MovingTip& tip, const CrackTip& at, std::size_t place) {
+EvenTip MovingTips::even_at(const CrackTip& at) const {
   const auto even =
       ask_even_loads(equilibrium_.body(), energy_release_, at, tips_.crack_of(at.facet));
-  if (!even) return;
-  tip.root_of_j[place] = even->root_of_j;
-  tip.modes[place] = even->modes;
-  if (place == 0) tip.slid = even->slid;
+  return even ? EvenTip{even->root_of_j, even->modes, even->slid} : EvenTip{};
 }
 
 /// Of the tips from `first` on: as their facets begin with the others as open as they are now, as
@@ -134,8 +131,8 @@ void MovingTips::ask_end(MovingTip& tip, std::span<const Index> faces) {
   const double ratio =
       known ? cracked.intensity_at_fixed_volume(tip.at.facet) / tip.per_spacing : 1.0;
   tip.per_spacing = (1.0 - std::min(1.0, ratio)) / 1.5;
-  ask_modes(tip, tip.end(cracked), 1);
-  if (tip.modes[1].sliding == 0.0) tip.modes[1] = tip.modes[0];
+  tip.even[1] = even_at(tip.end(cracked));
+  tip.facets = std::ssize(cracked.facets());
   see_even(tip, faces, tip.cut, tip.sheared_cut);
   if (turns_sharply(tip)) tip.shapes[1] = shape_of(tip, tip.end(cracked), faces);
 }
@@ -169,7 +166,7 @@ void MovingTips::ask_shapes(MovingTip& tip, std::span<const Index> faces) {
 bool MovingTips::turns_sharply(const MovingTip& tip) const {
   const Vector<2>& ahead = equilibrium_.body().jumps()[tip.facet].tangents[0];
   return std::abs(cross(tip.at.direction, ahead)) > std::sin(bent) ||
-         !(std::min(tip.root_of_j[0], tip.root_of_j[1]) > 0.0);
+         !(std::min(tip.even[0].root_of_j, tip.even[1].root_of_j) > 0.0);
 }
 
 /// Of a crack that ends there, by the jumps of the facets behind the tip's own.
@@ -186,7 +183,7 @@ CrackShape MovingTips::shape_of(const MovingTip& tip, const CrackTip& at,
 void MovingTips::scale_shapes(MovingTip& tip) const {
   const double modulus = equilibrium_.body().elastic().law(tip.nearest).plane_strain_modulus();
   auto& [begins, ends] = tip.shapes;
-  const auto [begin_known, end_known] = tip.root_of_j;
+  const double begin_known = tip.even[0].root_of_j, end_known = tip.even[1].root_of_j;
   if (tip.scale > 0.0) begins.scale = tip.scale;
   if (begin_known > 0.0) begins.scale_to(begin_known * std::sqrt(modulus));
   ends.scale = begins.scale;
@@ -274,7 +271,9 @@ double MovingTips::turn(const MovingTip& tip, std::span<const Vector<2>> jumps) 
   const CrackShape& shape = tip.shapes[1];
   if (!shape.is_known()) {
     const TipJump jump = energy_release_.jump(end, jumps);
-    return tips_.turn_of(end, {1.0, tip.modes[1].ratio(jump)}, jump.turn_to, law, 1.0);
+    const auto& [begins, ends] = tip.even;
+    const ModeAnswer& modes = ends.modes.sliding == 0.0 ? begins.modes : ends.modes;
+    return tips_.turn_of(end, {1.0, modes.ratio(jump)}, jump.turn_to, law, 1.0);
   }
   const TipModes modes =
       shape.modes(stress_of(shape, shape, 1.0, jumps, cracked.stress_at_rest(end.place),
@@ -287,19 +286,23 @@ bool MovingTips::conclude() {
   book();
   const auto done = [](const MovingTip& tip) { return tip.part >= 1.0 - crossed; };
   if (std::ranges::none_of(moving_, done)) return false;
-  std::vector<std::pair<CrackTip, double>> going_on;
-  std::vector<double> rates, scales;
+  std::vector<GoingOn> going_on;
+  std::vector<double> rates;
   const std::vector<Vector<2>> jumps = equilibrium_.state().jumps();
-  for (MovingTip& tip : moving_) {
+  const std::int64_t facets = std::ssize(equilibrium_.body().facets());
+  for (const MovingTip& tip : moving_) {
     if (!done(tip) || tip.ends) continue;
-    going_on.emplace_back(tip.end(equilibrium_.body()), turn(tip, jumps));
+    going_on.push_back({.at = tip.end(equilibrium_.body()),
+                        .turn = turn(tip, jumps),
+                        .scale = tip.scale,
+                        .even = {}});
+    if (tip.facets == facets) going_on.back().even = tip.even[1];
     rates.push_back(tip.rate);
-    scales.push_back(tip.scale);
   }
   std::erase_if(moving_, done);
   hold();
   const std::size_t first = moving_.size();
-  add(going_on, scales);
+  add(std::move(going_on));
   if (moving_.size() == first + rates.size()) {
     for (std::size_t k = 0; k < rates.size(); ++k) moving_[first + k].rate = rates[k];
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,7 +29,7 @@ class MovingTips {
 
   void start();
   /// These tips go on, turned by these angles; false where nothing lies ahead of any.
-  bool add(std::span<const std::pair<CrackTip, double>> tips) { return add(tips, {}); }
+  bool add(std::span<const std::pair<CrackTip, double>> tips);
 
   /// A window is about to be tried: tips are first looked for where they would go at the rate of
   /// before.
@@ -49,7 +50,16 @@ class MovingTips {
   void on_restored();
 
  private:
-  bool add(std::span<const std::pair<CrackTip, double>> tips, std::span<const double> scales);
+  /// A tip that begins a facet.
+  struct GoingOn {
+    CrackTip at;
+    double turn;                  ///< [rad]
+    double scale = 0.0;           ///< as in MovingTip
+    std::optional<EvenTip> even;  ///< there, of the body as it is; nothing: to be asked
+    double per_spacing = 0.0;
+  };
+
+  bool add(std::vector<GoingOn> tips);
   void hold();
   bool cut_for(const CrackTip& at, double turn);
   void ask_loads(std::size_t first);
@@ -60,7 +70,7 @@ class MovingTips {
   bool turns_sharply(const MovingTip& tip) const;
   CrackShape shape_of(const MovingTip& tip, const CrackTip& at, std::span<const Index> crack) const;
   void scale_shapes(MovingTip& tip) const;
-  void ask_modes(MovingTip& tip, const CrackTip& at, std::size_t place);
+  EvenTip even_at(const CrackTip& at) const;
   double turn(const MovingTip& tip, std::span<const Vector<2>> jumps) const;
   void book();
 

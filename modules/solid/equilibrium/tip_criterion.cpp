@@ -40,8 +40,9 @@ double TipCriterion::within_crack(const MovingTip& tip, double s) const {
 /// By an even load, the tip having crossed this part; 0: not known.
 double TipCriterion::root_of_j(const MovingTip& tip, double part) const {
   const double growth = 1.0 + 0.5 * tip.per_spacing;
-  const double begins = tip.root_of_j[0] > 0.0 ? tip.root_of_j[0] : tip.root_of_j[1] / growth;
-  const double ends = tip.root_of_j[1] > 0.0 ? tip.root_of_j[1] : tip.root_of_j[0] * growth;
+  const double begin = tip.even[0].root_of_j, end = tip.even[1].root_of_j;
+  const double begins = begin > 0.0 ? begin : end / growth;
+  const double ends = end > 0.0 ? end : begin * growth;
   return begins + part * (ends - begins);
 }
 
@@ -79,11 +80,12 @@ double TipCriterion::opens_across(const MovingTip& tip, double part, int behind)
   const Index facet = behind == 0 ? tip.at.facet : tip.at.before;
   const double across = energy_release_.opening_across(tip.at.direction, facet, jumps_[facet]);
   const TipJump jump = energy_release_.jump(tip.at, jumps_);
-  if (tip.slid == 0.0 || !jump.is_open() || !(across > 0.0)) return across;
+  const EvenTip& even = tip.even[0];
+  if (even.slid == 0.0 || !jump.is_open() || !(across > 0.0)) return across;
   const double share = tip.opened(part);
   const double by_shear =
       (1.0 - share) * tip.sheared_held[behind] + share * tip.sheared_cut[behind];
-  return across - by_shear * tip.modes[0].without_teeth(jump).sliding / tip.slid;
+  return across - by_shear * even.modes.without_teeth(jump).sliding / even.slid;
 }
 
 /// K of a tip that fluid stays up with, by the openings behind it, over what holds it.
@@ -97,7 +99,7 @@ double TipCriterion::followed(const MovingTip& tip) const {
   const TipJump jump = energy_release_.jump(tip.at, jumps_);
   const auto by_jump = [&](double opening) -> TipModes {
     const double toughness = std::sqrt(law(tip).fracture_energy);
-    const double sliding = tip.modes[0].mode_two(jump, opening, toughness);
+    const double sliding = tip.even[0].modes.mode_two(jump, opening, toughness);
     return {opening, sliding + opening * jump.more_at_tip()};
   };
   const auto held = [](const TipModes& modes) {

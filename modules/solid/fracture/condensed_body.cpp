@@ -311,36 +311,43 @@ double CondensedBody<D>::intensity_at_fixed_volume(Index facet) {
 }
 
 template <int D>
-std::optional<double> CondensedBody<D>::find_answer(std::span<const Index> faces,
-                                                    const Vector<D>& traction,
-                                                    std::span<const Index> named,
-                                                    std::span<double> all) {
-  std::vector<Vector<D>> loads(modes_.size(), Vector<D>{});
-  for (const Index f : faces) loads[f] = traction;
-  const Eigen::VectorXd force = force_of(loads);
-  const Eigen::VectorXd block = moved_by(force);
-  const Eigen::VectorXd moved = solve_named(force, block, named);
+std::optional<double> CondensedBody<D>::find_even_answers(std::span<const Index> faces,
+                                                          std::span<const Index> named,
+                                                          std::span<double> by_pressure,
+                                                          std::span<double> by_shear) {
+  Eigen::MatrixXd force(inverse_->block().rows(), 2);
+  double volume = 0.0;
+  for (const int axis : {0, 1}) {
+    std::vector<Vector<D>> loads(modes_.size(), Vector<D>{});
+    for (const Index f : faces) loads[f][axis] = 1.0;
+    const Eigen::VectorXd own = force_of(loads);
+    const Eigen::VectorXd block = moved_by(own);
+    force.col(axis) = block_force_on_first_body(own, block);
+    if (axis > 0) continue;
+    const auto jumps = jumps_at(block, loads);
+    for (const Index f : faces) volume += jumps_[f].area * jumps[f][0];
+  }
+  const Eigen::MatrixXd moved = solve_named(force, named);
   Eigen::Index next = 0;
   for (const Index unknown : named) {
     const auto [free, by] = free_of_[unknown];
-    all[unknown] = free < 0 ? 0.0 : by * moved[next++];
+    by_pressure[unknown] = free < 0 ? 0.0 : by * moved(next, 0);
+    by_shear[unknown] = free < 0 ? 0.0 : by * moved(next, 1);
+    if (free >= 0) ++next;
   }
-  const auto jumps = jumps_at(block, loads);
-  double volume = 0.0;
-  for (const Index f : faces) volume += jumps_[f].area * jumps[f][0];
   return volume;
 }
 
+/// What forces on the condensed unknowns do to those named that are free; one column a force.
 template <int D>
-Eigen::VectorXd CondensedBody<D>::solve_named(const Eigen::VectorXd& force,
-                                              const Eigen::VectorXd& block,
+Eigen::MatrixXd CondensedBody<D>::solve_named(const Eigen::MatrixXd& force,
                                               std::span<const Index> named) const {
   std::vector<int> wanted;
   for (const Index unknown : named) {
     if (free_of_[unknown].first >= 0) wanted.push_back(free_of_[unknown].first);
   }
-  Eigen::VectorXd moved(std::ssize(wanted));
-  factor_.solve_part(inverse_->unknowns(), block_force_on_first_body(force, block), wanted, moved);
+  Eigen::MatrixXd moved(std::ssize(wanted), force.cols());
+  factor_.solve_part(inverse_->unknowns(), force, wanted, moved);
   return moved;
 }
 
@@ -375,7 +382,7 @@ void CondensedBody<D>::find_unknowns(const Eigen::VectorXd& pressure, std::span<
                                      std::span<double> all, std::span<const double> shear) {
   const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + moved_by(force);
-  const Eigen::VectorXd moved = solve_named(force, block, named);
+  const Eigen::VectorXd moved = solve_named(block_force_on_first_body(force, block), named);
   Eigen::Index next = 0;
   for (const Index unknown : named) {
     const auto [free, by] = free_of_[unknown];

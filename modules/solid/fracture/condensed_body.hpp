@@ -52,8 +52,10 @@ class CondensedBody final : public CrackedBody<D> {
   const Eigen::MatrixXd& compliance() const { return compliance_; }
   Eigen::MatrixXd compliance(int jump, int traction) override;
   double intensity_at_fixed_volume(Index facet) override;
-  std::optional<double> find_answer(std::span<const Index> faces, const Vector<D>& traction,
-                                    std::span<const Index> named, std::span<double> all) override;
+  std::optional<double> find_even_answers(std::span<const Index> faces,
+                                          std::span<const Index> named,
+                                          std::span<double> by_pressure,
+                                          std::span<double> by_shear) override;
   std::vector<Vector<D>> jumps_under(const Eigen::VectorXd& pressure,
                                      std::span<const double> shear = {}) override;
   Eigen::VectorXd unknowns(const Eigen::VectorXd& pressure,
@@ -112,8 +114,7 @@ class CondensedBody final : public CrackedBody<D> {
   Eigen::VectorXd force_of(std::span<const Vector<D>> loads) const;
   Eigen::VectorXd block_force(const Eigen::VectorXd& pressure,
                               std::span<const double> shear = {}) const;
-  Eigen::VectorXd solve_named(const Eigen::VectorXd& force, const Eigen::VectorXd& block,
-                              std::span<const Index> named) const;
+  Eigen::MatrixXd solve_named(const Eigen::MatrixXd& force, std::span<const Index> named) const;
   Eigen::VectorXd block_force_on_first_body(const Eigen::VectorXd& force,
                                             const Eigen::VectorXd& block) const;
   const Eigen::VectorXd& intact_move();

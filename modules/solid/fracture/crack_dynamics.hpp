@@ -36,8 +36,8 @@ class CrackDynamics final : public CutBody<2>, public BodyFracture {
 
   bool cut(const CrackFacet<2>& facet) override;
   double intensity_at_fixed_volume(Index facet) override;
-  std::optional<double> find_answer(std::span<const Index>, const Vector<2>&,
-                                    std::span<const Index>, std::span<double>) override {
+  std::optional<double> find_even_answers(std::span<const Index>, std::span<const Index>,
+                                          std::span<double>, std::span<double>) override {
     return {};
   }
   /// After the last cut of a step: how openings answer to pressure.

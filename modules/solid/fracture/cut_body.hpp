@@ -37,12 +37,14 @@ class CutBody {
   /// volume.
   virtual double intensity_at_fixed_volume(Index facet) = 0;
 
-  /// What the same traction on the faces named, along normal and tangents [Pa], and nothing else
-  /// does to the unknowns named; the others of `all` are left. Returns the volume that opens there
-  /// [m^3], in 2D per metre; nothing where no equilibrium says it.
-  virtual std::optional<double> find_answer(std::span<const Index> faces, const Vector<D>& traction,
-                                            std::span<const Index> named,
-                                            std::span<double> all) = 0;
+  /// What an even pressure of 1 Pa on the faces named, and nothing else, does to the unknowns
+  /// named; and an even shear along the first tangent. The others of both arrays are left. Returns
+  /// the volume that the pressure opens there [m^3], in 2D per metre; nothing where no equilibrium
+  /// says it.
+  virtual std::optional<double> find_even_answers(std::span<const Index> faces,
+                                                  std::span<const Index> named,
+                                                  std::span<double> by_pressure,
+                                                  std::span<double> by_shear) = 0;
 
   /// Jumps of all facets by tractions on them, along normal and tangents [Pa], and nothing else
   /// [m]. Of a body that may be partly cut; empty of others.

@@ -29,36 +29,31 @@ std::optional<EvenLoads> ask_even_loads(CutBody<2>& cracked, const EnergyRelease
                                         const CrackTip& at, std::span<const Index> crack) {
   if (!energy_release.is_straight(at, bent)) return {};
   const std::vector<Index> named = energy_release.looks_at(at);
-  std::vector<double> unknowns(cracked.elastic().size(), 0.0);
-  std::optional<double> volume;
-  const auto under = [&](const Vector<2>& traction) -> std::optional<TipLoad> {
-    volume = cracked.find_answer(crack, traction, named, unknowns);
-    if (!volume) return {};
-    return energy_release.under(at, unknowns, crack, traction);
-  };
+  std::vector<double> by_pressure(cracked.elastic().size(), 0.0), by_shear = by_pressure;
+  const auto volume = cracked.find_even_answers(crack, named, by_pressure, by_shear);
+  if (!volume) return {};
   const auto intensity = [](const TipLoad& load) {
     return std::sqrt(std::max(0.0, load.energy_release));
   };
   const Index behind = at.before != no_facet ? at.before : at.facet;
-  const auto pressed = under({1.0, 0.0});
-  if (!pressed) return {};
-  EvenLoads even{.root_of_j = intensity(*pressed),
+  const TipLoad pressed = energy_release.under(at, by_pressure, crack, {1.0, 0.0});
+  EvenLoads even{.root_of_j = intensity(pressed),
                  .volume = *volume,
-                 .opening = cracked.jump(behind, unknowns)[0] + cracked.pressed_by(behind),
+                 .opening = cracked.jump(behind, by_pressure)[0] + cracked.pressed_by(behind),
                  .modes = {},
                  .slid = 0.0,
                  .opening_by_shear = 0.0};
-  const auto sheared = under({0.0, 1.0});
-  const double mode_two = intensity(*sheared), slid = std::abs(sheared->sliding);
-  const double apart = pressed->opening + cracked.pressed_by(behind);
+  const TipLoad sheared = energy_release.under(at, by_shear, crack, {0.0, 1.0});
+  const double mode_two = intensity(sheared), slid = std::abs(sheared.sliding);
+  const double apart = pressed.opening + cracked.pressed_by(behind);
   if (std::min({even.root_of_j, mode_two, apart, slid}) > 0.0) {
     even.modes.sliding = slid / mode_two * even.root_of_j / apart;
     even.modes.root_of_j = even.root_of_j / apart;
     if (is_line(cracked, at, crack)) {  // else the pressure has a K_II
-      even.modes.opens = sheared->opening / sheared->sliding;
-      even.modes.slides = pressed->sliding / apart;
-      even.slid = sheared->sliding;
-      even.opening_by_shear = cracked.jump(behind, unknowns)[0];
+      even.modes.opens = sheared.opening / sheared.sliding;
+      even.modes.slides = pressed.sliding / apart;
+      even.slid = sheared.sliding;
+      even.opening_by_shear = cracked.jump(behind, by_shear)[0];
     }
   }
   return even;
