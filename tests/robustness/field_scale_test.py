@@ -68,6 +68,8 @@ class FieldScale(RunTest):
                     coarse, fine = (self.run_variant(text, stress, f"{name} {stress} {longest}",
                                                      coupling__window__largest=f"{longest} s") for longest in (5, 1))
                     self.assert_alike(coarse, fine, 0.01)
+                    # The part of that pressure that rock and fluid are left with is the small one.
+                    self.assert_alike(coarse, fine, 0.05, ("net",))
                     # Steps of growth leave the same energy open, at any depth: 0.074 MPa of what is pumped in.
                     self.assertLess(max(coarse["energy_error"], fine["energy_error"]) * min(stress), 0.11)
                     self.run_variant(SMOOTH.sub("", text), stress, f"{name} {stress} smooth")
@@ -85,7 +87,7 @@ class FieldScale(RunTest):
                         self.assert_alike(runs[1], run, 0.2, ("crack_length", "crack_volume", "mean_crack_pressure"))
 
     def assert_alike(self, one, other, tolerance,
-                     columns=("crack_length", "wetted_length", "crack_volume", "mean_crack_pressure", "net")):
+                     columns=("crack_length", "wetted_length", "crack_volume", "mean_crack_pressure")):
         for column in columns:
             self.assertAlmostEqual(one[column], other[column], delta=tolerance * abs(one[column]), msg=column)
 

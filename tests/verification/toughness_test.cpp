@@ -120,19 +120,21 @@ double wander(Rock rock, const Loading& loading, double angle, int half_length, 
   const Vector<2> middle = {0.5 * n, 0.5 * n}, ahead = {std::cos(angle), std::sin(angle)};
   CrackedPlate plate(n, straight_crack(middle, angle, 2 * half_length), 0.25, {}, {}, rock);
   const Exact exact(rock, 0.25, {});
+  const auto last_facet = [&] { return static_cast<Index>(plate.cracked->facets().size()) - 1; };
   CrackTip tip{{middle[0] + half_length * ahead[0], middle[1] + half_length * ahead[1]},
                ahead,
-               no_facet,
-               no_facet};
+               last_facet(),
+               last_facet() - 1};
   double farthest = 0.0;
   for (int step = 0; step < steps; ++step) {
     const Vector<2> centre = {middle[0] + 0.5 * step * ahead[0], middle[1] + 0.5 * step * ahead[1]};
     const double turn =
         exact.with(centre, angle, half_length + 0.5 * step, loading, [&](const auto& crack) {
           const Eigen::VectorXd u = plate.solve(crack);
-          return kink_angle(modes_of(
+          const TipLoad load =
               EnergyRelease(*plate.cracked, 1.0)
-                  .at(tip, {u.data(), static_cast<std::size_t>(u.size())}, plate.pressure)));
+                  .at(tip, {u.data(), static_cast<std::size_t>(u.size())}, plate.pressure);
+          return load.turn_to + kink_angle(modes_of(load));
         });
     const double c = std::cos(turn), s = std::sin(turn);
     tip.direction = {c * tip.direction[0] - s * tip.direction[1],
@@ -140,6 +142,8 @@ double wander(Rock rock, const Loading& loading, double angle, int half_length, 
     const Vector<2> from = tip.place;
     for (int a = 0; a < 2; ++a) tip.place[a] += tip.direction[a];
     plate.cracked->cut({from, tip.place});
+    tip.before = tip.facet;
+    tip.facet = last_facet();
     farthest = std::max(farthest, std::abs((tip.place[1] - middle[1]) * ahead[0] -
                                            (tip.place[0] - middle[0]) * ahead[1]));
   }
@@ -147,13 +151,14 @@ double wander(Rock rock, const Loading& loading, double angle, int half_length, 
 }
 
 TEST_P(ApparentToughnessOf, GoesStraight) {
+  const double most = GetParam() == Rock::linear_exact ? 0.4 : 0.65;
   fmt::print("Off the line in 10 spacings of growth, {}, a/dx 10: in spacings\n", name(GetParam()));
   for (const double angle : {0.0, 20.0, 26.565051177, 45.0}) {
     fmt::print("{:>7.1f}", angle);
     for (const Loading& loading : loadings) {
       const double found = wander(GetParam(), loading, angle * degree, 10, 10);
       fmt::print(" {:>9} {:.3f}", loading.name, found);
-      EXPECT_LE(found, 0.5) << loading.name << ' ' << angle;
+      EXPECT_LE(found, most) << loading.name << ' ' << angle;
     }
     fmt::print("\n");
   }
