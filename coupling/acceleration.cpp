@@ -59,15 +59,19 @@ class StepFit {
  public:
   /// Steps come newest first; at most `most` will be there at once.
   void start(const std::deque<Step>& steps, const VectorXd& scale, std::size_t most) {
-    columns_.setZero(scale.size(), static_cast<Eigen::Index>(most));
+    const Eigen::Index known = std::ssize(steps);
+    columns_.resize(scale.size(), static_cast<Eigen::Index>(most));
     places_.clear();
     free_.clear();
-    for (Eigen::Index k = columns_.cols() - 1; k >= std::ssize(steps); --k) free_.push_back(k);
-    for (Eigen::Index k = 0; k < std::ssize(steps); ++k) {
+    for (Eigen::Index k = columns_.cols() - 1; k >= known; --k) free_.push_back(k);
+    for (Eigen::Index k = 0; k < known; ++k) {
       columns_.col(k) = scale.cwiseProduct(steps[static_cast<std::size_t>(k)].residual);
       places_.push_back(k);
     }
-    products_.noalias() = columns_.transpose() * columns_;
+    products_.setZero(columns_.cols(), columns_.cols());
+    auto between = products_.topLeftCorner(known, known);
+    between.selfadjointView<Eigen::Lower>().rankUpdate(columns_.leftCols(known).transpose());
+    between.triangularView<Eigen::StrictlyUpper>() = between.transpose();
   }
 
   void add_newest(const VectorXd& scaled_residual) {
@@ -75,21 +79,19 @@ class StepFit {
     free_.pop_back();
     places_.push_front(place);
     columns_.col(place) = scaled_residual;
-    products_.col(place).noalias() = columns_.transpose() * scaled_residual;
-    products_.row(place) = products_.col(place).transpose();
+    for (const Eigen::Index other : places_) {
+      products_(place, other) = products_(other, place) = columns_.col(other).dot(scaled_residual);
+    }
   }
 
   void drop(std::size_t step) {
-    const Eigen::Index place = places_[step];
-    columns_.col(place).setZero();
-    free_.push_back(place);
+    free_.push_back(places_[step]);
     places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(step));
   }
 
   /// A factor by step; those that say next to nothing beyond newer ones are dropped here and there.
   VectorXd factors(std::deque<Step>& steps, const VectorXd& scaled_residual) {
     constexpr double new_part = 0.02;
-    const VectorXd wanted = columns_.transpose() * scaled_residual;
     MatrixXd lower(std::ssize(places_), std::ssize(places_));  // Cholesky's, of the products
     VectorXd along(std::ssize(places_));
     Eigen::Index used = 0;
@@ -108,7 +110,8 @@ class StepFit {
         continue;
       }
       const double pivot = std::sqrt(rest);
-      along[used] = (wanted[places_[i]] - row.dot(along.head(used))) / pivot;
+      const double wanted = columns_.col(places_[i]).dot(scaled_residual);
+      along[used] = (wanted - row.dot(along.head(used))) / pivot;
       lower.row(used).head(used) = row.transpose();
       lower(used, used) = pivot;
       ++used, ++i;
@@ -118,7 +121,7 @@ class StepFit {
   }
 
  private:
-  MatrixXd columns_;                 ///< the steps' residuals
+  MatrixXd columns_;                 ///< the steps' residuals; those of none are anything
   MatrixXd products_;                ///< of columns
   std::deque<Eigen::Index> places_;  ///< the column of each step
   std::vector<Eigen::Index> free_;   ///< columns of none
