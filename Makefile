@@ -128,7 +128,8 @@ scenes: perifrac
 	@/usr/bin/python3 docs/collect_scenes.py $(PERIFRAC) $(FRESH)
 
 experiments: perifrac
-	@/usr/bin/python3 -B tests/verification/experiments.py $(PERIFRAC) --page
+	@/usr/bin/python3 -B tests/verification/experiments/rubin_1983.py $(PERIFRAC) --page
+	@/usr/bin/python3 -B tests/verification/experiments/wu_2008.py $(PERIFRAC) --page
 
 # Twelve scenes with pictures; some ten minutes. Goes on where it was stopped.
 gallery: perifrac

@@ -58,6 +58,8 @@ SMALL = {
     "sliding_crack": {"body.spacing": 0.004},
     "two_fractures": {"time.end": 60.0},
     "well": {"time.end": 60.0},
+    "wu_2008": {"body.from": [0.0, -0.1, -0.15], "body.size": [0.125, 0.2, 0.25], "body.spacing": 0.0125,
+                "cracks[0].centre": [0.0, 0.0, 0.0], "cracks[0].radius": 0.03125, "time.end": 45.0},
 }
 
 
@@ -85,7 +87,8 @@ def places(scene):
     """Where answers are read, and where only how large they get."""
     body, blocks = scene.get("body"), scene.get("fluid", {}).get("blocks")
     if body and "size" in body:
-        low, high = [0.0] * len(body["size"]), body["size"]
+        low = body.get("from", [0.0] * len(body["size"]))
+        high = [a + size for a, size in zip(low, body["size"])]
     elif blocks and not body:
         low, high = blocks[0]["from"], blocks[0]["to"]
     else:

@@ -381,7 +381,7 @@ class EveryScene(unittest.TestCase):
         slow = sources_of_slow_tests()
         quick_text, slow_text = "", ""
         for kind in ("cpp", "hpp", "py"):
-            for path in glob.glob(os.path.join(ROOT, "tests", "verification", "*." + kind)) + \
+            for path in glob.glob(os.path.join(ROOT, "tests", "verification", "**", "*." + kind), recursive=True) + \
                     glob.glob(os.path.join(ROOT, "tests", "contract", "*." + kind)):
                 with open(path, encoding="utf-8") as file:
                     text = file.read()

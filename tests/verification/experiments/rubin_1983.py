@@ -1,25 +1,23 @@
 #!/usr/bin/python3
-"""Experiments beside the scenes that repeat them by published inputs, none of them fitted.
+"""Rubin's crack in PMMA (1983) beside the scene that repeats it by published inputs, none of them fitted.
 
-Usage: experiments.py PERIFRAC [--page]
+Usage: rubin_1983.py PERIFRAC [--page]
 
-Rubin (1983): the length is within 4 % rms from 19 s of the experiment's clock on, and the well's pressure off by at most
+The length is within 4 % rms from 19 s of the experiment's clock on, and the well's pressure off by at most
 0.4 MPa from 30 s on, by as much to 0.1 MPa. With --page, runs that change one input each, whose figures go into
 docs/experiments.md and docs/images/rubin_1983.svg.
 """
-import argparse
 import csv
-import os
 import re
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
+import experiment
 import numpy
 
-ROOT = Path(__file__).resolve().parents[2]
-SCENE = ROOT / "configs/rubin_1983.yaml"
+PERIFRAC = None
+SCENE = experiment.ROOT / "configs/rubin_1983.yaml"
 BEGIN, COMPARED, LATE = 3.7, 19.0, 30.0  # s, of the experiment's clock: pumping begins; lengths, gaps are compared
 # What each run changes; the pressure that presses on the block from outside is no part of what the gage reads.
 RUNS = {
@@ -49,12 +47,7 @@ class Run:
     """Length and pressure of a run at the times that were measured."""
 
     def __init__(self, perifrac, folder, keys):
-        settings = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
-        command = [perifrac, "run", SCENE, *settings, "--no-report", "--output", folder]
-        subprocess.run(command, check=True, capture_output=True)
-        with open(folder / "history.csv", encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-        column = {name.split(" [")[0]: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
+        column = experiment.run(perifrac, SCENE, folder, keys)
         time, length, pressure = measured().T
         outside = re.search(r", ([0-9.]+) MPa\]", keys.get("solid.confining_stress", ", 0 MPa]"))
         self.clock = time + BEGIN
@@ -89,21 +82,12 @@ def write_page():
         gaps = ", ".join(f"{1e-6 * run.gap[k]:.2f}" for k in at)
         lines.append(f"| {name} | {100 * run.rms():.1f} %, {100 * run.length_error.mean():+.1f} % "
                      f"| {1e3 * run.lag[at[2]]:.0f} | {gaps} |")  # fmt: skip
-    page = ROOT / "docs/experiments.md"
-    text = re.sub(r"(<!-- rubin -->\n).*?(<!-- end -->)", lambda found: found[1] + "\n".join(lines) + "\n" + found[2],
-                  page.read_text(encoding="utf-8"), flags=re.S)  # fmt: skip
-    page.write_text(text, encoding="utf-8")
+    experiment.write_table("rubin", lines)
     draw(base, runs["the air presses from outside, and the dry tip is empty"])
 
 
 def draw(base, air):
-    import matplotlib  # only the page needs it
-
-    matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "perifrac"
-    from matplotlib import pyplot
-
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.0, 3.4), layout="constrained")
+    figure, (left, right) = experiment.new_picture(2, (9.0, 3.4))
     _, length, pressure = measured().T
     for axis, name, unit, experiment, of in ((left, "half the crack's length [mm]", 1e3, length, "length"),
                                              (right, "pressure in the well [MPa]", 1e-6, pressure, "pressure")):
@@ -112,16 +96,8 @@ def draw(base, air):
         axis.plot(base.clock, unit * getattr(air, of), "--", color="#d95f02", label="air presses from outside")
         axis.set(xlabel="time [s]", ylabel=name, ylim=(0.0, None))
     right.legend(frameon=False)
-    figure.savefig(ROOT / "docs/images/rubin_1983.svg", metadata={"Date": None})
+    experiment.save(figure, "rubin_1983")
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("perifrac")
-    parser.add_argument("--page", action="store_true")
-    arguments = parser.parse_args()
-    PERIFRAC = os.path.abspath(arguments.perifrac)
-    if arguments.page:
-        write_page()
-    else:
-        unittest.main(argv=[__file__])
+    experiment.main(globals(), write_page)
