@@ -117,12 +117,12 @@ void look_for_room(int, char** arguments, char** environment) {
   ::munmap(place, room);
 }
 
-/// As every factorisation will, once libraries are there and nothing else is.
+/// As every factorisation will, once libraries are there and nothing else is. A factor on one
+/// thread takes a second buffer when it is first made.
 [[gnu::constructor]] void take_buffers() {
   if (openblas_set_num_threads == nullptr) return;
   const int threads = openblas_get_num_threads();
-  openblas_set_num_threads(1);
-  openblas_set_num_threads(threads);
+  for (const int taken : {1, std::max(2, threads), threads}) openblas_set_num_threads(taken);
 }
 
 [[gnu::section(".preinit_array"), gnu::used]] void (*const first_of_all)(int, char**,

@@ -33,6 +33,17 @@ class Memory(RunTest):
                     ended_well += done.returncode == 0
         self.assertGreater(ended_well, 0)
 
+    def test_no_room_for_the_second_buffer_of_one_thread(self):
+        """A larger scene has taken what is there when a factor is first made."""
+        keys = {"body.spacing": "2.5 mm", "time.end": "1 ms"}
+        for size in (380, 420):
+            with self.subTest(size=size):
+                done = perifrac("run", CONFIGS / "hf_storage.yaml", "--no-report", "--output", self.folder / "run",
+                                *settings(keys), env=os.environ | {"OMP_NUM_THREADS": "1"},
+                                **limited(resource.RLIMIT_AS, size * MEGABYTE))
+                self.assertIn(done.returncode, (0, 1, 2), done.stderr)
+                self.assertTrue(done.returncode == 0 or "memory" in done.stderr, done.stderr)
+
     def test_any_stack(self):
         """METIS calls itself."""
         crack = CONFIGS / "hf_storage.yaml"
