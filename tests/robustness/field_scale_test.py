@@ -68,7 +68,7 @@ class FieldScale(RunTest):
                     coarse, fine = (self.run_variant(text, stress, f"{name} {stress} {longest}",
                                                      coupling__window__largest=f"{longest} s") for longest in (5, 1))
                     self.assert_alike(coarse, fine, 0.01)
-                    # The part of that pressure that rock and fluid are left with is the small one.
+                    # A small difference of two large pressures: 1.1 to 3.5 % in six of the twelve pairs.
                     self.assert_alike(coarse, fine, 0.05, ("net",))
                     # Steps of growth leave the same energy open, at any depth: 0.074 MPa of what is pumped in.
                     self.assertLess(max(coarse["energy_error"], fine["energy_error"]) * min(stress), 0.11)
