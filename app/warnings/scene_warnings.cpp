@@ -16,6 +16,7 @@
 #include "app/warnings/meeting_tips_warning.hpp"
 #include "app/warnings/nucleus_warning.hpp"
 #include "app/warnings/short_leg_warning.hpp"
+#include "app/warnings/slanted_at_mirror_warning.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -150,6 +151,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (const auto warning = nucleus_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = meeting_tips_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = short_leg_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = slanted_at_mirror_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = crack_across_stress_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = inlet_room_warning(scene)) warnings.push_back(*warning);

@@ -193,6 +193,12 @@ class Validity(RunTest):
             warned = self.foreknown(CONFIGS / "kgd_toughness.yaml", keys)
             self.assertEqual(any("cracks[0] lies across the larger stress" in warning for warning in warned), warns, warned)
 
+    def test_a_crack_aslant_on_a_mirror(self):
+        for to, warns in (("10 mm, 445 mm", True), ("18 mm, 443 mm", False)):
+            keys = {"body.spacing": "5 mm", "cracks[0].path": f"[0 mm, 425 mm, {to}]"}
+            warned = self.foreknown(CONFIGS / "kgd_leakoff.yaml", keys)
+            self.assertEqual(any("to the left face, which solid.boundary mirrors" in warning for warning in warned), warns, warned)
+
     def test_cracks_that_begin_as_long_as_the_body(self):
         for strength, warns in (("0.5 MPa", True), ("0.65 MPa", False)):
             warned = self.foreknown(CONFIGS / "three_point_bending.yaml", {"damage.tensile_strength": strength})
