@@ -1,5 +1,6 @@
 """What a run answers, and how far two answers are apart."""
 import csv
+import math
 import re
 
 import numpy
@@ -77,7 +78,9 @@ def sizes_of(one, other, scene):
         for name, column in answer.columns.items():
             sizes[quantity(name)] = max(sizes.get(quantity(name), 0.0), largest(column))
     if "energy" in sizes:
-        sizes["energy"] = max(sizes["energy"], energy_of_height(one, scene))
+        # What the stress of the rock does by strains that are none.
+        rounding = NOTHING * sizes["effective_stress"] * math.prod(scene.get("body", {}).get("size", [0.0]))
+        sizes["energy"] = max(sizes["energy"], energy_of_height(one, scene), rounding)
     # Leak-off that has hardly begun is part of what cracks hold, and known as well as that.
     if "leak_off_volume" in sizes:
         sizes["leak_off_volume"] = max(sizes["leak_off_volume"], LITTLE * sizes.get("crack_volume", 0.0))

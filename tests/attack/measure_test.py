@@ -39,6 +39,12 @@ def main():
         runs = (history(energy_stored=[0.0, 1e3 + more], fluid_mass_stored=[1e3, 1e3]) for more in (0.0, difference))
         if (answers.farthest(*runs, FALLING)[0] > 0.05) != counts:
             wrong.append(f"{difference} J of water that falls: counts ought to be {counts}")
+    # A rock of 0.02 m^2 under 1 MPa: 20 kJ by a strain of 1.
+    rock = {"body": {"size": [0.1, 0.2]}}
+    for energy, counts in ((6e-17, False), (1e-7, True)):
+        runs = (history(energy_gained=[0.0, more], effective_stress_xx__size0=[-1e6, -1e6]) for more in (0.0, energy))
+        if (answers.farthest(*runs, rock)[0] > 0.05) != counts:
+            wrong.append(f"{energy} J of a rock under stress: counts ought to be {counts}")
     for leaked, counts in ((6e-10, False), (6e-7, True)):
         runs = (history(crack_volume=[0.0, 1e-6], leak_off_volume=[0.0, volume]) for volume in (1e-11, leaked))
         if (answers.farthest(*runs, {})[0] > 0.05) != counts:
