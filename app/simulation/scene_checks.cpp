@@ -97,6 +97,11 @@ const std::vector<Rule>& rules() {
          return is(scene, "crack_fluid.counts", "both") && !is_flat(scene);
        },
        "'both' in 3D", "one_wing: the rate of the part that the scene holds"},
+      {"crack_fluid.type",
+       [](const Section& scene) {
+         return is(scene, "crack_fluid.type", "uniform_pressure") && scene.has("gravity");
+       },
+       "'uniform_pressure' of fluid that gravity acts on", "network, or a scene without gravity"},
       {"crack_fluid.leak_off",
        [](const Section& scene) {
          return is(scene, "crack_fluid.leak_off", "pores") && !scene.has("pore_flow");

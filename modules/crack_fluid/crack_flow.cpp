@@ -7,8 +7,9 @@
 
 namespace perifrac {
 
-void CrackFlow::follow(CrackGraph graph) {
+void CrackFlow::follow(CrackGraph graph, Eigen::VectorXd height) {
   graph_ = std::move(graph);
+  height_ = std::move(height);
   const Index count = graph_.facet_count();
   for (Eigen::VectorXd* field :
        {&pressure_, &fill_, &opening_, &terms_, &aperture_, &capacity_, &residual_, &rounding_,
@@ -99,10 +100,11 @@ void CrackFlow::leak(LeakOff& leak_off) {
   by_pressure_.insert(by_pressure_.end(), leaked_.by_pressure.begin(), leaked_.by_pressure.end());
 }
 
-/// What comes in at every facet follows the pressures at all that the well feeds.
+/// What comes in at every facet follows the pressures at all that the well feeds, whose own
+/// pressure is that at the height of the first.
 void CrackFlow::take_from(WellFlow& well, double dt) {
-  well.follow(pressure_);
   const auto& openings = well.openings();
+  well.follow(pressure_ + (height_.array() - height_[openings.front().facet]).matrix());
   const double mass = liquid_.density * dt;
   for (std::size_t a = 0; a < openings.size(); ++a) {
     const Index f = openings[a].facet;

@@ -27,8 +27,9 @@ class CrackFlow {
   explicit CrackFlow(const CrackLiquid& liquid) : liquid_(liquid) {}
   virtual ~CrackFlow() = default;
 
-  /// Other facets: they are only added.
-  virtual void follow(CrackGraph graph);
+  /// Other facets: they are only added. `height`: what fluid gains by its height at the middle of
+  /// each, 0 without gravity [Pa].
+  virtual void follow(CrackGraph graph, Eigen::VectorXd height);
   const CrackGraph& graph() const { return graph_; }
 
   /// As if nothing flowed in cracks: residual = m(v) - m_before + leak - inflow of wells.
@@ -39,6 +40,7 @@ class CrackFlow {
   virtual bool knows_rates() const { return false; }
   /// From every facet's first end to its second [m^2/s].
   virtual std::vector<double> rates(std::span<const double> /*pressure*/,
+                                    std::span<const double> /*fill*/,
                                     std::span<const double> /*aperture*/) {
     return {};
   }
@@ -56,6 +58,7 @@ class CrackFlow {
   /// What flows to other facets over the step [kg/m].
   const Eigen::VectorXd& outflow() const { return outflow_; }
   bool is_full(Index f) const { return fill_[f] >= 1.0; }
+  double height(Index f) const { return height_[f]; }  ///< as in follow() [Pa]
   bool is_beside_full(Index f) const;
 
  protected:
@@ -65,6 +68,7 @@ class CrackFlow {
 
   CrackLiquid liquid_;
   CrackGraph graph_;
+  Eigen::VectorXd height_;  ///< as in follow()
 
   Eigen::VectorXd terms_;  ///< of the opening, their sizes added up: what it is rounded off by [m]
   Eigen::VectorXd pressure_, fill_, opening_, face_pressure_, aperture_, capacity_;

@@ -23,13 +23,22 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 
 }  // namespace
 
+template <int D>
+Eigen::VectorXd CrackFluid<D>::heights() const {
+  const PointSet& facets = body_->bond_state().facet_points();
+  Eigen::VectorXd height(static_cast<Eigen::Index>(facets.count));
+  for (std::size_t f = 0; f < facets.count; ++f)
+    height[static_cast<Eigen::Index>(f)] = weight_.at(vector_at<D>(facets.position, f));
+  return height;
+}
+
 /// Facets are only added; what is new is dry.
 template <int D>
 void CrackFluid<D>::match_facets() {
   const BondState<D>& bonds = body_->bond_state();
   if (version_ != bonds.facet_points().version) {
     version_ = bonds.facet_points().version;
-    flow_->follow(CrackGraph(bonds.facets()));
+    flow_->follow(CrackGraph(bonds.facets()), heights());
     inlets_.locate(bonds.facet_points(), flow_->graph());
     if (outlets_) outlets_->match(flow_->graph());
   }
@@ -85,7 +94,7 @@ void CrackFluid<D>::fill_at_start(const TimeWindow& window) {
     if (!liquid_.is_full(facets_.unknown[f])) continue;
     facets_.mass[f] = flow_->residual()[f];
     books_.injected.add(facets_.mass[f]);
-    books_.work.add(facets_.mass[f] * liquid_.internal_energy(facets_.unknown[f]));
+    books_.work.add(facets_.mass[f] * (liquid_.internal_energy(facets_.unknown[f]) + height_of(f)));
   }
   facets_.settled = facets_.unknown;
 }
@@ -145,8 +154,8 @@ bool CrackFluid<D>::step(const TimeWindow& time, const TimeWindow& window) {
     report = flow_->solve(step, v);
   } catch (const NoContact&) {
   }
-  iterations_ += report.iterations;
-  ++steps_;
+  work_.iterations += report.iterations;
+  ++work_.steps;
   if (report.converged) {
     book(v);
     inlets_.wells().accept();
@@ -187,8 +196,8 @@ void CrackFluid<D>::book(const Eigen::VectorXd& v) {
     if (!mouths_.book(static_cast<Index>(f), inflow, inlets_)) books_.injected.add(inflow);
     books_.leaked.add(-leaked);
     const double brought = enthalpy * (is_sink ? inflow - leaked : inflow);
-    books_.work.add(brought);
-    books_.dissipation.add(brought - received);
+    books_.work.add(brought + height_of(f) * (inflow - leaked));
+    books_.dissipation.add(brought - received + height_of(f) * outflow);
     facets_.unknown[f] = v[f];
     facets_.aperture[f] = flow_->aperture()[f];
   }

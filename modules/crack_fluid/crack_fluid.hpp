@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/body/body.hpp"
+#include "core/body/fluid_weight.hpp"
 #include "core/module/physics_module.hpp"
 #include "core/module/port_table.hpp"
 #include "modules/crack_fluid/crack_books.hpp"
@@ -37,13 +37,14 @@ struct CrackFilling {
 /// crack, 1 unless somebody says; out `crack_pressure` [Pa], `crack_fluid_mass` [kg/m],
 /// `crack_wetted_fraction`, where rates are known `crack_flow_rate` [m^2/s] from a facet's first
 /// end to its second, the properties `crack_viscosity` [Pa s] and, by Carter's law,
-/// `crack_leak_off` [m/s^0.5], 0 where less than half a facet is wet. On its own: `wetted_length`
-/// and `fluid_lag` [m], `crack_volume` [m^2], `mean_crack_pressure` [Pa] (crack_extent.hpp),
-/// `inlet_<name>_pressure` [Pa], `inlet_<name>_opening` [m], of clusters of a well also
-/// `inlet_<name>_rate` [m^2/s], and `well_<name>_pressure` [Pa], with leak-off `leak_off_volume`
-/// [m^2] at zero pressure, since the start, and `leak_off_rate` [m^2/s], the mean of the last
-/// window; for the ledger `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with leak-off
-/// `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
+/// `crack_leak_off` [m/s^0.5], 0 where less than half a facet is wet, and under gravity
+/// `crack_fluid_weight` [Pa], the pressure of fluid at rest, 0 at the body's top. On its own:
+/// `wetted_length` and `fluid_lag` [m], `crack_volume` [m^2], `mean_crack_pressure` [Pa]
+/// (crack_extent.hpp), `inlet_<name>_pressure` [Pa], `inlet_<name>_opening` [m], of clusters of a
+/// well also `inlet_<name>_rate` [m^2/s], and `well_<name>_pressure` [Pa], with leak-off
+/// `leak_off_volume` [m^2] at zero pressure, since the start, and `leak_off_rate` [m^2/s], the mean
+/// of the last window; for the ledger `crack_fluid_stored_mass`, `injected_crack_fluid_mass`, with
+/// leak-off `leaked_crack_fluid_mass` (negative, of Carter's) [kg/m], `crack_fluid_energy`,
 /// `crack_fluid_work`, `crack_flow_dissipation` [J/m]; counts of work. With leak-off into pores, on
 /// the body's points: in `pore_pressure` [Pa], takes rate and a slope against `exchanged_mass`,
 /// `pore_mobility` [m^2/(Pa s)]; out `exchanged_mass` [kg/m]. With inlets from free fluid, on their
@@ -55,10 +56,11 @@ template <int D>
 class CrackFluid final : public PhysicsModule {
  public:
   /// `leak_off` and `outlets` may be null; without these a crack that grows to a face stays closed.
+  /// `gravity`: an acceleration [m/s^2].
   CrackFluid(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid,
              std::unique_ptr<CrackFlow> flow, CrackInlets inlets,
              std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off,
-             std::unique_ptr<CrackOutlets<D>> outlets = nullptr);
+             std::unique_ptr<CrackOutlets<D>> outlets = nullptr, const Vector<D>& gravity = {});
 
   std::span<const Port> ports() const override { return ports_.list(); }
   PortView port(PortId id) override;
@@ -77,6 +79,7 @@ class CrackFluid final : public PhysicsModule {
   void make_mass_ports();
   void make_exchange_ports();
   void make_energy_ports();
+  Eigen::VectorXd heights() const;
   void match_facets();
   void fill_at_start(const TimeWindow& window);
   bool step(const TimeWindow& time, const TimeWindow& window);
@@ -87,10 +90,15 @@ class CrackFluid final : public PhysicsModule {
     return crack_extent(flow_->graph(), liquid_, facets_.unknown, facets_.aperture, part_);
   }
   double stored_mass() const;
+  /// What fluid gains by its height at a facet [J/kg].
+  double height_of(std::size_t f) const {
+    return flow_->height(static_cast<Index>(f)) / liquid_.density;
+  }
   double leak_off_volume() const { return -books_.leaked.value() / liquid_.density; }  ///< [m^2]
 
   std::shared_ptr<const Body<D>> body_;
   CrackLiquid liquid_;
+  FluidWeight<D> weight_;
   std::unique_ptr<CrackFlow> flow_;
   CrackInlets inlets_;
   CrackMouths mouths_;
@@ -99,8 +107,9 @@ class CrackFluid final : public PhysicsModule {
   std::unique_ptr<CrackOutlets<D>> outlets_;
   PoreLeakOff<D>* pores_;  ///< which is the leak-off, or null
   PortTable ports_;
-  std::int64_t steps_ = 0;       ///< in this process
-  std::int64_t iterations_ = 0;  ///< likewise
+  struct {
+    std::int64_t steps = 0, iterations = 0;
+  } work_;  ///< in this process
 
   std::uint64_t version_ = 0;  ///< of the facets that the graph is made of
   FacetFluid facets_;

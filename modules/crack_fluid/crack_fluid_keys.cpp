@@ -73,7 +73,7 @@ std::unique_ptr<LeakOff> read_leak_off(const Section& section, std::shared_ptr<c
   if (word == "none") return nullptr;
   if (word == "pores") {
     return std::make_unique<PoreLeakOff<D>>(std::move(body), liquid.density, liquid.vapour_pressure,
-                                            std::move(sealed));
+                                            std::move(sealed), read_gravity<D>(section));
   }
   return std::make_unique<CarterLeakOff<D>>(read_leak_off_coefficient(section, *body),
                                             section.number("density"), std::move(sealed));
@@ -112,9 +112,9 @@ std::unique_ptr<PhysicsModule> make_crack_fluid(const Section& section,
     outlets = std::make_unique<CrackOutlets<D>>(body, read_behind_faces<D>(section.scene(), *body));
   });
   mistakes.throw_if_any();
-  return std::make_unique<CrackFluid<D>>(std::move(body), liquid, std::move(flow),
-                                         std::move(*inlets), std::move(fillings),
-                                         std::move(leak_off), std::move(outlets));
+  return std::make_unique<CrackFluid<D>>(
+      std::move(body), liquid, std::move(flow), std::move(*inlets), std::move(fillings),
+      std::move(leak_off), std::move(outlets), read_gravity<D>(section));
 }
 
 template std::unique_ptr<PhysicsModule> make_crack_fluid<2>(const Section&,

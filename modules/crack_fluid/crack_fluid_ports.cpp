@@ -19,9 +19,10 @@ template <int D>
 CrackFluid<D>::CrackFluid(std::shared_ptr<const Body<D>> body, const CrackLiquid& liquid,
                           std::unique_ptr<CrackFlow> flow, CrackInlets inlets,
                           std::vector<CrackFilling<D>> fillings, std::unique_ptr<LeakOff> leak_off,
-                          std::unique_ptr<CrackOutlets<D>> outlets)
+                          std::unique_ptr<CrackOutlets<D>> outlets, const Vector<D>& gravity)
     : body_(std::move(body)),
       liquid_(liquid),
+      weight_(*body_, gravity, liquid.density),
       flow_(std::move(flow)),
       inlets_(std::move(inlets)),
       mouths_(inlets_),
@@ -41,9 +42,9 @@ void CrackFluid<D>::make_ports() {
   make_exchange_ports();
   make_energy_ports();
   ports_.total(work_port("crack_flow_steps"), whole_crack,
-               [this] { return static_cast<double>(steps_); });
+               [this] { return static_cast<double>(work_.steps); });
   ports_.total(work_port("crack_newton_iterations"), whole_crack,
-               [this] { return static_cast<double>(iterations_); });
+               [this] { return static_cast<double>(work_.iterations); });
 }
 
 template <int D>
@@ -91,6 +92,10 @@ void CrackFluid<D>::make_facet_ports() {
   }
   each(property("crack_viscosity", "Pa s"),
        [this, if_wet](std::size_t f) { return if_wet(f, liquid_.viscosity); });
+  if (weight_.per_volume() != Vector<D>{}) {
+    each(property("crack_fluid_weight", "Pa"),
+         [this](std::size_t f) { return -flow_->height(static_cast<Index>(f)); });
+  }
   if (!leak_off_ || !leak_off_->is_sink()) return;
   each(property("crack_leak_off", "m/s^0.5"), [this, if_wet](std::size_t f) {
     return if_wet(f, leak_off_->coefficient(static_cast<Index>(f)));
@@ -203,7 +208,7 @@ void CrackFluid<D>::make_energy_ports() {
                  CompensatedSum sum;
                  for (std::size_t f = 0; f < facets_.count(); ++f) {
                    const double pressure = liquid_.pressure(facets_.unknown[f]);
-                   sum.add(facets_.mass[f] * liquid_.internal_energy(pressure));
+                   sum.add(facets_.mass[f] * (liquid_.internal_energy(pressure) + height_of(f)));
                  }
                  return sum.value();
                });
@@ -219,7 +224,7 @@ std::vector<double> CrackFluid<D>::flow_rate() {
   for (std::size_t f = 0; f < pressure.size(); ++f) {
     pressure[f] = liquid_.pressure(facets_.unknown[f]);
   }
-  return flow_->rates(pressure, facets_.aperture);
+  return flow_->rates(pressure, facets_.fill(liquid_), facets_.aperture);
 }
 
 /// What has been booked is exact as long as it is there. What pressures and apertures hold is known

@@ -32,12 +32,13 @@ double weight_of(const Family<D>& family, Index i, Index j) {
 
 template <int D>
 PoreLeakOff<D>::PoreLeakOff(std::shared_ptr<const Body<D>> body, double density,
-                            double vapour_pressure, SealedWalls<D> sealed)
+                            double vapour_pressure, SealedWalls<D> sealed, const Vector<D>& gravity)
     : body_(std::move(body)),
       family_(body_->family(0)),
       density_(density),
       vapour_pressure_(vapour_pressure),
       sealed_(std::move(sealed)),
+      weight_(*body_, gravity, density),
       received_(body_->points().size()) {
   // Where nobody writes them, the pores are empty and closed.
   for (auto* input : {&pressure_.value, &pressure_.rate, &pressure_.slope, &mobility_}) {
@@ -61,11 +62,11 @@ void PoreLeakOff<D>::match(const PointSet& facets, const CrackGraph&) {
   if (version_ == bonds.version()) return;
   version_ = bonds.version();
   sealed_.match(facets);
-  find_contacts(bonds);
+  find_contacts(bonds, facets);
 }
 
 template <int D>
-void PoreLeakOff<D>::find_contacts(const BondState<D>& bonds) {
+void PoreLeakOff<D>::find_contacts(const BondState<D>& bonds, const PointSet& facets) {
   std::map<std::pair<Index, Index>, double> factors;  // by facet and point
   for (const auto& [i, j, facet] : bonds.broken()) {
     if (facet == no_facet || sealed_.contain(facet)) continue;
@@ -79,8 +80,11 @@ void PoreLeakOff<D>::find_contacts(const BondState<D>& bonds) {
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   contacts_.clear();
   for (const auto& [key, factor] : factors) {
-    const auto place = std::ranges::lower_bound(touched_, key.second) - touched_.begin();
-    contacts_.push_back({key.first, static_cast<Index>(place), factor});
+    const auto& [facet, point] = key;
+    const auto place = std::ranges::lower_bound(touched_, point) - touched_.begin();
+    const double lower =
+        weight_.at(vector_at<D>(facets.position, facet)) - weight_.at(body_->points().at(point));
+    contacts_.push_back({facet, static_cast<Index>(place), factor, lower});
   }
   std::ranges::stable_sort(contacts_, {}, &Contact::touched);
   for (auto* field : {&base_, &base_before_, &sum_, &mean_}) field->resize(touched_.size());
@@ -111,12 +115,12 @@ void PoreLeakOff<D>::evaluate(const Eigen::VectorXd& pressure, const Eigen::Vect
   std::ranges::fill(sum_, 0.0);
   std::ranges::fill(mean_, 0.0);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const auto& [f, n, factor] = contacts_[k];
+    const auto& [f, n, factor, lower] = contacts_[k];
     conductance_[k] = length * density_ * mobility_[touched_[n]] * factor * part(f);
     // Pores under less than any facet take from a facet what there is.
     if (base_[n] < vapour_pressure_) conductance_[k] *= fill[f];
     sum_[n] += conductance_[k];
-    mean_[n] += conductance_[k] * pressure[f];
+    mean_[n] += conductance_[k] * (pressure[f] + lower);
   }
   for (std::size_t n = 0; n < touched_.size(); ++n) {
     const double slope = pressure_.slope[touched_[n]];
@@ -125,8 +129,8 @@ void PoreLeakOff<D>::evaluate(const Eigen::VectorXd& pressure, const Eigen::Vect
   leaked.mass.setZero();
   leaked.by_fill.setZero();
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const auto& [f, n, factor] = contacts_[k];
-    flux_[k] = conductance_[k] * (pressure[f] - mean_[n]);
+    const auto& [f, n, factor, lower] = contacts_[k];
+    flux_[k] = conductance_[k] * (pressure[f] + lower - mean_[n]);
     leaked.mass[f] += flux_[k];
     if (base_[n] < vapour_pressure_ && fill[f] > 0.0) leaked.by_fill[f] += flux_[k] / fill[f];
     leaked.by_pressure.emplace_back(f, f, conductance_[k]);

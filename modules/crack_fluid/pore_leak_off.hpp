@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/body/body.hpp"
+#include "core/body/fluid_weight.hpp"
 #include "core/module/port.hpp"
 #include "modules/crack_fluid/leak_off.hpp"
 #include "modules/crack_fluid/sealed_walls.hpp"
@@ -17,13 +17,14 @@ namespace perifrac {
 /// 2.5 spacings; 0.10 of 4). Twice that, for half the way, would be exact if pressure fell linearly
 /// on one side to the image of the other; beside families that are cut, the pressure then acts 0.4
 /// (0.7) spacings within the rock. A facet that is not full gives none.
+/// Under gravity p_f is that of the facet's fluid at rest at the height of the point.
 /// The pores' pressure answers what they get at once, p_i = b_i + s_i sum J_i, as the port
 /// `pore_pressure` says: a lagged one would be an explicit step of diffusion.
 template <int D>
 class PoreLeakOff final : public LeakOff {
  public:
   PoreLeakOff(std::shared_ptr<const Body<D>> body, double density, double vapour_pressure,
-              SealedWalls<D> sealed = SealedWalls<D>());
+              SealedWalls<D> sealed = SealedWalls<D>(), const Vector<D>& gravity = {});
 
   bool is_sink() const override { return false; }
   void match(const PointSet& facets, const CrackGraph& graph) override;
@@ -44,9 +45,10 @@ class PoreLeakOff final : public LeakOff {
     Index facet;
     Index touched;  ///< the point's place in touched_
     double factor;  ///< omega 4d / (m_i + m_j) V_i V_j, summed
+    double lower;   ///< what fluid at rest has more at the point than at the facet [Pa]
   };
 
-  void find_contacts(const BondState<D>& bonds);
+  void find_contacts(const BondState<D>& bonds, const PointSet& facets);
   void differentiate(LeakedFluid& leaked) const;
 
   std::shared_ptr<const Body<D>> body_;
@@ -54,6 +56,7 @@ class PoreLeakOff final : public LeakOff {
   double density_;
   double vapour_pressure_;
   SealedWalls<D> sealed_;
+  FluidWeight<D> weight_;
   std::uint64_t version_ = 0;      ///< of the bonds that the contacts are made of
   std::vector<Contact> contacts_;  ///< sorted by point
   std::vector<Index> touched_;     ///< points with contacts

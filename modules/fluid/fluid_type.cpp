@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/body/fluid_weight.hpp"
 #include "modules/fluid/as_published/one_sided_wall_force.hpp"
 #include "modules/fluid/as_published/paper_exchange.hpp"
 #include "modules/fluid/as_published/smoothed_exchange.hpp"
@@ -100,8 +101,7 @@ std::unique_ptr<PhysicsModule> make_fluid(const FluidMethodType& type, const Sec
                      .shifting = section.number("particle_shifting"),
                      .courant = section.number("courant")};
   auto method = std::get<FluidMethodType::Maker<D>>(type.make)(scheme);
-  Vector<D> gravity{};
-  if (scene.has("gravity")) std::ranges::copy(scene.numbers("gravity"), gravity.begin());
+  const Vector<D> gravity = read_gravity<D>(section);
   check_fluid_scene(section, body.get(), fluid, spacing);
   FluidPoints<D> points = read_fluid_blocks<D>(section, fluid, spacing, gravity);
   const bool body_slips = body && scene.word("interface.slip") == "free";

@@ -15,10 +15,10 @@ namespace perifrac {
 /// CrackTips says so, at the end of a step.
 ///
 /// Ports: those of DynamicSolid, without breaking; and on the facets of the cracks (`crack`): in
-/// `crack_pressure` [Pa], `crack_viscosity` [Pa s], `crack_leak_off` [m/s^0.5]; out `crack_opening`
-/// [m], which it foretells over a step, with its slope d(opening)/d(crack_pressure), a matrix.
-/// `damage` of the points (paper Eq 16), `crack_length` [m] and `fracture_energy` [J/m], what
-/// growth took.
+/// `crack_pressure` [Pa], `crack_viscosity` [Pa s], `crack_leak_off` [m/s^0.5],
+/// `crack_fluid_weight` [Pa]; out `crack_opening` [m], which it foretells over a step, with its
+/// slope d(opening)/d(crack_pressure), a matrix. `damage` of the points (paper Eq 16),
+/// `crack_length` [m] and `fracture_energy` [J/m], what growth took.
 class DynamicFracture final : public DynamicSolid<2> {
  public:
   /// As DynamicSolid and CutBody. `fracture_energy` infinite: no crack grows.

@@ -25,19 +25,18 @@ namespace perifrac {
 ///
 /// Ports: those of QuasiStaticSolid; and on the facets of the cracks (`crack`): in `crack_pressure`
 /// [Pa], `crack_viscosity` [Pa s] and Carter's `crack_leak_off` [m/s^0.5], of the fluid at the
-/// facet, 0 where it is dry; out `crack_opening` [m], and the property `free_crack_opening` [m],
-/// what it would be if closed faces did not press on each other (negative: they pass through one
-/// another), with its slope against crack_pressure, a matrix. `damage` of the points (paper Eq 16),
-/// `crack_length` [m], of it `open_crack_length` where faces are apart, in 3D `crack_area` and
-/// `open_crack_area` [m^2], and `fracture_energy` [J], what new faces took, in 2D per metre.
-/// `radiated_energy` [J/m] is what growth in 2D sets free beyond that: where no fluid is in the
-/// cracks, unstable growth, by J; a body with inertia would move by it. Beside fluid what viscosity
-/// takes ahead of the last whole facet, where tips move within them: then the property `crack_part`
-/// is how much of a facet is crack.
-/// Where a crack begins by itself or ends, at a face or another crack, that is what the balance of
-/// energy says. With friction between
-/// faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip of all facets, counted
-/// positive, times their length.
+/// facet, 0 where it is dry, and its `crack_fluid_weight` [Pa]; out `crack_opening` [m], and the
+/// property `free_crack_opening` [m], what it would be if closed faces did not press on each other
+/// (negative: they pass through one another), with its slope against crack_pressure, a matrix.
+/// `damage` of the points (paper Eq 16), `crack_length` [m], of it `open_crack_length` where faces
+/// are apart, in 3D `crack_area` and `open_crack_area` [m^2], and `fracture_energy` [J], what new
+/// faces took, in 2D per metre. `radiated_energy` [J/m] is what growth in 2D sets free beyond that:
+/// where no fluid is in the cracks, unstable growth, by J; a body with inertia would move by it.
+/// Beside fluid what viscosity takes ahead of the last whole facet, where tips move within them:
+/// then the property `crack_part` is how much of a facet is crack. Where a crack begins by itself
+/// or ends, at a face or another crack, that is what the balance of energy says. With friction
+/// between faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip of all facets,
+/// counted positive, times their length.
 template <int D>
 class FracturingSolid final : public PhysicsModule {
  public:

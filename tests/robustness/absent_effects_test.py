@@ -72,7 +72,8 @@ NETWORK = {**{f"crack_fluid/{name}": FACETS
            "crack_fluid/crack_has_begun": 1, **{f"crack_fluid/{name}": 1 for name in TOTALS},
            **{f"crack_fluid/{name}_lost": 1 for name in TOTALS},
            **link("solid.free_crack_opening.crack_fluid", FACETS, slope=True, lagged=True),
-           **link("crack_fluid.crack_pressure.solid", FACETS), **link("crack_fluid.crack_viscosity.solid", FACETS)}
+           **link("crack_fluid.crack_pressure.solid", FACETS), **link("crack_fluid.crack_viscosity.solid", FACETS),
+           **link("crack_fluid.crack_fluid_weight.solid", FACETS)}  # both chains have gravity
 # When the next facet is due beside pores, where tips do not move within facets.
 FORESEEN = {"solid/growth_interval": 1, "solid/readiness_rate": 1}
 LEAK_OFF = {"crack_fluid/leak_off_rate": 1, **exchange("crack_fluid")}

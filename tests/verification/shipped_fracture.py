@@ -229,6 +229,34 @@ class ShippedFracture(unittest.TestCase):
             self.assertGreater(len(ratios), 3)
             self.assertAlmostEqual(sum(ratios) / len(ratios), mean, delta=0.01, msg=kind)
 
+    def test_weight_of_fluid(self):
+        """Fluid of 9.81 kPa a metre in rock of 13.81 opens a crack, and drives it upwards, as fluid without weight in
+        rock of 4; the pressure that it has more is its weight's. It is as stiff here as it takes not to be compressed."""
+        still = {"crack_fluid.bulk_modulus": "2.2 TPa", "output.probes": "[{name: up, at: [100 m, 94 m]}]"}
+        without = Run(os.path.join(HERE, "stress_gradient.yaml"),
+                      still | {"solid.stress_gradient": "[4 kPa/m, 22.563 kPa/m]"})
+        beside = Run(os.path.join(HERE, "stress_gradient.yaml"),
+                     still | {"solid.stress_gradient": "[13.81 kPa/m, 22.563 kPa/m]", "solid.density": "2300 kg/m^3",
+                              "gravity": "[0 m/s^2, -9.81 m/s^2]"})
+        self.assertGreater(without.last("crack_length"), 40.0)
+        for name in ("crack_length", "crack_volume", "inlet_well_opening", "crack_opening at up", "fracture_energy"):
+            self.assertAlmostEqual(beside.last(name) / without.last(name), 1.0, delta=1e-6, msg=name)
+        more = beside.last("crack_pressure at up") - without.last("crack_pressure at up")
+        self.assertAlmostEqual(more, 9810.0 * (100.0 - 94.0), delta=1e-4 * 30e6)
+        self.assertLess(abs(beside.last("energy_error")), 1e-9)
+
+    def test_falling_fluid(self):
+        """A gram a metre, 20 mm high, falls by 20 mm at w^2 rho g / (12 mu) = 2.083 mm/s: its height goes into the
+        flow."""
+        run = Run(os.path.join(HERE, "falling_fluid.yaml"), {})
+        falling = [row for row in run.rows if 3.5 < row["time"] < 4.5][0]
+        self.assertAlmostEqual(falling["crack_flow_rate at midst"] / (-50e-6 * 2.0833e-3), 1.0, delta=1e-3)
+        self.assertAlmostEqual(falling["energy_dissipated"] / (1e-3 * 10.0 * 2.0833e-3 * falling["time"]), 1.0, delta=1e-3)
+        self.assertAlmostEqual(run.last("energy_dissipated"), 1e-3 * 10.0 * 0.020, delta=4e-12)  # 2.8e-12
+        self.assertAlmostEqual(run.last("crack_pressure at low"), 1e4 * 0.019, delta=1e-6)
+        self.assertLess(abs(run.last("crack_flow_rate at midst")), 1e-15)
+        self.assertLess(abs(run.last("energy_error")), 1e-12)
+
     def test_rock_at_rest(self):
         """Under the stress of its weight and the water's nothing moves, and what the rock bears is the total stress
         less alpha times the water's pressure."""

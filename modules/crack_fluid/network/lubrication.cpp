@@ -14,8 +14,10 @@ constexpr double smallest_pressure = 5e-7;
 
 }  // namespace
 
-Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph) : CrackFlow(liquid) {
-  follow(std::move(graph));
+Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph, Eigen::VectorXd height)
+    : CrackFlow(liquid) {
+  if (height.size() == 0) height.setZero(graph.facet_count());
+  follow(std::move(graph), std::move(height));
 }
 
 void Lubrication::evaluate(const CrackStep& step, const Eigen::VectorXd& v) {
@@ -23,6 +25,7 @@ void Lubrication::evaluate(const CrackStep& step, const Eigen::VectorXd& v) {
   opening_slope_ = closed_.empty() ? Eigen::MatrixXd(step.opening.slope)
                                    : response_with_held(step.opening.slope, closed_);
   flow_by_aperture_.clear();
+  flow_by_fill_.clear();
   if (step.time.length() > 0.0) flow(step.time.length());
   residual_ += outflow_;
   let_in(step, v);
@@ -30,12 +33,13 @@ void Lubrication::evaluate(const CrackStep& step, const Eigen::VectorXd& v) {
 
 /// Per metre.
 std::vector<double> Lubrication::rates(std::span<const double> pressure,
+                                       std::span<const double> fill,
                                        std::span<const double> aperture) {
   std::vector<double> rate(pressure.size(), 0.0);
   const auto leaves = [&](const CrackGraph::Branch& at, double flux) {
     rate[at.facet] += (at.side == 1 ? 0.5 : -0.5) * flux / liquid_.density;
   };
-  for_each_flux(pressure, aperture,
+  for_each_flux(pressure, fill, aperture,
                 [&](const CrackGraph::Branch& a, const CrackGraph::Branch& b, double flux) {
                   leaves(a, flux);
                   leaves(b, -flux);
@@ -44,9 +48,10 @@ std::vector<double> Lubrication::rates(std::span<const double> pressure,
 }
 
 void Lubrication::flow(double dt) {
-  const std::span pressure(pressure_.data(), pressure_.size());
+  const std::span<const double> pressure = pressures();
+  const std::span fill(fill_.data(), fill_.size());
   const std::span aperture(aperture_.data(), aperture_.size());
-  for_each_flux(pressure, aperture,
+  for_each_flux(pressure, fill, aperture,
                 [&](const CrackGraph::Branch& a, const CrackGraph::Branch& b, double flux) {
                   // One number on both sides: the product in each sum anew, a fused multiply-add
                   // would round it for one and not for the other, and mass would get lost.
@@ -70,8 +75,8 @@ double Lubrication::rounding_of_fall(Index from, Index to) const {
     if (is_open(f)) wide = std::max(wide, terms_[f] / aperture_[f]);
   }
   const double from_pressure = pressure_[from], to_pressure = pressure_[to];
-  return std::abs(from_pressure) + std::abs(to_pressure) +
-         3.0 * wide * std::abs(from_pressure - to_pressure);
+  return std::abs(from_pressure) + std::abs(to_pressure) + std::abs(height_[from]) +
+         std::abs(height_[to]) + 3.0 * wide * std::abs(fall_between(pressures(), from, to));
 }
 
 void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt) {
@@ -82,15 +87,19 @@ void Lubrication::differentiate_joint(std::span<const CrackGraph::Branch> joint,
       // What leaves a for b; the other way round is the other term of the two loops.
       const Index from = joint[a].facet;
       const Index to = joint[b].facet;
-      const double fall = pressure_[from] - pressure_[to];
+      const double fall = fall_between(pressures(), from, to);
       const Index upstream = fall >= 0.0 ? from : to;
-      const double density = liquid_.density_at(pressure_[upstream]);
+      const double density = liquid_.density_at(pressure_[upstream]) * fill_[upstream];
       const double g = conductance[a] * conductance[b] / sum;
       rounding_[from] += dt * density * g * rounding_of_fall(from, to);
       by_pressure_.emplace_back(from, from, dt * density * g);
       by_pressure_.emplace_back(from, to, -dt * density * g);
       by_pressure_.emplace_back(from, upstream,
                                 dt * liquid_.density / liquid_.bulk_modulus * g * fall);
+      if (!is_full(upstream)) {
+        flow_by_fill_.emplace_back(from, upstream,
+                                   dt * liquid_.density_at(pressure_[upstream]) * g * fall);
+      }
       for (std::size_t m = 0; m < joint.size(); ++m) {
         double by_conductance = -g / sum;
         if (m == a) by_conductance += conductance[b] / sum;
@@ -139,6 +148,8 @@ Eigen::MatrixXd Lubrication::jacobian(const Eigen::VectorXd& v, Conductances con
     jacobian.col(f).setZero();
     jacobian(f, f) = by_fill_[f] / liquid_.bulk_modulus;
   }
+  for (const auto& slope : flow_by_fill_)
+    jacobian(slope.row(), slope.col()) += slope.value() / liquid_.bulk_modulus;
   for (const auto& [f, weight, stiffness] : held_) {
     jacobian.row(f) *= weight * stiffness;
     jacobian(f, f) += weight;

@@ -20,8 +20,8 @@ constexpr double least_held_pressure = 5e-7;
 
 }  // namespace
 
-void UniformPressure::follow(CrackGraph graph) {
-  CrackFlow::follow(std::move(graph));
+void UniformPressure::follow(CrackGraph graph, Eigen::VectorXd height) {
+  CrackFlow::follow(std::move(graph), std::move(height));
   const Index count = graph_.facet_count();
   crack_.assign(count, -1);
   first_.clear();

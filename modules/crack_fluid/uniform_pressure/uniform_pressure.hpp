@@ -19,7 +19,7 @@ class UniformPressure final : public CrackFlow {
  public:
   explicit UniformPressure(const CrackLiquid& liquid) : CrackFlow(liquid) {}
 
-  void follow(CrackGraph graph) override;
+  void follow(CrackGraph graph, Eigen::VectorXd height) override;
   /// Begins with the highest unknown of each crack; ends with the same one for all its facets.
   /// Throws FinalError where a crack is held at two pressures.
   FlowReport solve(const CrackStep& step, Eigen::VectorXd& v) override;

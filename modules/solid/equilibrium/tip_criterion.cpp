@@ -15,6 +15,7 @@ TipCriterion::TipCriterion(const Body<2>& body, CrackedEquilibrium<2>& equilibri
       tips_(tips),
       energy_release_(energy_release),
       jumps_(jumps),
+      fluid_weight_(equilibrium.state().fluid_weight),
       window_length_(window_length) {}
 
 TipLaw TipCriterion::law(const MovingTip& tip) const {
@@ -61,7 +62,8 @@ double TipCriterion::by_law(const MovingTip& tip, double part, int behind, doubl
   const TipLaw held = law(tip);
   CrackTip at = tip.end(equilibrium_.body());
   at.place = at.place - (1.0 - part) * body_.spacing() * at.direction;
-  const double open = opening - tips_.opening_by_layers(at, s, held, std::min(part, 1.0));
+  const double open =
+      opening - tips_.opening_by_layers(at, s, held, fluid_weight_, std::min(part, 1.0));
   return open / held.opening(within_crack(tip, s), s, fluid(tip), speed(tip, tip.search.trial()));
 }
 

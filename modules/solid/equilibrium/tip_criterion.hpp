@@ -43,6 +43,7 @@ class TipCriterion {
   const CrackTips& tips_;
   const EnergyRelease& energy_release_;
   std::span<const Vector<2>> jumps_;
+  std::span<const double> fluid_weight_;
   double window_length_;
 };
 

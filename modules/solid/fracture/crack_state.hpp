@@ -29,6 +29,9 @@ struct CrackState {
   std::span<const double> viscosity;
   /// Carter's coefficient of one side, likewise [m/s^0.5]; empty where nothing leaks by it.
   std::span<const double> leak_off;
+  /// What pressure fluid at rest has at every facet by its weight, up to a constant [Pa]; empty
+  /// where it has none.
+  std::span<const double> fluid_weight;
   /// Of all points [Pa]; empty where no pore flow is simulated.
   std::span<const double> pore_stress;
   /// All displacements, of which those named count: they are found when they are asked for.
@@ -57,6 +60,7 @@ CrackState<D> crack_state(
           pressure,
           fluid.viscosity(),
           fluid.leak_off(),
+          fluid.weight(),
           pore_stress,
           std::move(unknowns),
           std::move(jumps),

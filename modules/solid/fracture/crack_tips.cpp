@@ -193,7 +193,7 @@ TipModes CrackTips::followed_modes(Tip& tip, const TipLaw& tip_law, const CrackS
     open -= tip.even.opens * tip.even.modes.without_teeth(jump).sliding;
   }
   const double opening =
-      (open / tip.even.opening - opening_by_layers(at, s, tip_law)) /
+      (open / tip.even.opening - opening_by_layers(at, s, tip_law, state.fluid_weight)) /
       tip_law.opening(within_crack(tip, s), s + viscous_offset * body_.spacing(), fluid, speed) /
       beyond_mean(tip, state);
   // The ratio is that of the faces as far behind as a facet resolves, of fluid that is viscous too.
@@ -291,25 +291,30 @@ double CrackTips::lagging_readiness(Tip& tip, const TipLaw& tip_law,
 ///   w(s) = 4 / (pi E') int q ln|(sqrt s + sqrt s') / (sqrt s - sqrt s')| ds',
 ///   K_I = sqrt(8 / pi) int q / sqrt(4 s') ds'   [m].
 double CrackTips::opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law,
-                                    double part) const {
-  if (!cracked_.relief_varies()) return 0.0;
-  double there = cracked_.relief(at.facet)[0];
-  if (part < 1.0) there = part * there + (1.0 - part) * cracked_.relief(at.before)[0];
+                                    std::span<const double> fluid_weight, double part) const {
+  const auto facets = static_cast<Index>(cracked_.facets().size());
+  const bool has_weight = std::ssize(fluid_weight) == facets;
+  if (!cracked_.relief_varies() && !has_weight) return 0.0;
+  const auto load = [&](Index f) {
+    return cracked_.relief(f)[0] + (has_weight ? fluid_weight[f] : 0.0);
+  };
+  double there = load(at.facet);
+  if (part < 1.0) there = part * there + (1.0 - part) * load(at.before);
   const auto integral = [s](double t) {
     if (t == s) return -2.0 * s;
     const double a = std::sqrt(s), b = std::sqrt(t);
     return (t - s) * std::log(std::abs((a + b) / (a - b))) - 2.0 * a * b;
   };
   double sum = 0.0;
-  for (std::size_t f = 0; f < cracked_.facets().size(); ++f) {
+  for (Index f = 0; f < facets; ++f) {
     const CrackFacet<2>& facet = cracked_.facets()[f];
     const auto from_tip = [&](const Vector<2>& x) {
       return std::hypot(x[0] - at.place[0], x[1] - at.place[1]);
     };
-    const bool is_last = static_cast<Index>(f) == at.facet;
+    const bool is_last = f == at.facet;
     const double one = is_last ? 0.0 : from_tip(facet[0]);
     const double other = is_last ? part * cracked_.jumps()[f].area : from_tip(facet[1]);
-    const double more = cracked_.relief(static_cast<Index>(f))[0] - there;
+    const double more = load(f) - there;
     sum += more * (integral(std::max(one, other)) - integral(std::min(one, other)));
   }
   return 4.0 / (M_PI * tip_law.plane_strain_modulus) * sum;

@@ -53,9 +53,10 @@ class CrackTips {
                  double readiness) const;
   /// The facet would come close to an end of another crack's, where it is to end.
   bool joins(const CrackFacet<2>& facet, const CrackTip& tip, Vector<2>& end) const;
-  /// Beyond K_I's share, `s` behind a tip that has crossed `part` of its last facet [m].
+  /// Beyond K_I's share, `s` behind a tip that has crossed `part` of its last facet [m]: by stress
+  /// at rest that varies, and by the weight of fluid, as in CrackState.
   double opening_by_layers(const CrackTip& at, double s, const TipLaw& tip_law,
-                           double part = 1.0) const;
+                           std::span<const double> fluid_weight, double part = 1.0) const;
   /// The facets that hang together with this one.
   std::vector<Index> crack_of(Index facet) const;
 

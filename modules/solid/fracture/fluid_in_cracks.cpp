@@ -8,6 +8,8 @@ void FluidInCracks::add_ports(PortTable& ports) {
            viscosity_);
   add_port(ports, {.name = "crack_leak_off", .unit = "m/s^0.5", .role = PortRole::property},
            leak_off_);
+  add_port(ports, {.name = "crack_fluid_weight", .unit = "Pa", .role = PortRole::property},
+           weight_);
 }
 
 void FluidInCracks::add_port(PortTable& ports, Port port, Input& input) {

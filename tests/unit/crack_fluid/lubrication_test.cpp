@@ -76,13 +76,14 @@ TEST(Lubrication, FollowsTheCubicLawIn3D) {
   const CrackLiquid liquid{.density = 1000.0, .viscosity = 1e-3, .bulk_modulus = 1e18};
   Lubrication lubrication(liquid, CrackGraph(rectangles()));
   const double w = 5e-5, along_x = 3e6, along_z = -1e6;
-  std::vector<double> pressure, aperture(25, w);
+  std::vector<double> pressure;
+  const std::vector<double> aperture(25, w), full(25, 1.0);
   for (const auto& facet : rectangles()) {
     const Vector<3> at = middle<3>(facet);
     pressure.push_back(1e5 + along_x * at[0] + along_z * at[2]);
   }
   int counted = 0;
-  lubrication.for_each_flux(pressure, aperture, [&](const auto& a, const auto& b, double flux) {
+  const auto compare = [&](const auto& a, const auto& b, double flux) {
     const bool is_along_x = std::abs(a.facet - b.facet) == 5;
     const double rise = is_along_x ? along_x : along_z, width = is_along_x ? 1e-3 : 2e-3;
     const double towards = b.facet > a.facet ? -1.0 : 1.0;
@@ -90,8 +91,39 @@ TEST(Lubrication, FollowsTheCubicLawIn3D) {
         towards * liquid.density * w * w * w / (12.0 * liquid.viscosity) * rise * width;
     EXPECT_NEAR(flux, exact, 1e-10 * std::abs(exact));
     ++counted;
-  });
+  };
+  lubrication.for_each_flux(pressure, full, aperture, compare);
   EXPECT_EQ(counted, 40);
+}
+
+/// Fluid at rest is under its weight. Of what is half full half as much falls as of what is full,
+/// and at rest upon full facets it stays.
+TEST(Lubrication, FluidHasTheWeightThatGravityGivesIt) {
+  const CrackLiquid liquid{.density = 1000.0, .viscosity = 1e-3, .bulk_modulus = 1e18};
+  const double w = 5e-5, weight = 1e4, dx = 1e-3;
+  std::vector<CrackFacet<2>> facets;
+  for (int f = 0; f < 6; ++f) facets.push_back({{{0.0, f * dx}, {0.0, (f + 1) * dx}}});
+  Eigen::VectorXd height(6);
+  std::vector<double> at_rest, none(6, 0.0);
+  for (int f = 0; f < 6; ++f) {
+    height[f] = weight * (f + 0.5) * dx;
+    at_rest.push_back(1e5 - height[f]);
+  }
+  Lubrication lubrication(liquid, CrackGraph(facets), height);
+  const double falls = liquid.density * w * w * w / (12.0 * liquid.viscosity) * weight;
+  const auto largest_error = [&](std::span<const double> pressure, double fill, double exact) {
+    double error = 0.0;
+    const auto compare = [&](const auto& a, const auto& b, double flux) {
+      const double upwards = b.facet > a.facet ? flux : -flux;
+      error = std::max(error, std::abs(upwards + exact));
+    };
+    lubrication.for_each_flux(pressure, std::vector<double>(6, fill), std::vector<double>(6, w),
+                              compare);
+    return error;
+  };
+  EXPECT_LT(largest_error(at_rest, 1.0, 0.0), 1e-10 * falls);
+  EXPECT_LT(largest_error(none, 1.0, falls), 1e-12 * falls);
+  EXPECT_LT(largest_error(none, 0.5, 0.5 * falls), 1e-12 * falls);
 }
 
 /// A step with all there is: facets full, partly full and closed, a dense slope, inlets of all
@@ -102,14 +134,16 @@ struct AnyStep {
                      .bulk_modulus = 22e6,
                      .vapour_pressure = -2e4,
                      .residual_aperture = 1e-5};
-  Lubrication lubrication{liquid, fork()};
+  Lubrication lubrication;
   std::vector<double> value, rate, slope, mass;
   std::vector<FacetInflow> inflows{
       {0, -INFINITY, INFINITY, 3e5}, {8, 2e-4, 2e-4, 0.0}, {12, -3e-4, 0.0, -2e4}};
   CarterLeakOff<2> leak_off{ByRegion<2, double>{1e-4, {}}, 1000.0};
   Eigen::VectorXd v{15};
 
-  AnyStep() {
+  /// `weight` of the fluid along the first axis [Pa/m].
+  explicit AnyStep(double weight = 0.0)
+      : lubrication(liquid, fork(), Eigen::VectorXd::LinSpaced(15, 0.0, 14e-3 * weight)) {
     std::mt19937 bits(3);
     std::uniform_real_distribution<double> random(0.0, 1.0);
     for (int f = 0; f < 15; ++f) {
@@ -131,8 +165,11 @@ struct AnyStep {
   }
 };
 
-TEST(Lubrication, JacobianIsTheDerivativeOfTheResidual) {
-  AnyStep any;
+/// Without weight, and with one that drives fluid out of facets that are not full.
+class LubricationUnder : public testing::TestWithParam<double> {};
+
+TEST_P(LubricationUnder, JacobianIsTheDerivativeOfTheResidual) {
+  AnyStep any(GetParam());
   any.lubrication.evaluate(any.step(), any.v);
   const Eigen::MatrixXd jacobian = any.lubrication.jacobian(any.v);
   for (int g = 0; g < 15; ++g) {
@@ -149,13 +186,15 @@ TEST(Lubrication, JacobianIsTheDerivativeOfTheResidual) {
   }
 }
 
-TEST(Lubrication, WhatLeavesOneFacetEntersOthers) {
-  AnyStep any;
+TEST_P(LubricationUnder, WhatLeavesOneFacetEntersOthers) {
+  AnyStep any(GetParam());
   any.lubrication.evaluate(any.step(), any.v);
   EXPECT_GT(any.lubrication.outflow().cwiseAbs().sum(), 0.0);
   EXPECT_LT(std::abs(any.lubrication.outflow().sum()),
             1e-15 * any.lubrication.outflow().cwiseAbs().sum());
 }
+
+INSTANTIATE_TEST_SUITE_P(Weights, LubricationUnder, testing::Values(0.0, -3e8));
 
 TEST(Lubrication, OnlyFullFacetsGive) {
   AnyStep any;

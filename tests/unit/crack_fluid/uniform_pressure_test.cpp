@@ -299,7 +299,7 @@ struct RandomCracks {
       }
     }
     slope = stiffness.inverse();
-    flow.follow(CrackGraph(lines));
+    flow.follow(CrackGraph(lines), Eigen::VectorXd::Zero(facets));
     const double stress = 1e8 * std::pow(between(0.0, 1.0), 2.0);
     for (int f = 0; f < facets; ++f) value.push_back(-stress * slope.row(f).sum());
     rate.assign(facets, 0.0);
