@@ -13,10 +13,12 @@
 #include "app/simulation/place_reader.hpp"
 #include "app/warnings/crack_across_stress_warning.hpp"
 #include "app/warnings/inlet_room_warning.hpp"
+#include "app/warnings/light_solid_warning.hpp"
 #include "app/warnings/meeting_tips_warning.hpp"
 #include "app/warnings/nucleus_warning.hpp"
 #include "app/warnings/short_leg_warning.hpp"
 #include "app/warnings/slanted_at_mirror_warning.hpp"
+#include "app/warnings/stress_beyond_stiffness_warning.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -151,8 +153,10 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (const auto warning = nucleus_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = meeting_tips_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = short_leg_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = stress_beyond_stiffness_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = slanted_at_mirror_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = crack_across_stress_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = light_solid_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = inlet_room_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = border_warning(scene)) warnings.push_back(*warning);

@@ -104,7 +104,7 @@ double CrackFluid<D>::advance(const TimeWindow& window) {
   match_facets();
   if (facets_.count() == 0) return window.end;
   if (has_begun_ == 0) fill_at_start(window);
-  if (outlets_) outlets_->tell(window.begin);
+  if (outlets_) outlets_->tell(window.begin, inlets_.all());
   if (!face_work_.knows_all_of(*flow_)) {
     rest(window);
     face_work_.add_new(*flow_);

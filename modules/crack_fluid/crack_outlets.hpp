@@ -9,6 +9,7 @@
 #include "core/config/section.hpp"
 #include "core/time/schedule.hpp"
 #include "modules/crack_fluid/crack_graph.hpp"
+#include "modules/crack_fluid/crack_inlets.hpp"
 #include "modules/crack_fluid/crack_step.hpp"
 
 namespace perifrac {
@@ -35,8 +36,8 @@ class CrackOutlets {
   void start();
   /// Follows the facets.
   void match(const CrackGraph& graph);
-  /// Says in the log what was found since it last did.
-  void tell(double t);
+  /// Says in the log what was found since it last did, and of inlets that are near.
+  void tell(double t, std::span<const CrackInlet> inlets);
   /// What comes and goes there over a step; nothing in one of no length, nor where an inlet is.
   void append_to(std::vector<FacetInflow>& inflows, const TimeWindow& step,
                  double vapour_pressure) const;
@@ -48,6 +49,7 @@ class CrackOutlets {
     Vector<D> at;
   };
   int face_at(const FacetSide<D>& side) const;
+  void tell_of_near(const Vector<D>& at, std::span<const CrackInlet> inlets) const;
 
   std::shared_ptr<const Body<D>> body_;
   std::vector<BehindFace> behind_;

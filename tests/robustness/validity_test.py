@@ -193,6 +193,23 @@ class Validity(RunTest):
             warned = self.foreknown(CONFIGS / "kgd_toughness.yaml", keys)
             self.assertEqual(any("cracks[0] lies across the larger stress" in warning for warning in warned), warns, warned)
 
+    def test_a_plate_that_is_light_beside_the_water_on_it(self):
+        for density, warns in (("150 kg/m^3", True), ("200 kg/m^3", False)):
+            warned = self.foreknown(CONFIGS / "water_on_plate.yaml", {"solid.density": density})
+            self.assertEqual(any("answer each other too late" in warning for warning in warned), warns, warned)
+
+    def test_a_crack_that_opens_at_a_face_beside_its_inlet(self):
+        notch = {"body.spacing": "2.5 mm", "cracks[0].path": "[75 mm, 197.5 mm, 75 mm, 178.5 mm]", "crack_fluid.inlets[0].at": "[75 mm, 197.5 mm]",
+                 "time.end": "2 ms", "output.interval": "1 ms"}
+        scene = self.without_reference("hf_leakoff_stiff_water.yaml")
+        self.assertTrue(any("inlet 'notch' lies 1 spacings from there" in warning for warning in self.warnings(scene, notch)))
+
+    def test_stress_at_rest_that_no_small_strain_goes_with(self):
+        for stress, warns in (("80 MPa", True), ("70 MPa", False)):  # of 747 MPa
+            keys = {"body.spacing": "10 mm", "solid.confining_stress": f"[{stress}, 3 MPa]"}
+            warned = self.foreknown(CONFIGS / "kgd_toughness.yaml", keys)
+            self.assertEqual(any("of its plane-strain modulus of 746.7 MPa" in warning for warning in warned), warns, warned)
+
     def test_a_crack_aslant_on_a_mirror(self):
         for to, warns in (("10 mm, 445 mm", True), ("18 mm, 443 mm", False)):
             keys = {"body.spacing": "5 mm", "cracks[0].path": f"[0 mm, 425 mm, {to}]"}
