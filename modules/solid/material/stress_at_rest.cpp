@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/small_vector.hpp"
+#include "core/body/fluid_weight.hpp"
 #include "core/body/highest_corner.hpp"
 #include "core/geometry/region.hpp"
 
@@ -258,8 +259,7 @@ PorePressureAtRest<D> read_pore_pressure_at_rest(const Section& flow, const Body
   if (state == "linear") {
     std::ranges::copy(flow.numbers("initial_gradient"), at_rest.gradient.begin());
   } else if (state == "hydrostatic" && flow.scene().has("gravity")) {
-    Vector<D> gravity;
-    std::ranges::copy(flow.scene().numbers("gravity"), gravity.begin());
+    const auto gravity = read_gravity<D>(flow);
     at_rest.gradient = flow.number("fluid.density") * gravity;
     at_rest.origin = highest_corner<D>(body, gravity);
   }
