@@ -27,9 +27,8 @@ std::optional<std::string> light_solid_warning(const Section& scene) {
   if (impedance * window <= most * own) return {};
   return fmt::format(
       "sound meets {:.3g} kg/m^2 of fluid in a window of {:.3g} s, and the solid's outermost "
-      "points "
-      "have {:.3g}: solid and fluid answer each other too late, and may swing apart; take a "
-      "coupling.window.largest of {:.2g} s or less",
+      "points have {:.3g}: solid and fluid answer each other too late, and may swing apart; take "
+      "a coupling.window.largest of {:.2g} s or less",
       impedance * window, window, own, own / impedance);
 }
 

@@ -7,6 +7,9 @@
 
 namespace perifrac {
 
+/// Beyond it a strain is not small.
+inline constexpr double large_strain = 0.1;
+
 /// The largest of a body at one moment, and where.
 struct LargestStrain {
   double strain = 0.0;    ///< by size, of the principal ones

@@ -20,7 +20,6 @@ namespace perifrac {
 
 namespace {
 
-constexpr double large_strain = 0.1;
 constexpr double large_rotation = 0.1;  ///< [rad]; taken for strains, it makes half its square
 constexpr double far_density = 0.1;     ///< of free fluid, relative
 constexpr double far_pressure = 0.18;   ///< over the bulk modulus: Tait's density is 5 % less there

@@ -20,8 +20,8 @@ constexpr double at_face = 0.55;
 
 constexpr int no_face = -1;
 
-/// From a face to an inlet, up to which what flows between is known no better than by facets: at 2
-/// in place of 1, half as much went out and leak-off by a third less [spacings].
+/// From a face to an inlet, up to which what flows between is known no better than by facets: with
+/// 2 in place of 1 between them, a third as much leaked off beyond the inlet [spacings].
 constexpr double few = 5.0;
 
 template <int D>
@@ -110,9 +110,8 @@ void CrackOutlets<D>::tell_of_near(const Vector<D>& at, std::span<const CrackInl
     const double spacings = norm(way) / body_->spacing();
     if (spacings > few) continue;
     log_warning(
-        fmt::format("inlet '{}' lies {:.2g} spacings from there: what of it flows out "
-                    "depends on body.spacing; bring points closer together, or pump "
-                    "farther from the face",
+        fmt::format("inlet '{}' lies {:.2g} spacings from there: what of it flows out depends on "
+                    "body.spacing; bring points closer together, or pump farther from the face",
                     inlet.name, spacings));
   }
 }

@@ -96,8 +96,7 @@ TEST(Lubrication, FollowsTheCubicLawIn3D) {
   EXPECT_EQ(counted, 40);
 }
 
-/// Fluid at rest is under its weight. Of what is half full half as much falls as of what is full,
-/// and at rest upon full facets it stays.
+/// Fluid at rest is under its weight. Of what is half full half as much falls as of what is full.
 TEST(Lubrication, FluidHasTheWeightThatGravityGivesIt) {
   const CrackLiquid liquid{.density = 1000.0, .viscosity = 1e-3, .bulk_modulus = 1e18};
   const double w = 5e-5, weight = 1e4, dx = 1e-3;
