@@ -8,6 +8,7 @@
 #include "app/run/scene_echo.hpp"
 #include "app/warnings/energy_warnings.hpp"
 #include "app/warnings/resolution_warnings.hpp"
+#include "app/warnings/spread_fluid.hpp"
 #include "core/base/errors.hpp"
 #include "core/io/log.hpp"
 
@@ -103,7 +104,9 @@ void SceneRun::finish(bool stopped) {
   log_all(watch_.look(true));
   log_if_any(balance_warning(scene_, simulation_));
   log_if_any(filling_warning(scene_, simulation_));
+  log_if_any(closed_front_warning(scene_, simulation_));
   log_if_any(residual_aperture_warning(scene_, simulation_));
+  log_if_any(spread_fluid_warning(scene_, simulation_));
   if (!stopped) {
     log_if_any(seepage_warning(scene_, simulation_));
     log_if_any(wave_warning(scene_, simulation_.manager->time()));

@@ -1,8 +1,8 @@
 #include "app/warnings/fluid_in_rock.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "app/warnings/wendland_kernel.hpp"
 #include "core/base/small_vector.hpp"
 
 namespace perifrac {
@@ -11,15 +11,6 @@ namespace {
 
 constexpr double reach = 2.5;        ///< [spacings]
 constexpr double full_enough = 0.9;  ///< of what is there
-
-/// The kernel of Wendland (1995), C2, whose integral is 1.
-template <int D>
-double kernel(double r, double horizon) {
-  constexpr double scale =
-      D == 2 ? 7.0 / std::numbers::pi : 10.5 / std::numbers::pi;  // over horizon^D
-  const double q = r / horizon;
-  return scale * std::pow(1.0 - q, 4) * (1.0 + 4.0 * q) / std::pow(horizon, D);
-}
 
 }  // namespace
 
@@ -43,7 +34,7 @@ FluidInRock fluid_in_rock(const Body<D>& body, std::span<const double> displacem
       const Index j = near.other[k];
       Vector<D> off;
       for (int a = 0; a < D; ++a) off[a] = fluid[a][i] - now[a][j];
-      filled += rock.volume[j] * kernel<D>(std::sqrt(squared_norm(off)), horizon);
+      filled += rock.volume[j] * wendland_kernel<D>(std::sqrt(squared_norm(off)), horizon);
     }
     if (filled < full_enough) continue;
     if (found.count == 0) found.one = i;

@@ -10,6 +10,7 @@
 #include "app/warnings/body_box.hpp"
 #include "app/warnings/inlet_places.hpp"
 #include "app/warnings/pressure_swing.hpp"
+#include "core/time/schedule.hpp"
 #include "modules/pore_flow/material/mobility.hpp"
 #include "modules/pore_flow/material/pore_material.hpp"
 
@@ -19,7 +20,11 @@ namespace {
 
 constexpr double least_filled = 4.0;  // spacings a wing
 constexpr double least_wet = 2.0;     // spacings
+constexpr double far_ahead = 0.2;     // of what is wet
 constexpr double least_waves = 5.0;   // spacings: by half of one, energies are a tenth off then
+// Points of a layer hold what a face is given half a spacing before it and beyond, and drain it as
+// if it lay about a spacing behind itself.
+constexpr double least_depth_behind_layer = 5.0;  // spacings
 // Half of the first step of pressures that have gone 2.5 spacings from where they jumped.
 constexpr double steep = 0.1;
 constexpr double most_residual = 0.5;  // of the widest opening; volumes are 3 % off then
@@ -59,10 +64,16 @@ double wings_from_inlets(const Section& scene) {
   return std::max(1.0, wings);
 }
 
-/// A length of what is wet in 2D; in 3D the radius of a disc as large [m].
-double wetted_size(const Section& scene, const Simulation& simulation) {
-  return scene.integer("dimension") == 2 ? largest_of(simulation, "wetted_length")
-                                         : std::sqrt(largest_of(simulation, "wetted_area") / M_PI);
+/// A length of what is `wetted_` or `open_crack_` in 2D; in 3D the radius of a disc as large [m].
+double size_of(const std::string& what, const Section& scene, const Simulation& simulation) {
+  return scene.integer("dimension") == 2 ? largest_of(simulation, what + "length")
+                                         : std::sqrt(largest_of(simulation, what + "area") / M_PI);
+}
+
+/// For each way that fluid takes, of what all of them make [1].
+double share_of_wing(const Section& scene) {
+  const double share = 1.0 / wings_from_inlets(scene);
+  return scene.integer("dimension") == 2 ? share : std::sqrt(share);
 }
 
 bool pumps_at_a_rate(const Section& scene) {
@@ -71,6 +82,20 @@ bool pumps_at_a_rate(const Section& scene) {
     if (scene.has(rate) && scene.number(rate) > 0.0) return true;
   }
   return false;
+}
+
+/// What was pumped in flows back or leaks off by then: cracks end as empty as they come.
+bool is_emptied(const Section& scene, double time) {
+  if (!pumps_at_a_rate(scene)) return false;
+  bool empties = scene.word("crack_fluid.leak_off") != "none";
+  for (std::size_t k = 0; k < scene.count("crack_fluid.inlets"); ++k) {
+    const std::string inlet = fmt::format("inlets[{}]", k);
+    if (!scene.has("crack_fluid." + inlet + ".rate")) return false;
+    const double factor = read_schedule(scene.at("crack_fluid"), inlet).factor(time);
+    if (factor > 0.0) return false;
+    empties = empties || factor < 0.0;
+  }
+  return empties;
 }
 
 /// Pores that deform along one axis alone [m^2/s]; the largest of its directions and the first of
@@ -104,6 +129,11 @@ struct Seepage {
   bool may_be_steady = false;  ///< a scene may begin with the flow that comes to be
 };
 
+bool is_layer(const Section& scene, const std::string& face) {
+  const std::string carries = "body.boundary." + face;
+  return writes(scene, carries) && scene.word(carries) == "layer";
+}
+
 /// Through a face whose pressure is given, cracks that leak off into pores, or where free fluid,
 /// whose points lie half a spacing before it, touches the body; empty where there is none of them.
 Seepage where_fluid_seeps(const Section& scene) {
@@ -118,7 +148,8 @@ Seepage where_fluid_seeps(const Section& scene) {
   for (const std::string& name : scene.names("pore_flow.boundary")) {
     const std::string face = "pore_flow.boundary." + name;
     if (scene.word(face + ".type") == "pressure" && !is_left_as_it_was(scene, face)) {
-      return {fmt::format("face '{}'", name)};
+      return {fmt::format("face '{}'", name),
+              is_layer(scene, name) ? least_depth_behind_layer : 1.0};
     }
   }
   return {};
@@ -128,10 +159,10 @@ Seepage where_fluid_seeps(const Section& scene) {
 
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("crack_fluid")) return {};
+  if (is_emptied(scene, simulation.manager->time())) return {};
   const double spacing = scene.number("body.spacing");
   const double wings = wings_from_inlets(scene);
-  const double share = scene.integer("dimension") == 2 ? 1.0 / wings : std::sqrt(1.0 / wings);
-  const double filled = share * wetted_size(scene, simulation);
+  const double filled = share_of_wing(scene) * size_of("wetted_", scene, simulation);
   const double dry = scene.integer("dimension") == 2
                          ? largest_of(simulation, "fluid_lag")
                          : std::sqrt(largest_of(simulation, "dry_area"));
@@ -143,11 +174,30 @@ std::optional<std::string> filling_warning(const Section& scene, const Simulatio
       filled, wings > 1.0 ? " for each wing" : "", filled / spacing);
 }
 
+std::optional<std::string> closed_front_warning(const Section& scene,
+                                                const Simulation& simulation) {
+  if (!simulation.has_body() || !scene.has("crack_fluid")) return {};
+  if (scene.word("crack_fluid.leak_off") == "none") return {};
+  const double wet = size_of("wetted_", scene, simulation);
+  const double open = size_of("open_crack_", scene, simulation);
+  const double ahead = share_of_wing(scene) * (wet - open);
+  // What goes farther flows through cracks that stay closed, as it should.
+  if (!(open > 0.0) || ahead > 1.5 * scene.number("body.spacing")) return {};
+  const double part =
+      scene.integer("dimension") == 2 ? 1.0 - open / wet : 1.0 - open * open / (wet * wet);
+  if (!(part > far_ahead)) return {};
+  return fmt::format(
+      "{:.0f} % of what fluid wets in the end are closed cracks, a facet before each front: what "
+      "leaks off there depends on how long facets are; a finer body.spacing, or look at later "
+      "times",
+      100.0 * part);
+}
+
 std::optional<std::string> residual_aperture_warning(const Section& scene,
                                                      const Simulation& simulation) {
   if (!simulation.has_body() || !scene.has("crack_fluid.residual_aperture")) return {};
   if (!writes(scene, "damage") || !pumps_at_a_rate(scene)) return {};
-  if (wetted_size(scene, simulation) < least_wet * scene.number("body.spacing")) return {};
+  if (size_of("wetted_", scene, simulation) < least_wet * scene.number("body.spacing")) return {};
   const double residual = scene.number("crack_fluid.residual_aperture");
   const double widest = largest_of(simulation, "crack_opening");
   if (residual <= most_residual * widest) return {};

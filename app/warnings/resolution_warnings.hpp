@@ -12,6 +12,10 @@ namespace perifrac {
 /// pressure and no opening yet that would not depend on how long facets are.
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation);
 
+/// Where a good part of what leaks off does so from closed cracks that fluid has just come to: it
+/// fills the facet before an open one at once, as there is hardly room in it.
+std::optional<std::string> closed_front_warning(const Section& scene, const Simulation& simulation);
+
 /// Where cracks that are pumped, and may grow, end hardly wider than what closed ones keep.
 std::optional<std::string> residual_aperture_warning(const Section& scene,
                                                      const Simulation& simulation);

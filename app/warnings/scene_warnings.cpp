@@ -16,6 +16,8 @@
 #include "app/warnings/light_solid_warning.hpp"
 #include "app/warnings/meeting_tips_warning.hpp"
 #include "app/warnings/nucleus_warning.hpp"
+#include "app/warnings/probe_at_tip_warning.hpp"
+#include "app/warnings/sharp_wave_warning.hpp"
 #include "app/warnings/short_leg_warning.hpp"
 #include "app/warnings/slanted_at_mirror_warning.hpp"
 #include "app/warnings/stress_beyond_stiffness_warning.hpp"
@@ -160,6 +162,8 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = inlet_room_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = border_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = probe_at_tip_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = sharp_wave_warning(scene)) warnings.push_back(*warning);
   for (const std::string& warning : table_warnings(scene)) warnings.push_back(warning);
   return warnings;
 }

@@ -10,6 +10,7 @@
 #include "app/references/free_fluid.hpp"
 #include "app/warnings/fluid_in_rock.hpp"
 #include "app/warnings/mean_dissipation.hpp"
+#include "app/warnings/places_of.hpp"
 #include "app/warnings/pressure_swing.hpp"
 #include "app/warnings/small_strains.hpp"
 #include "core/base/errors.hpp"
@@ -32,14 +33,6 @@ std::string place_of(const PointSet& points, std::size_t i) {
   std::vector<double> place;
   for (int a = 0; a < points.dimension; ++a) place.push_back(points.position[a][i]);
   return describe_point(i, place);
-}
-
-/// Along each axis.
-template <int D>
-Positions<D> places_of(const PointSet& points) {
-  Positions<D> places;
-  std::copy_n(points.position.begin(), D, places.begin());
-  return places;
 }
 
 /// Of a vector, component by component.
