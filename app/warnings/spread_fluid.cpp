@@ -15,19 +15,20 @@ namespace perifrac {
 
 namespace {
 
-constexpr double reach = 2.5;        ///< [spacings]
-constexpr double most_aside = 0.03;  ///< of the reach: how far aside the middle of others may lie
-constexpr double sparse = 0.5;       ///< drops that fly apart fill less
-constexpr Index fewest = 10;         ///< points that have others on all sides
+constexpr double packing_reach = 2.5;  ///< [spacings]
+/// Of it: how far aside the middle of others may lie.
+constexpr double most_aside = 0.03;
+constexpr double sparse = 0.5;  ///< drops that fly apart fill less
+constexpr Index fewest = 10;    ///< points that have others on all sides
 
 /// A dam break comes down to 0.97 as the pool sloshes, and back.
-constexpr double spread = 0.95;
+constexpr double least_filled_part = 0.95;
 
 }  // namespace
 
 template <int D>
 double filled_part(const Positions<D>& places, std::span<const double> volume, double spacing) {
-  const double horizon = reach * spacing;
+  const double horizon = packing_reach * spacing;
   CellGrid<D> grid;
   grid.build(places, horizon);
   Neighbours near;
@@ -67,7 +68,7 @@ std::optional<std::string> spread_fluid_warning(const Section& scene,
   const double filled = points.dimension == 2
                             ? filled_part<2>(places_of<2>(points), volume, spacing)
                             : filled_part<3>(places_of<3>(points), volume, spacing);
-  if (filled >= spread) return {};
+  if (filled >= least_filled_part) return {};
   return fmt::format(
       "free fluid takes up {:.0f} % more room in the end than its mass has at its density: a blow "
       "drove its points apart, and levels and what lies on it are off by as much; begin at the "

@@ -1,6 +1,7 @@
 #include "core/body/cutouts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -121,7 +122,7 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
   if (cutouts.empty()) return;
   const std::vector<Region<D>> boxes = with_images<D>(cutouts, faces, mirrored);
   Index kept = 0;
-  std::vector<double> weight;
+  BondWeightList list(family.other.size());
   for (Index i = 0, begin = 0; i < family.point_count; ++i) {
     const Index end = family.offset[i + 1];
     const Vector<D> x = vector_at(family.position, i);
@@ -130,13 +131,13 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
       if (std::ranges::any_of(boxes, [&](const auto& box) { return passes_through<D>(box, x, y); }))
         continue;
       family.other[kept++] = family.other[bond];
-      weight.push_back(family.weight[bond]);
+      list.add(std::array{family.weight[bond]});
     }
     family.offset[i + 1] = kept;
     begin = end;
   }
   family.other.resize(kept);
-  family.weight = BondWeights(std::move(weight));
+  family.weight = list.take();
 }
 
 template std::vector<Region<2>> read_cutouts<2>(const Section&, const Vector<2>&, double);

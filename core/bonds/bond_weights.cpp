@@ -1,7 +1,6 @@
 #include "core/bonds/bond_weights.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
@@ -11,48 +10,57 @@ namespace {
 
 constexpr std::size_t most_numbers = 256;  // that a byte tells apart
 
-/// Finds places in a table of few numbers, most of them at once.
-class TableSearch {
- public:
-  explicit TableSearch(std::vector<double>& table) : table_(table) {}
-
-  /// The place of a number, up to rounding; `most_numbers` where there is no room for it any more.
-  std::size_t place_of(double number) {
-    constexpr double rounding = 1e-12;
-    const auto is_it = [&](double known) {
-      return std::abs(known - number) <= rounding * std::abs(number);
-    };
-    std::uint8_t& guess = guess_[(std::bit_cast<std::uint64_t>(number) >> 32) % guess_.size()];
-    if (is_it(table_[guess])) return guess;
-    const auto found = std::ranges::find_if(table_, is_it);
-    const auto place = static_cast<std::size_t>(found - table_.begin());
-    if (place == most_numbers) return most_numbers;
-    if (found == table_.end()) table_.push_back(number);
-    guess = static_cast<std::uint8_t>(place);
-    return place;
-  }
-
- private:
-  std::vector<double>& table_;
-  std::array<std::uint8_t, 4096> guess_{};  ///< by leading digits
-};
-
 }  // namespace
+
+BondWeightList::BondWeightList(std::size_t bonds) : bonds_(bonds) {
+  weights_.table_ = {0.0};
+  weights_.code_.reserve(bonds);
+}
+
+std::optional<std::uint8_t> BondWeightList::place_of(double weight) {
+  std::vector<double>& table = weights_.table_;
+  constexpr double rounding = 1e-12;
+  const auto is_it = [&](double known) {
+    return std::abs(known - weight) <= rounding * std::abs(weight);
+  };
+  std::uint8_t& guess = guess_[(std::bit_cast<std::uint64_t>(weight) >> 32) % guess_.size()];
+  if (is_it(table[guess])) return guess;
+  const auto found = std::ranges::find_if(table, is_it);
+  const auto place = static_cast<std::size_t>(found - table.begin());
+  if (place == most_numbers) return {};
+  if (found == table.end()) table.push_back(weight);
+  guess = static_cast<std::uint8_t>(place);
+  return guess;
+}
+
+void BondWeightList::add(std::span<const double> weights) {
+  for (const double weight : weights) {
+    if (weights_.all_.empty()) {
+      if (const auto place = place_of(weight)) {
+        weights_.code_.push_back(*place);
+        continue;
+      }
+      weights_.unpack();
+      weights_.all_.reserve(bonds_);
+    }
+    weights_.all_.push_back(weight);
+  }
+}
 
 void BondWeights::pack() {
   if (is_packed() || all_.empty()) return;
-  std::vector<double> table = {0.0};
-  std::vector<std::uint8_t> code;
-  TableSearch search(table);
-  for (const double weight : all_) {
-    const std::size_t place = search.place_of(weight);
-    if (place == most_numbers) return;
-    if (code.empty()) code.reserve(all_.size());
-    code.push_back(static_cast<std::uint8_t>(place));
-  }
-  code_ = std::move(code);
-  table_ = std::move(table);
-  all_ = std::vector<double>();  // gives its memory back, as {} would not
+  BondWeightList list(all_.size());
+  list.add(all_);
+  BondWeights packed = list.take();
+  if (packed.is_packed()) *this = std::move(packed);
+}
+
+void BondWeights::unpack() {
+  if (!is_packed()) return;
+  all_.reserve(code_.size());
+  for (const std::uint8_t code : code_) all_.push_back(table_[code]);
+  code_ = std::vector<std::uint8_t>();  // gives its memory back, as {} would not
+  table_ = std::vector<double>();
 }
 
 void BondWeights::set(std::size_t bond, double weight) {
@@ -64,9 +72,7 @@ void BondWeights::set(std::size_t bond, double weight) {
       code_[bond] = static_cast<std::uint8_t>(place);
       return;
     }
-    for (const std::uint8_t code : code_) all_.push_back(table_[code]);
-    code_ = std::vector<std::uint8_t>();
-    table_ = std::vector<double>();
+    unpack();
   }
   all_[bond] = weight;
 }

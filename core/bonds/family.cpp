@@ -1,5 +1,7 @@
 #include "core/bonds/family.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/small_vector.hpp"
@@ -9,6 +11,8 @@
 namespace perifrac {
 
 namespace {
+
+constexpr Index points_at_once = 1 << 14;  // whose weights are found before they are packed
 
 template <int D>
 double squared_distance(const Family<D>& family, Index i, Index j) {
@@ -96,15 +100,22 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
   remove_bonds(bondless, near);
   family.offset = std::move(near.offset);
   family.other = std::move(near.other);
-  std::vector<double> weight(family.other.size());
-  for_each_point(points.size(), [&](Index i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const Index j = family.other[bond];
-      const double r = std::sqrt(squared_distance(family, i, j));
-      weight[bond] = influence(influence_function, r, horizon) * family.volume[j];
-    }
-  });
-  family.weight = BondWeights(std::move(weight));
+  BondWeightList list(family.other.size());
+  std::vector<double> weight;
+  for (Index first = 0; first < points.size(); first += points_at_once) {
+    const Index count = std::min(points_at_once, points.size() - first);
+    const Index begin = family.offset[first];
+    weight.resize(family.offset[first + count] - begin);
+    for_each_point(count, [&](Index k) {
+      for (Index bond = family.offset[first + k]; bond < family.offset[first + k + 1]; ++bond) {
+        const Index j = family.other[bond];
+        const double r = std::sqrt(squared_distance(family, first + k, j));
+        weight[bond - begin] = influence(influence_function, r, horizon) * family.volume[j];
+      }
+    });
+    list.add(weight);
+  }
+  family.weight = list.take();
   return family;
 }
 
@@ -126,16 +137,16 @@ Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored) {
   }
   part.curved = family.curved;
   part.offset.push_back(0);
-  std::vector<double> weight;
+  BondWeightList list(family.other.size());
   for (Index i = 0; i < family.point_count; ++i) {
     for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
       if (number[family.other[bond]] < 0) continue;
       part.other.push_back(number[family.other[bond]]);
-      weight.push_back(family.weight[bond]);
+      list.add(std::array{family.weight[bond]});
     }
     part.offset.push_back(static_cast<Index>(part.other.size()));
   }
-  part.weight = BondWeights(std::move(weight));
+  part.weight = list.take();
   return part;
 }
 

@@ -45,6 +45,7 @@ class MomentProjection {
 
   MomentProjection(Family<D>& family, std::span<const Face> faces, FaceSet mirrored, double horizon)
       : family_(family), plain_(family.weight), length_(horizon), number_(family.point_count, -1) {
+    family.weight.unpack();
     for (Index i = 0; i < family.point_count; ++i) {
       bool complete = true;
       for (std::size_t f = 0; f < faces.size(); ++f) {

@@ -134,17 +134,17 @@ typename CellGrid<D>::Runs CellGrid<D>::runs_near(const Vector<D>& x) const {
 }
 
 template <int D>
-void CellGrid<D>::append_points_near(const Vector<D>& x, double reach, Index self,
-                                     std::vector<Index>& found, std::size_t& count) const {
+std::span<Index> CellGrid<D>::points_near(const Vector<D>& x, double reach, Index self,
+                                          IndexBlocks& found) const {
   const Runs runs = runs_near(x);
-  std::size_t most = count + packet_size;
+  std::size_t most = packet_size;  // the last packet writes on
   for (int r = 0; r < runs.count; ++r) most += runs.last[r] - runs.first[r];
-  if (found.size() < most) found.resize(2 * most);
   const Vector<D> at = x;
-  const Index *const order = order_.data(), *const begin = found.data();
+  const Index* const order = order_.data();
   std::array<const double*, D> sorted;
   for (int a = 0; a < D; ++a) sorted[a] = sorted_[a].data();
-  Index* end = found.data() + count;
+  Index* const begin = found.room(most);
+  Index* end = begin;
   for (int r = 0; r < runs.count; ++r) {
     for (Index k = runs.first[r]; k < runs.last[r]; k += packet_size) {
       Packet r_square{};
@@ -155,7 +155,8 @@ void CellGrid<D>::append_points_near(const Vector<D>& x, double reach, Index sel
       end += append_near(r_square, reach * reach, runs.last[r] - k, self - k, order + k, end);
     }
   }
-  count = end - begin;
+  found.take(end - begin);
+  return {begin, end};
 }
 
 template <int D>
@@ -168,13 +169,11 @@ void CellGrid<D>::search(Index targets, double reach, Target&& target, Place&& p
   found_.resize(std::max(found_.size(), static_cast<std::size_t>(omp_get_max_threads())));
 #pragma omp parallel if (targets >= points_worth_threads)
   {
-    std::vector<Index>& found = found_[omp_get_thread_num()];
+    IndexBlocks& found = found_[omp_get_thread_num()];
+    found.clear();
     const auto [begin, end] = share_of_thread(targets);
-    std::size_t count = 0;
     for (Index i = begin; i < end; ++i) {
-      const std::size_t before = count;
-      append_points_near(target(i), reach, place_of_self(i), found, count);
-      const std::span<Index> own(found.data() + before, count - before);
+      const std::span<Index> own = points_near(target(i), reach, place_of_self(i), found);
       if (!std::ranges::is_sorted(own)) std::ranges::sort(own);
       result.offset[i + 1] = static_cast<Index>(own.size());
     }
@@ -184,7 +183,7 @@ void CellGrid<D>::search(Index targets, double reach, Target&& target, Place&& p
       for (Index i = 0; i < targets; ++i) result.offset[i + 1] += result.offset[i];
       result.other.resize(result.offset[targets]);
     }
-    std::copy_n(found.begin(), count, result.other.begin() + result.offset[begin]);
+    found.copy_to(result.other.data() + result.offset[begin]);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/geometry/index_blocks.hpp"
 #include "core/geometry/neighbours.hpp"
 
 namespace perifrac {
@@ -65,10 +66,9 @@ class CellGrid {
   /// All points nearer than a cell, and others.
   Runs runs_near(const Vector<D>& x) const;
 
-  /// Appends the points nearer than `reach` to the first `count` that were found, the one at the
-  /// place `self` left out.
-  void append_points_near(const Vector<D>& x, double reach, Index self, std::vector<Index>& found,
-                          std::size_t& count) const;
+  /// The points nearer than `reach`, the one at the place `self` left out; in blocks of `found`.
+  std::span<Index> points_near(const Vector<D>& x, double reach, Index self,
+                               IndexBlocks& found) const;
 
   /// `target(i)` gives the position of target i, `place_of_self(i)` the place of the point that is
   /// no neighbour of it.
@@ -84,7 +84,7 @@ class CellGrid {
   std::vector<Index> place_;                   ///< place of a point
   std::vector<Index> cell_;                    ///< cell of a point
   std::array<std::vector<double>, D> sorted_;  ///< [m], by place
-  std::vector<std::vector<Index>> found_;      ///< workspace of each thread
+  std::vector<IndexBlocks> found_;             ///< workspace of each thread
 };
 
 }  // namespace perifrac

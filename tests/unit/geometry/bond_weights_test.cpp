@@ -1,6 +1,8 @@
 #include "core/bonds/bond_weights.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -37,6 +39,33 @@ TEST(BondWeights, StayAsTheyAreWhereManyAreDifferent) {
   weights.pack();
   EXPECT_FALSE(weights.is_packed());
   for (std::size_t bond = 0; bond < all.size(); ++bond) EXPECT_EQ(weights[bond], all[bond]);
+}
+
+TEST(BondWeightList, PacksAsPackDoesAsTheyCome) {
+  for (const int different : {1, 255, 256, 400}) {
+    const std::vector<double> all = some_weights(different);
+    BondWeightList list(all.size());
+    for (std::size_t begin = 0; begin < all.size(); begin += 7) {
+      list.add(std::span(all).subspan(begin, std::min<std::size_t>(7, all.size() - begin)));
+    }
+    const BondWeights found = list.take();
+    BondWeights packed(all);
+    packed.pack();
+    EXPECT_EQ(found.is_packed(), packed.is_packed());
+    ASSERT_EQ(found.size(), all.size());
+    for (std::size_t bond = 0; bond < all.size(); ++bond)
+      EXPECT_NEAR(found[bond], all[bond], 1e-12);
+  }
+}
+
+TEST(BondWeights, AreTakenApartAgain) {
+  BondWeights weights(some_weights(9));
+  const BondWeights before = weights;
+  weights.pack();
+  weights.unpack();
+  EXPECT_FALSE(weights.is_packed());
+  for (std::size_t bond = 0; bond < weights.size(); ++bond)
+    EXPECT_NEAR(weights[bond], before[bond], 1e-15);
 }
 
 TEST(BondWeights, AreSetAndTakenBack) {
