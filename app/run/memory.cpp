@@ -10,6 +10,7 @@
 
 #include "app/references/comparison.hpp"
 #include "core/base/ranks.hpp"
+#include "modules/pore_flow/flow_in_scene.hpp"
 #include "modules/solid/equilibrium/cracked_solver.hpp"
 #include "modules/solid/equilibrium/stiffness_solver.hpp"
 
@@ -101,8 +102,7 @@ double solid_bytes(const Section& scene, double points) {
 double pore_flow_bytes(const Section& scene, double points) {
   const bool plane = scene.integer("dimension") == 2;
   const bool factor = scene.has("pore_flow.integrator.type") &&
-                      scene.word("pore_flow.integrator.type") == "cvode" &&
-                      scene.word("pore_flow.integrator.linear_solver") == "direct";
+                      factors_flow(scene.at("pore_flow"), plane ? 2 : 3, points);
   if (!factor) return (plane ? 1.0 : 4.0) * kilobyte;
   return (plane ? 4.0 : 25.0 * fill(points)) * kilobyte;
 }

@@ -4,6 +4,13 @@
 
 namespace perifrac {
 
+namespace {
+
+/// GMRES takes the preconditioner for linear.
+constexpr double iteration_tolerance = 1e-8;
+
+}  // namespace
+
 template <int D>
 DarcyNewtonMatrix<D>::DarcyNewtonMatrix(DarcySystem<D>& system, Method method)
     : system_(system),
@@ -11,6 +18,7 @@ DarcyNewtonMatrix<D>::DarcyNewtonMatrix(DarcySystem<D>& system, Method method)
       right_side_(system.points()),
       pressure_(system.points()),
       outflow_(system.points()) {
+  iteration_.setTolerance(iteration_tolerance);
   assemble();
 }
 
@@ -20,7 +28,7 @@ void DarcyNewtonMatrix<D>::assemble() {
   const Eigen::SparseMatrix<double> all =
       method_ == Method::direct ? system_.flow().assemble() : system_.flow().preconditioner();
   flow_ = all.topLeftCorner(system_.points(), system_.points());
-  system_.add_storage_pattern_to(flow_);
+  if (exact()) system_.add_storage_pattern_to(flow_);
   face_flow_ = all.bottomLeftCorner(all.rows() - system_.points(), system_.points());
   matrix_ = flow_;
   face_outflow_.resize(face_flow_.rows());
@@ -33,8 +41,17 @@ void DarcyNewtonMatrix<D>::set_up(double t, std::span<const double> y, double ga
   gamma_ = gamma;
   matrix_.coeffs() = gamma * flow_.coeffs();
   for (const HeldPoint& held : system_.held_points()) uncouple(held.point);
-  system_.add_storage_to(matrix_, t, y);
-  factor_.factor(matrix_);
+  if (exact()) {
+    system_.add_storage_to(matrix_, t, y);
+    factor_.factor(matrix_);
+    return;
+  }
+  const ProfileScope profiled("incomplete factorisation");
+  const std::span<const double> storage = system_.effective_storage(t, y);
+  for (Index i = 0; i < system_.points(); ++i) {
+    matrix_.coeffRef(i, i) += system_.volume()[i] * storage[i];
+  }
+  iteration_.compute(matrix_);
 }
 
 template <int D>
@@ -43,7 +60,12 @@ void DarcyNewtonMatrix<D>::solve(std::span<const double> r, std::span<double> so
   const std::vector<double>& volume = system_.volume();
   for (Index i = 0; i < points; ++i) right_side_[i] = volume[i] * r[i];
   for (const HeldPoint& held : system_.held_points()) right_side_[held.point] = 0.0;
-  factor_.solve(right_side_, pressure_);
+  if (exact()) {
+    factor_.solve(right_side_, pressure_);
+  } else {
+    const ProfileScope profiled("solves");
+    pressure_ = iteration_.solve(right_side_);
+  }
   outflow_.noalias() = flow_ * pressure_;
   face_outflow_.noalias() = face_flow_ * pressure_;
   for (Index i = 0; i < points; ++i) solution[i] = r[i] - gamma_ * outflow_[i] / volume[i];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
 #include "core/solvers/sparse_cholesky.hpp"
@@ -14,8 +15,9 @@ namespace perifrac {
 ///
 /// Directly, H is assembled, anew where bonds broke or storage is another, and factored. As a
 /// preconditioner, the bonds' own part of the flow stands in for H: it has a third of the entries
-/// and the same spectrum up to a factor. Either way the solution is put together from fluxes
-/// between points and faces, so that no volume is lost whatever the accuracy of the solve.
+/// and the same spectrum up to a factor; in 3D, where a factor fills up, it is factored
+/// incompletely. Either way the solution is put together from fluxes between points and faces, so
+/// that no volume is lost whatever the accuracy of the solve.
 template <int D>
 class DarcyNewtonMatrix final : public NewtonMatrix {
  public:
@@ -29,6 +31,10 @@ class DarcyNewtonMatrix final : public NewtonMatrix {
   void solve(std::span<const double> r, std::span<double> solution) override;
 
  private:
+  using Iteration = Eigen::ConjugateGradient<
+      Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper,
+      Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>>;
+
   void assemble();
   /// Leaves nothing in the matrix's row and column of a point whose pressure is held.
   void uncouple(Index i);
@@ -40,6 +46,7 @@ class DarcyNewtonMatrix final : public NewtonMatrix {
   Eigen::SparseMatrix<double> face_flow_;  ///< its rows of the faces
   Eigen::SparseMatrix<double> matrix_;     ///< V S + gamma H
   SparseCholesky factor_;
+  Iteration iteration_;
   double gamma_ = 0.0;
   Eigen::VectorXd right_side_;
   Eigen::VectorXd pressure_;

@@ -30,7 +30,7 @@ void check_nested(const Section& section, const Body<D>& body) {
   const bool implicit = section.word("integrator.type") == "cvode";
   if (implicit && section.word("integrator.linear_solver") == "direct") {
     section.fail("integrator.linear_solver", "operator 'nested' has no symmetric matrix to factor",
-                 "krylov, or the explicit integrator");
+                 "automatic or krylov, or the explicit integrator");
   }
   const std::string smoothing = section.word("nested.smoothing");
   if (implicit && smoothing != "none") {

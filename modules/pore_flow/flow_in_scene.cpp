@@ -16,7 +16,7 @@ namespace perifrac {
 namespace {
 
 template <int D>
-DarcyIntegratorMaker<D> read_integrator(const Section& section) {
+DarcyIntegratorMaker<D> read_integrator(const Section& section, Index points) {
   if (section.word("integrator.type") == "explicit") {
     const double safety = section.number("integrator.safety");
     return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
@@ -26,9 +26,7 @@ DarcyIntegratorMaker<D> read_integrator(const Section& section) {
     };
   }
   using Method = typename DarcyNewtonMatrix<D>::Method;
-  const Method method = section.word("integrator.linear_solver") == "direct"
-                            ? Method::direct
-                            : Method::preconditioner;
+  const Method method = factors_flow(section, D, points) ? Method::direct : Method::preconditioner;
   const double tolerance = section.number("integrator.tolerance");
   return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
     return std::make_unique<DarcyCvode<D>>(system, method, tolerance);
@@ -46,6 +44,15 @@ InitialPressure<D> read_initial_pressure(const Section& section) {
 }
 
 }  // namespace
+
+bool factors_flow(const Section& flow, int dimension, double points) {
+  constexpr double points_worth_iteration = 1000.0;
+  if (flow.word("integrator.type") != "cvode") return false;
+  const std::string solver = flow.word("integrator.linear_solver");
+  if (solver != "automatic") return solver == "direct";
+  const bool is_nested = flow.has("operator") && flow.word("operator") == "nested";
+  return !is_nested && (dimension == 2 || points < points_worth_iteration);
+}
 
 template <int D>
 FlowInScene<D> read_flow(const Section& section, const Body<D>& body) {
@@ -91,7 +98,7 @@ std::unique_ptr<PhysicsModule> make_flow_module(const Section& section,
                                                 DarcySystem<D> equations) {
   return std::make_unique<DarcyFlow<D>>(std::move(body), std::move(equations),
                                         read_initial_pressure<D>(section),
-                                        read_integrator<D>(section));
+                                        read_integrator<D>(section, body->points().size()));
 }
 
 KeyTable flow_keys() {
@@ -108,9 +115,11 @@ KeyTable flow_keys() {
        .meaning = "explicit: sub-step over the stable limit."},
       {.path = "integrator.linear_solver",
        .type = KeyType::word,
-       .fallback = "direct",
-       .words = {"direct", "krylov"},
-       .meaning = "cvode: factor the flow, or iterate with GMRES, preconditioned by the bonds."},
+       .fallback = "automatic",
+       .words = {"automatic", "direct", "krylov"},
+       .meaning = "cvode: direct factors the flow; krylov iterates with GMRES, preconditioned by "
+                  "the bonds, in 3D at a price in proportion to the points; automatic takes krylov "
+                  "in 3D from a thousand points on, and for the nested operator."},
       {.path = "integrator.tolerance",
        .range = "(0, 0.1]",
        .fallback = "1e-5",

@@ -19,6 +19,9 @@ namespace perifrac {
 /// The keys of pore flow that hold however it is discretised in space.
 KeyTable flow_keys();
 
+/// Whether implicit steps factor the flow, of a body of so many points, and do not iterate.
+bool factors_flow(const Section& flow, int dimension, double points);
+
 /// What a scene says of pore flow, however it is discretised.
 template <int D>
 struct FlowInScene {

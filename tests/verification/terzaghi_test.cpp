@@ -94,5 +94,32 @@ TEST(Terzaghi, IsTheSameInThreeDimensions) {
   }
 }
 
+TEST(Terzaghi, IsTheSameWhereThreeDimensionsAreIteratedUpon) {
+  const std::string solves_by = "pore_flow.integrator.linear_solver=";
+  const auto run = [&](const char* solver) {
+    return run_config("terzaghi_3d", {"body.size=[5 m, 5 m, 50 m]", "time.end=0.57811 s",
+                                      "output.times=[0.57811 s]", solves_by + solver});
+  };
+  const auto iterations = [](const SceneRun& done) {
+    for (const auto& module : done.summary["modules"]) {
+      if (module["name"] != "pore_flow") continue;
+      return module["statistics"].value("linear_iterations", 0.0);
+    }
+    return -1.0;
+  };
+  const SceneRun factored = run("direct"), iterated = run("automatic");
+  EXPECT_EQ(iterations(factored), 0.0);
+  EXPECT_GT(iterations(iterated), 0.0) << "1250 points";
+  EXPECT_LT(iterations(iterated), 3.0 * iterated.summary["counts"]["windows"].get<double>());
+  const auto& expected = factored.summary["reference"]["profiles"][0]["computed"].back();
+  const auto& found = iterated.summary["reference"]["profiles"][0]["computed"].back();
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(found[i], expected[i].get<double>(), 1e-5 * 6e6);
+  }
+  EXPECT_EQ(iterations(run_config("terzaghi_3d", {"time.end=1 ms", "output.times=[]"})), 0.0)
+      << "few points are factored";
+}
+
 }  // namespace
 }  // namespace perifrac::test

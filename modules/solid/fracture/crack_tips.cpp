@@ -134,6 +134,10 @@ bool CrackTips::is_followed(const Tip& tip, const CrackState<2>& state) const {
 /// was asked last, where that is the fluid's doing. Other loads may shear the crack as well.
 double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackState<2>& state,
                                 double lost) const {
+  if (is_closed(tip.at, state)) {
+    tip.asked = tip.asked_opening = 0.0;
+    return 0.0;
+  }
   const double opening = state.opening[tip.at.facet];
   if (tip.asked_opening > 0.0 && state.has_fluid() && !state.inertia) {
     const double guess = tip.asked * opening / tip.asked_opening;
@@ -144,8 +148,8 @@ double CrackTips::dry_readiness(Tip& tip, const TipLaw& tip_law, const CrackStat
   const TipLoad load =
       energy_release_.at(tip.at, state.unknowns([&] { return energy_release_.looks_at(tip.at); }),
                          state.pressure, state.pore_stress, state.inertia, state.shear);
-  // A tip that is closed may go on where its faces slide under friction.
-  const bool may_go = (load.opening > 0.0 || !state.shear.empty()) && !is_closed(tip.at, state);
+  // Faces that slide under friction may go on without an opening.
+  const bool may_go = load.opening > 0.0 || !state.shear.empty();
   const bool opens = may_go && load.energy_release > 0.0;
   TipModes modes = modes_of(load);
   modes.sliding += modes.opening * load.more_at_tip();
