@@ -101,9 +101,12 @@ double solid_bytes(const Section& scene, double points) {
 
 double pore_flow_bytes(const Section& scene, double points) {
   const bool plane = scene.integer("dimension") == 2;
-  const bool factor = scene.has("pore_flow.integrator.type") &&
-                      factors_flow(scene.at("pore_flow"), plane ? 2 : 3, points);
-  if (!factor) return (plane ? 1.0 : 4.0) * kilobyte;
+  const bool implicit =
+      scene.has("pore_flow.integrator.type") && scene.word("pore_flow.integrator.type") == "cvode";
+  if (!implicit) return (plane ? 1.0 : 4.0) * kilobyte;
+  if (!factors_flow(scene.at("pore_flow"), plane ? 2 : 3, points)) {
+    return (plane ? 1.0 : 10.0) * kilobyte;
+  }
   return (plane ? 4.0 : 25.0 * fill(points)) * kilobyte;
 }
 
