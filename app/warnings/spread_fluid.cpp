@@ -70,9 +70,9 @@ std::optional<std::string> spread_fluid_warning(const Section& scene,
                             : filled_part<3>(places_of<3>(points), volume, spacing);
   if (filled >= least_filled_part) return {};
   return fmt::format(
-      "free fluid takes up {:.0f} % more room in the end than its mass has at its density: a blow "
-      "drove its points apart, and levels and what lies on it are off by as much; begin at the "
-      "pressure that bears what lies on it, or bring points closer together",
+      "free fluid takes up {:.0f} % more room in the end than its mass has at its density: its "
+      "points were driven apart, as by a blow, and levels and what lies on it are off by as much; "
+      "begin at the pressure that bears what lies on it, or bring points closer together",
       100.0 * (1.0 / filled - 1.0));
 }
 

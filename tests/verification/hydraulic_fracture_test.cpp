@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "app/run/scene_keys.hpp"
@@ -324,6 +326,35 @@ TEST(RoundCrack, GrowsAsAPennyShapedOne) {
 }
 
 /// Once the well is shut its pressure falls, in the end the crack is closed.
+/// Back-substitutions of the solid in so many windows, beside closed fractures that nothing
+/// reaches.
+double solves_beside(int fractures) {
+  std::string cracks =
+      "cracks=[{name: lower, path: [88 m, 132 m, 112 m, 132 m]}, "
+      "{name: upper, path: [88 m, 168 m, 112 m, 168 m]}";
+  for (int k = 0; k < fractures; ++k) {
+    cracks += fmt::format(", {{name: n{}, path: [148 m, {} m, 164 m, {} m]}}", k, 40 + 32 * k,
+                          52 + 32 * k);
+  }
+  const auto solves = [&](const char* end) {
+    const SceneRun run =
+        run_config("two_fractures", {cracks + "]", std::string("time.end=") + end});
+    EXPECT_EQ(run.exit_code, 0);
+    for (const auto& module : run.summary["modules"]) {
+      if (module["name"] == "solid") return module["statistics"]["solves"].get<double>();
+    }
+    return 0.0;
+  };
+  return solves("20 s") - solves("1 s");  // each facet takes one at the start
+}
+
+TEST(NaturalFractures, AreNotAskedForWhatTheyReleaseWhileTheyAreClosed) {
+  const double beside_one = solves_beside(1), beside_five = solves_beside(5);
+  std::printf("solves beside one closed fracture %g, five %g\n", beside_one, beside_five);
+  EXPECT_GT(beside_one, 0.0);
+  EXPECT_LT(beside_five, 1.2 * beside_one);
+}
+
 TEST(ShutIn, LetsThePressureFallAndTheCrackClose) {
   const SceneRun run = run_config("shut_in");
   ASSERT_EQ(run.exit_code, 0);
