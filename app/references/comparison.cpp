@@ -39,10 +39,13 @@ void require_absent(const Section& scene, const std::string& problem,
   }
 }
 
-double outside(const Section& scene, const std::string& face) {
+bool is_layer(const Section& scene, const std::string& face) {
   const std::string path = "body.boundary." + face;
-  const bool layer = writes(scene, path) && scene.word(path) == "layer";
-  return layer ? 0.5 * scene.number("body.spacing") : 0.0;
+  return writes(scene, path) && scene.word(path) == "layer";
+}
+
+double outside(const Section& scene, const std::string& face) {
+  return is_layer(scene, face) ? 0.5 * scene.number("body.spacing") : 0.0;
 }
 
 std::vector<Index> points_inside(const Section& scene, const PointSet& points) {

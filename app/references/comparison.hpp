@@ -25,6 +25,9 @@ void require_section(const Section& scene, const std::string& problem, const std
 void require_absent(const Section& scene, const std::string& problem,
                     std::initializer_list<std::string_view> paths);
 
+/// Whether a bonded layer carries the conditions of this face.
+bool is_layer(const Section& scene, const std::string& face);
+
 /// How far [m] the plane that a condition on this face acts in lies outside the box: half a spacing
 /// where a bonded layer carries it, 0 where the face is mirrored.
 double outside(const Section& scene, const std::string& face);

@@ -22,8 +22,7 @@ constexpr double least_filled = 4.0;  // spacings a wing
 constexpr double least_wet = 2.0;     // spacings
 constexpr double far_ahead = 0.2;     // of what is wet
 constexpr double least_waves = 5.0;   // spacings: by half of one, energies are a tenth off then
-// Points of a layer hold what a face is given half a spacing before it and beyond, and drain it as
-// if it lay about a spacing behind itself.
+// What leaves by a face that a layer carries is too much by what a spacing of depth holds.
 constexpr double least_depth_behind_layer = 5.0;  // spacings
 // Half of the first step of pressures that have gone 2.5 spacings from where they jumped.
 constexpr double steep = 0.1;
@@ -128,11 +127,6 @@ struct Seepage {
   double least_depth = 1.0;
   bool may_be_steady = false;  ///< a scene may begin with the flow that comes to be
 };
-
-bool is_layer(const Section& scene, const std::string& face) {
-  const std::string carries = "body.boundary." + face;
-  return writes(scene, carries) && scene.word(carries) == "layer";
-}
 
 /// Through a face whose pressure is given, cracks that leak off into pores, or where free fluid,
 /// whose points lie half a spacing before it, touches the body; empty where there is none of them.

@@ -25,8 +25,7 @@ constexpr double least_angle = 40.0;
 bool is_mirrored(const Section& scene, const std::string& face) {
   const std::string path = "solid.boundary." + face;
   if (!scene.has(path + ".type")) return false;
-  const std::string carrier = "body.boundary." + face;
-  if (scene.has(carrier) && scene.text(carrier) == "layer") return false;
+  if (is_layer(scene, face)) return false;
   return std::ranges::count(std::array{"roller", "fixed", "rigid_plate"},
                             scene.text(path + ".type")) > 0;
 }

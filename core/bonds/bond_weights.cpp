@@ -50,9 +50,11 @@ void BondWeightList::add(std::span<const double> weights) {
 void BondWeights::pack() {
   if (is_packed() || all_.empty()) return;
   BondWeightList list(all_.size());
-  list.add(all_);
-  BondWeights packed = list.take();
-  if (packed.is_packed()) *this = std::move(packed);
+  for (const double& weight : all_) {
+    list.add({&weight, 1});
+    if (!list.is_packed()) return;
+  }
+  *this = list.take();
 }
 
 void BondWeights::unpack() {

@@ -64,6 +64,7 @@ class BondWeightList {
   explicit BondWeightList(std::size_t bonds);  ///< that are expected
 
   void add(std::span<const double> weights);
+  bool is_packed() const { return weights_.is_packed(); }
   BondWeights take() { return std::move(weights_); }
 
  private:

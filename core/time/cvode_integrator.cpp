@@ -162,9 +162,8 @@ void CvodeIntegrator::Cvode::attach_direct_solver() {
 }
 
 void CvodeIntegrator::Cvode::attach_krylov_solver() {
-  constexpr int largest_space = 30, most_restarts = 3;
+  constexpr int largest_space = 30;
   solver_ = allocated(SUNLinSol_SPGMR(y_, SUN_PREC_RIGHT, largest_space, context_));
-  SUNLinSol_SPGMRSetMaxRestarts(solver_, most_restarts);
   if (const int flag = CVodeSetLinearSolver(memory_, solver_, nullptr); flag != CV_SUCCESS)
     fail(flag);
   CVodeSetJacTimes(memory_, nullptr, &Cvode::jacobian_times);

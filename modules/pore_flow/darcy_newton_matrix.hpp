@@ -14,10 +14,11 @@ namespace perifrac {
 /// compressible fluid S follows the pressure and H is that of no pressure.
 ///
 /// Directly, H is assembled, anew where bonds broke or storage is another, and factored. As a
-/// preconditioner, the bonds' own part of the flow stands in for H: it has a third of the entries
-/// and the same spectrum up to a factor; in 3D, where a factor fills up, it is factored
-/// incompletely. Either way the solution is put together from fluxes between points and faces, so
-/// that no volume is lost whatever the accuracy of the solve.
+/// preconditioner, the bonds' own part of the flow stands in for H, with a third of the entries and
+/// the same spectrum up to a factor, and what points store by themselves for S: solved for by
+/// conjugate gradients with an incomplete factor, for a whole one fills up. Either way the solution
+/// is put together from fluxes between points and faces, so that no volume is lost whatever the
+/// accuracy of the solve.
 template <int D>
 class DarcyNewtonMatrix final : public NewtonMatrix {
  public:
