@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/references/rock.hpp"
 #include "app/references/table_reference.hpp"
 
 namespace perifrac {
@@ -30,7 +31,12 @@ const std::vector<ReferenceType>& reference_types() {
 
 std::unique_ptr<Reference> make_reference(const Section& scene, const Simulation& simulation) {
   if (!scene.has("reference")) return nullptr;
-  if (scene.word("reference.type") != "table" && scene.has("body.from") &&
+  const bool is_table = scene.word("reference.type") == "table";
+  if (const auto scatter = scatter_of_rock(scene); scatter && !is_table) {
+    scene.fail(*scatter, "the exact solution is for a rock that is the same everywhere",
+               "a scene without it, or without 'reference'");
+  }
+  if (!is_table && scene.has("body.from") &&
       std::ranges::any_of(scene.numbers("body.from"), [](double x) { return x != 0.0; })) {
     scene.fail("body.from", "the reference's body begins at the origin", "this left out");
   }

@@ -19,12 +19,6 @@ std::size_t place_among_materials(const Section& flow, const std::string& region
   return found == names.end() ? 0 : found - names.begin() + 1;
 }
 
-void require_even(const Section& scene, const std::string& scatter) {
-  if (!writes(scene, scatter)) return;
-  scene.fail(scatter, "the exact solution is for a rock that is the same everywhere",
-             "a scene without it, or without 'reference'");
-}
-
 }  // namespace
 
 double ElasticRock::youngs_modulus() const {
@@ -41,8 +35,6 @@ bool has_elastic_rock(const Section& scene) {
 }
 
 ElasticRock read_elastic_rock(const Section& scene, const std::string& region) {
-  require_even(scene, "solid.material.scatter");
-  require_even(scene, "damage.scatter");
   const std::string there = "regions." + region + ".material";
   const auto elasticity = read_isotropic_elasticity<3>(
       scene.at("solid"), writes(scene, "solid." + there) ? there : "material");
@@ -50,7 +42,6 @@ ElasticRock read_elastic_rock(const Section& scene, const std::string& region) {
 }
 
 PorousRock read_porous_rock(const Section& scene, const std::string& region) {
-  require_even(scene, "pore_flow.permeability_scatter");
   const Section flow = scene.at("pore_flow");
   if (flow.word("fluid.equation_of_state") != "linear") {
     scene.fail("reference.type", "the exact solution is for a linear fluid",
@@ -67,6 +58,14 @@ PorousRock read_porous_rock(const Section& scene, const std::string& region) {
                "a permeability that is the same along every axis");
   }
   return {pore.biot_coefficient, pore.storage, mobility};
+}
+
+std::optional<std::string> scatter_of_rock(const Section& scene) {
+  for (const char* const key :
+       {"solid.material.scatter", "damage.scatter", "pore_flow.permeability_scatter"}) {
+    if (writes(scene, key)) return key;
+  }
+  return {};
 }
 
 }  // namespace perifrac

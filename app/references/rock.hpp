@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/config/section.hpp"
@@ -31,9 +32,12 @@ struct PorousRock {
 /// The scene has a solid that deforms by two elastic constants: one from outside need not.
 bool has_elastic_rock(const Section& scene);
 
-/// Reads them from the scene; in a region of the body, what the physics says of it where it does.
-/// Throws InputError.
+/// Reads them from the scene; in a region of the body, what the physics says of it where it does;
+/// of rock that scatters, the mean. Throws InputError.
 ElasticRock read_elastic_rock(const Section& scene, const std::string& region = "");
 PorousRock read_porous_rock(const Section& scene, const std::string& region = "");
+
+/// The first key by which the rock differs from place to place by chance, if there is one.
+std::optional<std::string> scatter_of_rock(const Section& scene);
 
 }  // namespace perifrac

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/references/rock.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/names.hpp"
 #include "core/io/input_file.hpp"
@@ -133,6 +134,12 @@ std::optional<std::string> difference(const Section& scene, const Table& table,
   const auto text = [](const std::vector<double>& values) {
     return values.empty() ? "none" : fmt::format("{:g}", fmt::join(values, ", "));
   };
+  if (const auto scatter = scatter_of_rock(scene)) {
+    return fmt::format(
+        "{} is for rock that is the same everywhere, and the scene has {}: nothing is compared "
+        "with it",
+        path, *scatter);
+  }
   for (const Condition& condition : table.conditions) {
     const std::vector<double> values = values_of(scene, condition.key, path);
     if (agree(values, condition.values)) continue;

@@ -60,6 +60,20 @@ class Validity(RunTest):
         self.assert_warns(FLUID, COARSE)
         self.assertIn("reference", self.summary)
 
+    def test_a_solution_is_not_compared_with_rock_that_scatters(self):
+        scatter = {"solid.material.scatter": "{coefficient_of_variation: 0.1, correlation_length: 20 mm}"}
+        self.assert_warns(FLUID, COARSE | scatter, "is for rock that is the same everywhere")
+        self.assertNotIn("reference", self.summary)
+        said = perifrac("check", MANDEL, "--trial", "0", *settings({"pore_flow.permeability_scatter":
+                        "{coefficient_of_variation: 0.1, correlation_length: 20 m}"}))
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("the exact solution is for a rock that is the same everywhere", said.stderr)
+
+    def test_rock_may_scatter_under_stress_around_cracks(self):
+        scatter = "{coefficient_of_variation: 0.1, correlation_length: 20 m}"
+        for key in ("solid.material.scatter", "damage.scatter"):
+            self.assertEqual(self.foreknown(CONFIGS / "two_fractures.yaml", {key: scatter}), [])
+
     def test_a_table_is_not_compared_beyond_its_end(self):
         table = "time [s],crack_length [m]\n0.001,0.014\n0.006,0.02\n"
         (self.folder / "table.csv").write_text(table)
