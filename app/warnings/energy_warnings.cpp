@@ -8,6 +8,7 @@
 
 #include "app/references/rock.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
+#include "modules/solid/material/stress_at_rest.hpp"
 
 namespace perifrac {
 
@@ -19,11 +20,16 @@ bool is_rigid(const Section& scene) {
   return scene.has("solid") && scene.word("solid.type") == "rigid";
 }
 
-/// What the body holds at a strain of 1e-9 all over [J], in 2D per metre; 0 where nothing strains.
+/// What the body holds at a strain of 1e-9 all over, or of 1e-4 of what it bears at rest, which is
+/// nearer than equilibrium by iteration comes to it [J], in 2D per metre; 0 where nothing strains.
 double hardly_any(const Section& scene, const Simulation& simulation) {
-  constexpr double strain = 1e-9;
   if (!simulation.has_body() || !has_elastic_rock(scene)) return 0.0;
   const double modulus = read_isotropic_elasticity<3>(scene.at("solid"), "material").shear_modulus;
+  double strain = 1e-9;
+  if (const auto stated = read_stated_stress(scene)) {
+    for (const double stress : stated->effective)
+      strain = std::max(strain, 1e-4 * std::abs(stress) / modulus);
+  }
   return std::visit(
       [&](const auto& body) {
         const auto& volume = body->points().volume;

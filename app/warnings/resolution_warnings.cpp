@@ -19,6 +19,7 @@ namespace perifrac {
 namespace {
 
 constexpr double least_filled = 4.0;  // spacings a wing
+constexpr double hardly_wet = 1e-4;   // spacings, what openings that iterate leave by themselves
 constexpr double least_wet = 2.0;     // spacings
 constexpr double far_ahead = 0.2;     // of what is wet
 constexpr double least_waves = 5.0;   // spacings: by half of one, energies are a tenth off then
@@ -160,7 +161,8 @@ std::optional<std::string> filling_warning(const Section& scene, const Simulatio
   const double dry = scene.integer("dimension") == 2
                          ? largest_of(simulation, "fluid_lag")
                          : std::sqrt(largest_of(simulation, "dry_area"));
-  if (!(filled > 0.0) || filled >= least_filled * spacing || !(dry > spacing)) return {};
+  if (filled <= hardly_wet * spacing || filled >= least_filled * spacing || !(dry > spacing))
+    return {};
   return fmt::format(
       "fluid fills {:.2g} m of the cracks in the end{}, {:.1f} spacings: its pressure and what it "
       "opens are those of facets as long as body.spacing, not of a crack; a later time.end or a "

@@ -395,6 +395,11 @@ class Start(unittest.TestCase):
     def test_has_no_balance_to_close_in_a_body_at_rest(self):
         self.assertNotIn("warning", Run("hf_storage", self.STILL).log)
 
+    def test_takes_what_iteration_leaves_for_nothing(self):
+        run = Run("hf_storage", {**self.STILL, **self.PORES, "solid.linear_solver.type": "multigrid"})
+        self.assertGreater(run.last("elastic_energy"), 0.0)
+        self.assertNotIn("warning", run.log)
+
     def test_names_pressure_that_no_stress_bears(self):
         pores = self.PORES["pore_flow"].replace("porosity", "initial_pressure: 0.1 MPa, porosity")
         run = Run("hf_storage", {**self.STILL, **self.PORES, "pore_flow": pores})
