@@ -75,12 +75,12 @@ std::unique_ptr<Reference> compare(const Section& scene, const Simulation& simul
   const Field pressure = field_named(*simulation.manager, "pore_pressure");
   const Field displacement = field_named(*simulation.manager, "displacement");
   const std::vector<Index> inside = points_inside(scene, points);
-  const auto exact_pressure = [=](double at, double t) { return solution.pressure(at, t); };
+  const auto exact_pressure =
+      once_each([=](double at, double t) { return solution.pressure(at, t); });
   // Below the bottom no pore pressure carries: a strip that shortens once.
   const double sunk = solution.drained_strain() * column.floor;
-  const auto exact_displacement = [=](double at, double t) {
-    return sunk + solution.displacement(at, t);
-  };
+  const auto exact_displacement =
+      once_each([=](double at, double t) { return sunk + solution.displacement(at, t); });
   reference->add(Reference::Error{
       "pressure_error", largest_error(pressure, 0, inside, scale,
                                       [=](Index i, double t) { return exact_pressure(z[i], t); })});

@@ -51,6 +51,10 @@ Reference::Computed value_at(const Simulation& simulation, const Field& field,
 /// Exact values by point and time.
 using ExactField = std::function<double(Index point, double t)>;
 
+/// Of a place that many points share, as on a lattice, a series is summed once a time.
+std::function<double(double place, double t)> once_each(
+    std::function<double(double place, double t)> exact);
+
 /// The largest |computed - exact| / scale over `points`.
 Reference::OfTime largest_error(const Field& field, int component, std::vector<Index> points,
                                 double scale, ExactField exact);

@@ -59,13 +59,14 @@ std::unique_ptr<Reference> make_cryer_reference(const Section& scene,
   const auto radius = [points](Index i) {
     return std::hypot(points.position[0][i], points.position[1][i], points.position[2][i]);
   };
+  const auto exact = once_each([=](double r, double t) { return solution->pressure(r, t); });
   const Field pressure = field_named(*simulation.manager, "pore_pressure");
   auto reference =
       std::make_unique<Reference>("cryer", "Cryer's analytic solution", solution->time_scale());
   reference->add(Reference::Error{
       "pressure_error",
       largest_error(pressure, 0, points_inside(scene, points), solution->initial_pressure(),
-                    [=](Index i, double t) { return solution->pressure(radius(i), t); })});
+                    [=](Index i, double t) { return exact(radius(i), t); })});
   const std::vector<Index> row = points_along(scene, points, 0, {0.0, 0.0, 0.0});
   // The row lies beside the axis, so that its points have other distances from the middle.
   const double aside = std::hypot(points.position[1][row.front()], points.position[2][row.front()]);

@@ -110,7 +110,7 @@ std::unique_ptr<Reference> make_diffusion_reference(const Section& scene,
   const PointSet& points = simulation.points();
   const std::span<const double> x = points.position[slab.axis];
   const Field pressure = field_named(*simulation.manager, "pore_pressure");
-  const auto exact = [=](double at, double t) { return slab.at(at, t); };
+  const auto exact = once_each([=](double at, double t) { return slab.at(at, t); });
   auto reference =
       std::make_unique<Reference>("diffusion", "Diffusion from one face", slab.time_scale());
   reference->add(Reference::Error{

@@ -60,10 +60,9 @@ std::unique_ptr<Reference> make_hydrostatic_reference(const Section& scene,
                weight;
       }});
   reference->add(Reference::Error{"velocity_error", [=](double) {
-                                    return root_mean_square(velocity.values().size(),
-                                                            [&](std::size_t k) {
-                                                              return velocity.values()[k];
-                                                            }) /
+                                    const auto v = velocity.values();
+                                    return root_mean_square(v.size(),
+                                                            [&](std::size_t k) { return v[k]; }) /
                                            std::sqrt(gravity * depth);
                                   }});
   const double lowest = floor + 0.5 * fluid.spacing;

@@ -61,9 +61,10 @@ std::optional<std::string> spread_fluid_warning(const Section& scene,
   const PointSet& points = density->points();
   const double spacing = read_free_fluid(scene).spacing;
   const double whole = std::pow(spacing, points.dimension);
+  const std::span<const double> masses = mass->values(), densities = density->values();
   std::vector<double> volume(points.count);
   for (std::size_t i = 0; i < volume.size(); ++i) {
-    volume[i] = std::max(whole, mass->values()[i] / density->values()[i]);
+    volume[i] = std::max(whole, masses[i] / densities[i]);
   }
   const double filled = points.dimension == 2
                             ? filled_part<2>(places_of<2>(points), volume, spacing)
