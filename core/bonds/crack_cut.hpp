@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,10 +16,9 @@ bool is_cut(const CrackFacet<D>& facet, const Vector<D>& x, const Vector<D>& y);
 /// The bonds between real points, pairs i < j, that a facet cuts. A bond through the facet's edge
 /// counts as cut; a point in the facet's plane lies on the side of its normal.
 /// `family` may be without the bonds that are broken already, or have them with weight 0: those are
-/// passed over. No bond is longer than `reach` [m].
+/// passed over. No bond is longer than `reach` [m]: only points that near are asked.
 template <int D>
-std::vector<std::pair<Index, Index>> bonds_cut_by(
-    const CrackFacet<D>& facet, const Family<D>& family,
-    double reach = std::numeric_limits<double>::infinity());
+std::vector<std::pair<Index, Index>> bonds_cut_by(const CrackFacet<D>& facet,
+                                                  const Family<D>& family, double reach);
 
 }  // namespace perifrac

@@ -22,6 +22,8 @@ constexpr int most_steps = 40;
 /// Of the moments, relative to k; and what an iterated step leaves of its residual.
 constexpr double factored_tolerance = 1e-12, iterated_tolerance = 2e-3, left_by_step = 0.1;
 constexpr int most_iterations = 3000;
+constexpr double left_by_last_factor = 1e-3;
+constexpr int iterations_worth_a_factor = 20;
 constexpr Index points_worth_a_factor = 600;
 constexpr double longest_step = 2.0;  // the most that one step may change ln s
 constexpr double least_factor = 1e-4, largest_factor = 1e2;
@@ -221,10 +223,30 @@ class MomentProjection {
     return largest;
   }
 
+  /// The factor of an earlier step is near enough to precondition the next ones.
   void find_step_by_factor(const Eigen::VectorXd& residual, Eigen::VectorXd& step) {
-    SparseCholesky newton;
-    newton.factor(derivative());
-    newton.solve(residual, step);
+    if (is_factored_ && find_step_by_last_factor(residual, step)) return;
+    newton_.factor(derivative());
+    is_factored_ = true;
+    newton_.solve(residual, step);
+  }
+
+  bool find_step_by_last_factor(const Eigen::VectorXd& residual, Eigen::VectorXd& step) {
+    Eigen::VectorXd left = residual;
+    step.setZero();
+    try {
+      ConjugateGradients().correct(
+          left, step, left_by_last_factor * residual.norm(), iterations_worth_a_factor,
+          [this](const Eigen::VectorXd& change, Eigen::VectorXd& image) {
+            apply_derivative(change, image);
+          },
+          [this](const Eigen::VectorXd& of, Eigen::VectorXd& correction) {
+            newton_.solve(of, correction);
+          });
+    } catch (const NotConverged&) {
+      return false;
+    }
+    return true;
   }
 
   void find_step_by_iteration(const Eigen::VectorXd& residual, Eigen::VectorXd& step) {
@@ -316,6 +338,8 @@ class MomentProjection {
   Index complete_count_ = 0;
   double target_ = 0.0;          ///< k
   std::vector<double> at_node_;  ///< spread() multipliers, T a node
+  SparseCholesky newton_;
+  bool is_factored_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "app/simulation/probes.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -131,7 +133,7 @@ TEST(Probes, NeverReadAcrossACrack) {
   const std::uint64_t before = bonds.version();
   for (double x = 0.0; x < 12.0; x += 1.0) {
     const CrackFacet<2> facet = {{{x, 5.0}, {x + 1.0, 5.0}}};
-    bonds.add_facet(facet, bonds_cut_by<2>(facet, *family));
+    bonds.add_facet(facet, bonds_cut_by<2>(facet, *family, INFINITY));
   }
   ASSERT_NE(bonds.version(), before);
   EXPECT_NEAR(probed.read(torn).first, linear({6.2, 4.9}), 1e-11);
@@ -142,7 +144,7 @@ TEST(Probes, NeverReadAcrossBondsThatBrokeWithoutAFacet) {
   Probed probed(box_2d, "[6.2, 4.9]");
   const auto family = probed.body().family(0);
   const CrackFacet<2> plane = {{{0.0, 5.0}, {12.0, 5.0}}};
-  probed.body().claim_bond_state().break_bonds(bonds_cut_by<2>(plane, *family));
+  probed.body().claim_bond_state().break_bonds(bonds_cut_by<2>(plane, *family, INFINITY));
   EXPECT_NEAR(probed.read(torn).first, linear({6.2, 4.9}), 1e-11);
 }
 

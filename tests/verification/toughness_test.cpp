@@ -169,7 +169,7 @@ double largest_stretch(const CrackedPlate& plate, const CrackFacet<2>& facet,
                        const Eigen::VectorXd& u) {
   const Family<2>& family = *plate.family;
   double largest = 0.0;
-  for (const auto& [i, j] : bonds_cut_by<2>(facet, family)) {
+  for (const auto& [i, j] : bonds_cut_by<2>(facet, family, INFINITY)) {
     double along = 0.0, square = 0.0;
     for (int a = 0; a < 2; ++a) {
       const double xi = family.position[a][j] - family.position[a][i];

@@ -50,7 +50,7 @@ void CrackDynamics::note_stiffness(Index i) {
 /// What the motion needs to know of the facet; its jump once.
 void CrackDynamics::add_facet(const CrackFacet<2>& facet) {
   const std::size_t f = terms_.size();
-  if (f == jumps_.size()) jumps_.push_back(face_jump<2>(facet, intact_, spacing_));
+  if (f == jumps_.size()) jumps_.push_back(face_jump<2>(facet, intact_, spacing_, longest_));
   std::vector<Term>& terms = terms_.emplace_back();
   for (const auto& [point, coefficient] : jumps_[f].terms) {
     for (int a = 0; a < 2; ++a) {
@@ -245,7 +245,7 @@ double CrackDynamics::intensity_at_fixed_volume(Index facet) {
 }
 
 bool CrackDynamics::cut(const CrackFacet<2>& facet) {
-  const auto bonds = bonds_cut_by<2>(facet, *family_);
+  const auto bonds = bonds_cut_by<2>(facet, *family_, longest_);
   if (bonds.empty()) return false;
   std::set<Index> points;
   for (const auto& [i, j] : bonds) points.insert({i, j});

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/small_vector.hpp"
+#include "core/bonds/bond_lengths.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/bonds/crack_cut.hpp"
 #include "core/profile/profile.hpp"
@@ -44,8 +45,9 @@ CriticalStretch<D>::CriticalStretch(std::shared_ptr<Family<D>> family,
 
 template <int D>
 void CriticalStretch<D>::cut_seeds() {
+  const double longest = seeds_.empty() ? 0.0 : bond_lengths(*family_).longest;
   for (const CrackFacet<D>& seed : seeds_) {
-    const Bonds cut = bonds_cut_by<D>(seed, *family_);
+    const Bonds cut = bonds_cut_by<D>(seed, *family_, longest);
     break_in_family(cut, ends_of(cut));
     bonds_.add_facet(seed, cut);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/small_vector.hpp"
+#include "core/bonds/bond_lengths.hpp"
 #include "core/bonds/crack_cut.hpp"
 
 namespace perifrac {
@@ -41,12 +42,7 @@ CutBody<D>::CutBody(std::shared_ptr<Family<D>> family, double spacing,
         std::ranges::minmax(std::span(family_->position[a]).first(family_->point_count));
     box_[a] = {least, largest};
   }
-  for (Index i = 0; i < family_->point_count; ++i) {
-    const Vector<D> x = vector_at(family_->position, i);
-    for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
-      longest_ = std::max(longest_, norm(vector_at(family_->position, family_->other[bond]) - x));
-    }
-  }
+  longest_ = bond_lengths(*family_).longest;
   cut_seeds();
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "core/bonds/bond_state.hpp"
@@ -32,6 +31,6 @@ struct FaceJump {
 /// `family`: all bonds of the intact body, none longer than `longest` [m].
 template <int D>
 FaceJump<D> face_jump(const CrackFacet<D>& facet, const Family<D>& family, double spacing,
-                      double longest = std::numeric_limits<double>::infinity());
+                      double longest);
 
 }  // namespace perifrac

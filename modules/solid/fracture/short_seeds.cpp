@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/small_vector.hpp"
+#include "core/bonds/bond_lengths.hpp"
 #include "core/bonds/crack_cut.hpp"
 #include "modules/solid/fracture/crack_plane.hpp"
 
@@ -36,9 +37,9 @@ struct Chain {
   int tips = 0;
 };
 
-bool is_tip(const CrackFacet<2>& facet, int end, const Family<2>& cut) {
+bool is_tip(const CrackFacet<2>& facet, int end, const Family<2>& cut, double longest) {
   const CrackFacet<2> next = {facet[end], 2.0 * facet[end] - facet[1 - end]};
-  return !bonds_cut_by<2>(next, cut).empty();
+  return !bonds_cut_by<2>(next, cut, longest).empty();
 }
 
 std::vector<Chain> find_chains(const Family<2>& cut,
@@ -48,6 +49,7 @@ std::vector<Chain> find_chains(const Family<2>& cut,
     for (const auto& facet : seeds[k]) left.emplace_back(k, facet);
   }
   const auto all = left;
+  const double longest = bond_lengths(cut).longest;
   const auto meets = [](const CrackFacet<2>& facet, const Vector<2>& end) {
     return facet[0] == end || facet[1] == end;
   };
@@ -68,7 +70,7 @@ std::vector<Chain> find_chains(const Family<2>& cut,
         });
         const auto here = std::ranges::count_if(
             all, [&](const auto& other) { return meets(other.second, facet[end]); });
-        if (here == 1 && is_tip(facet, end, cut)) ++chain.tips;
+        if (here == 1 && is_tip(facet, end, cut, longest)) ++chain.tips;
       }
     }
   }

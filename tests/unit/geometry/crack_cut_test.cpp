@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bonds/bond_lengths.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
 namespace perifrac {
@@ -26,7 +27,8 @@ TEST(CrackCut, ALongFacetCutsWhatLiesOnTwoSides) {
     }
   }
   EXPECT_GT(expected.size(), 30u);
-  EXPECT_EQ(bonds_cut_by<2>(facet, *family), expected);
+  EXPECT_EQ(bonds_cut_by<2>(facet, *family, INFINITY), expected);
+  EXPECT_EQ(bonds_cut_by<2>(facet, *family, bond_lengths(*family).longest), expected);
 }
 
 /// Pieces cut together what the whole cuts, although bonds pass through where they join; each
@@ -34,17 +36,17 @@ TEST(CrackCut, ALongFacetCutsWhatLiesOnTwoSides) {
 TEST(CrackCut, PiecesCutWhatTheWholeCuts) {
   const auto body = test::box_body<2>({10, 10}, 1.0);
   Family<2> family = *body->family(0);
-  const auto whole = bonds_cut_by<2>({{{2.0, 5.0}, {6.0, 5.0}}}, family);
+  const auto whole = bonds_cut_by<2>({{{2.0, 5.0}, {6.0, 5.0}}}, family, INFINITY);
   std::vector<std::pair<Index, Index>> pieces;
   for (double x = 2.0; x < 6.0; x += 0.5) {  // ends where rows of bonds pass through
-    for (const auto& [i, j] : bonds_cut_by<2>({{{x, 5.0}, {x + 0.5, 5.0}}}, family)) {
+    for (const auto& [i, j] : bonds_cut_by<2>({{{x, 5.0}, {x + 0.5, 5.0}}}, family, INFINITY)) {
       pieces.emplace_back(i, j);
       silence(family, i, j);
     }
   }
   std::ranges::sort(pieces);
   EXPECT_EQ(pieces, whole);
-  EXPECT_TRUE(bonds_cut_by<2>({{{2.0, 5.0}, {6.0, 5.0}}}, family).empty());
+  EXPECT_TRUE(bonds_cut_by<2>({{{2.0, 5.0}, {6.0, 5.0}}}, family, INFINITY).empty());
 }
 
 /// The four bonds of a 2 x 2 neighbourhood: those that end on the facet's edge count as cut, those
@@ -52,15 +54,15 @@ TEST(CrackCut, PiecesCutWhatTheWholeCuts) {
 TEST(CrackCut, CountsABondThroughTheEndAsCut) {
   const auto body = test::box_body<2>({6, 6}, 1.0, test::Cloud::lattice, 1.1);
   const auto family = body->family(0);
-  EXPECT_EQ(bonds_cut_by<2>({{{1.5, 3.0}, {3.5, 3.0}}}, *family).size(), 3u);
-  EXPECT_EQ(bonds_cut_by<2>({{{1.6, 3.0}, {3.4, 3.0}}}, *family).size(), 1u);
+  EXPECT_EQ(bonds_cut_by<2>({{{1.5, 3.0}, {3.5, 3.0}}}, *family, INFINITY).size(), 3u);
+  EXPECT_EQ(bonds_cut_by<2>({{{1.6, 3.0}, {3.4, 3.0}}}, *family, INFINITY).size(), 1u);
 }
 
 /// A point in the facet's plane lies on the side of its normal, so that one row is parted from the
 /// next and not both of its sides from it.
 TEST(CrackCut, PutsAPointInThePlaneOnOneSide) {
   const auto body = test::box_body<2>({6, 6}, 1.0, test::Cloud::lattice, 1.1);
-  const auto cut = bonds_cut_by<2>({{{-1.0, 2.5}, {7.0, 2.5}}}, *body->family(0));
+  const auto cut = bonds_cut_by<2>({{{-1.0, 2.5}, {7.0, 2.5}}}, *body->family(0), INFINITY);
   EXPECT_EQ(cut.size(), 6u);
   for (const auto& [i, j] : cut) EXPECT_EQ(body->points().at(i)[1] + body->points().at(j)[1], 4.0);
 }
@@ -71,7 +73,7 @@ TEST(CrackCut, ASquareCutsTheRowsItSpans) {
   const Vector<3> a = {1.0, 1.0, 2.0}, b = {3.0, 1.0, 2.0}, c = {3.0, 3.0, 2.0},
                   d = {1.0, 3.0, 2.0};
   for (const CrackFacet<3>& facet : {CrackFacet<3>{a, b, c, d}, CrackFacet<3>{c, b, a, d}}) {
-    const auto cut = bonds_cut_by<3>(facet, *body->family(0));
+    const auto cut = bonds_cut_by<3>(facet, *body->family(0), INFINITY);
     EXPECT_EQ(cut.size(), 4u);
     for (const auto& [i, j] : cut) {
       EXPECT_EQ(body->points().at(i)[2] + body->points().at(j)[2], 4.0);

@@ -34,7 +34,7 @@ std::vector<Index> cut(BondState<2>& bonds, Family<2>& family,
                        const std::vector<CrackFacet<2>>& facets) {
   std::set<Index> points;
   for (const CrackFacet<2>& facet : facets) {
-    const auto broken = bonds_cut_by<2>(facet, family);
+    const auto broken = bonds_cut_by<2>(facet, family, INFINITY);
     bonds.add_facet(facet, broken);
     for (const auto& [i, j] : broken) {
       silence(family, i, j);

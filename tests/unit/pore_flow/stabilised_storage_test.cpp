@@ -153,7 +153,8 @@ std::vector<BrokenBond> cut_at(const Body<2>& body, double x) {
   std::vector<BrokenBond> broken;
   const auto family = body.family(0);
   const CrackFacet<2> facet = {{{x, -1.0}, {x, 100.0}}};
-  for (const auto& [i, j] : bonds_cut_by<2>(facet, *family)) broken.push_back({i, j, no_facet});
+  for (const auto& [i, j] : bonds_cut_by<2>(facet, *family, INFINITY))
+    broken.push_back({i, j, no_facet});
   return broken;
 }
 

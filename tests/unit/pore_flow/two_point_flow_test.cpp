@@ -277,7 +277,7 @@ TEST(TwoPointFlow, LetsNothingThroughACrack) {
     for (int k = 0; k < 13; ++k) {
       const CrackFacet<2> facet = {
           {{0.5 * k - 0.2, 2.3 + 0.06 * k}, {0.5 * k + 0.3, 2.36 + 0.06 * k}}};
-      bonds.add_facet(facet, bonds_cut_by<2>(facet, *family));
+      bonds.add_facet(facet, bonds_cut_by<2>(facet, *family, INFINITY));
     }
     flow.op->follow(bonds);
     const auto above = [&](const Vector<2>& x) { return x[1] > 2.3 + 0.12 * (x[0] + 0.2); };

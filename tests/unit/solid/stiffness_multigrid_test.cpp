@@ -38,7 +38,7 @@ struct Case {
     const auto cracked = test::breakable<D>(test::Rock::linear_exact, family,
                                             boundary.mirror_condition(*family), law);
     for (const CrackFacet<D>& facet : facets) {
-      const auto bonds = bonds_cut_by<D>(facet, *family);
+      const auto bonds = bonds_cut_by<D>(facet, *family, INFINITY);
       for (const auto& [i, j] : bonds) silence(*family, i, j);
       cracked->update(ends_of(bonds));
     }
