@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace perifrac {
 
@@ -40,6 +41,9 @@ class Integrator {
   /// The longest step that stability lets it take [s], known after reset; infinity where there is
   /// no limit.
   virtual double longest_step() const = 0;
+
+  /// How the systems of its steps are solved; empty: there are none.
+  virtual std::string path() const { return {}; }
 
   virtual IntegratorStatistics statistics() const = 0;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/time/cvode_integrator.hpp"
 #include "modules/pore_flow/darcy_newton_matrix.hpp"
 
@@ -16,6 +18,9 @@ class DarcyCvode final : public Integrator {
   void advance(double t_end, std::span<double> y) override { cvode_.advance(t_end, y); }
   bool is_multistep() const override { return true; }
   double longest_step() const override { return cvode_.longest_step(); }
+  std::string path() const override {
+    return matrix_.exact() ? "CVODE's systems by a factor" : "CVODE's systems by krylov";
+  }
   IntegratorStatistics statistics() const override { return cvode_.statistics(); }
 
  private:

@@ -177,6 +177,12 @@ double DarcyFlow<D>::stable_time_step() const {
 }
 
 template <int D>
+std::string DarcyFlow<D>::path() const {
+  const std::string loops = system_->path(), systems = integrator_->path();
+  return systems.empty() ? loops : loops + "; " + systems;
+}
+
+template <int D>
 void DarcyFlow<D>::prepare(const TimeWindow& window) {
   if (system_->choose_storage(dilatation_slope_)) restart_integrator_ = true;
   // Fluid may hold energy by the slope, which is asked for before any window too.

@@ -50,7 +50,7 @@ class DarcyFlow final : public PhysicsModule {
   double advance(const TimeWindow& window) override;
   bool may_end_windows() const override { return false; }
   void visit_state(StateVisitor& visitor) override;
-  std::string path() const override { return system_->path(); }
+  std::string path() const override;
   void on_restored(double t) override;
 
  private:

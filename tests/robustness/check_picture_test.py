@@ -29,6 +29,14 @@ class Check(RunTest):
         self.assertIn("link crack_pressure", said)
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_says_how_steps_of_pore_flow_are_solved_for(self):
+        for integrator, words in (("{type: explicit}", "packets of [0-9]+ points: .*neighbours\n"),
+                                  ("{type: cvode}", "packets .*; CVODE's systems by a factor\n"),
+                                  ("{type: cvode, linear_solver: krylov}", "packets .*; CVODE's systems by krylov\n")):
+            said = perifrac("check", CONFIGS / "terzaghi.yaml", "--trial", "0", "--arrays", "--set",
+                            f"pore_flow.integrator={integrator}", cwd=self.folder).stdout
+            self.assertRegex(said, "bonds of pore_flow: " + words)
+
     def test_plane_with_all_there_is(self):
         words, _ = self.picture(CONFIGS / "hf_complete.yaml", "--set",
                                 "output={interval: 5 ms, probes: [{name: far, at: [10 mm, 10 mm]}]}",
