@@ -57,6 +57,28 @@ inline Packet gather(std::span<const double> values, const Index* index) {
   (std::make_integer_sequence<int, packet_size>{});
 }
 
+/// Of every pair of rows that many apart, the parts that lie on the wrong side of the diagonal.
+template <int step, int... l>
+[[gnu::always_inline]] inline void exchange_parts(std::array<Packet, packet_size>& rows,
+                                                  std::integer_sequence<int, l...>) {
+#pragma GCC unroll 8
+  for (int k = 0; k < packet_size; ++k) {
+    if ((k & step) != 0) continue;
+    const Packet a = rows[k], b = rows[k + step];
+    rows[k] = __builtin_shufflevector(a, b, ((l & step) == 0 ? l : packet_size + l - step)...);
+    rows[k + step] =
+        __builtin_shufflevector(a, b, ((l & step) == 0 ? l + step : packet_size + l)...);
+  }
+}
+
+/// Turns rows into columns: number l of packet k becomes number k of packet l. Always inline: rows
+/// that go through memory cost more than reading numbers one by one.
+template <int step = 1>
+[[gnu::always_inline]] inline void transpose(std::array<Packet, packet_size>& rows) {
+  exchange_parts<step>(rows, std::make_integer_sequence<int, packet_size>());
+  if constexpr (2 * step < packet_size) transpose<2 * step>(rows);
+}
+
 /// Points to compute with at once; -1 where there is none, of which nothing is kept.
 struct PointPacket {
   const Index* point;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/packet.hpp"
+#include "core/geometry/neighbour_values.hpp"
 #include "core/geometry/neighbours.hpp"
 #include "core/geometry/pair_influence.hpp"
 
@@ -15,11 +16,11 @@ template <class Term, int D>
 inline constexpr bool takes_packets =
     std::is_invocable_v<Term, const Index*, const PacketVector<D>&, const Packet&>;
 
-template <int K, int D, class Influence, class Term>
+/// `read(j)` takes what j[0], j[1], ... bring, their positions in front, which `term` is given too.
+template <int K, int D, class Influence, class Read, class Term>
 inline std::array<double, K> sum_over_packets(const Neighbours& neighbours, Index i,
-                                              const Vector<D>& x,
-                                              const std::array<std::vector<double>, D>& position,
-                                              const Influence& influence, Term&& term) {
+                                              const Vector<D>& x, const Influence& influence,
+                                              Read&& read, Term&& term) {
   // Sums stay in registers only where the loops over them are unrolled.
   std::array<Packet, K> sum;
 #pragma GCC unroll 64
@@ -34,14 +35,15 @@ inline std::array<double, K> sum_over_packets(const Neighbours& neighbours, Inde
       for (int l = 0; l < packet_size; ++l) filled[l] = neighbours.other[std::max(0, first + l)];
       j = filled;
     }
+    const auto brought = read(j);
     PacketVector<D> y;
     Packet r_square{};
     for (int a = 0; a < D; ++a) {
-      y[a] = gather(position[a], j) - x[a];
+      y[a] = brought[a] - x[a];
       r_square += y[a] * y[a];
     }
     const Packet omega = lanes() >= n - first ? influence(r_square) : Packet{};
-    const std::array<Packet, K> t = term(j, y, omega);
+    const std::array<Packet, K> t = term(j, brought, y, omega);
 #pragma GCC unroll 64
     for (int k = 0; k < K; ++k) sum[k] += t[k];
   }
@@ -49,6 +51,17 @@ inline std::array<double, K> sum_over_packets(const Neighbours& neighbours, Inde
 #pragma GCC unroll 64
   for (int k = 0; k < K; ++k) result[k] = total(sum[k]);
   return result;
+}
+
+/// As sum_over_neighbours(), of NeighbourValues: sums term(brought, y, omega).
+template <int K, int D, class Values, class Influence, class Term>
+inline std::array<double, K> sum_over_values(const Neighbours& neighbours, Index i,
+                                             const Vector<D>& x, const Values& values,
+                                             const Influence& influence, Term&& term) {
+  return sum_over_packets<K, D>(
+      neighbours, i, x, influence, [&](const Index* j) { return values.gather(j); },
+      [&](const Index*, const typename Values::Packets& brought, const PacketVector<D>& y,
+          const Packet& omega) { return term(brought, y, omega); });
 }
 
 template <int K, int D, class Influence, class Term>
@@ -66,7 +79,9 @@ inline std::array<double, K> sum_one_by_one(const Neighbours& neighbours, Index 
       y[a] = position[a][j] - x[a];
       r_square += y[a] * y[a];
     }
-    const std::array<double, K> t = term(j, y, influence(r_square));
+    const double omega = influence(r_square);
+    if (omega == 0.0) continue;
+    const std::array<double, K> t = term(j, y, omega);
     for (int k = 0; k < K; ++k) sum[k] += t[k];
   }
   return sum;
@@ -89,7 +104,16 @@ inline std::array<double, K> sum_over_neighbours(const Neighbours& neighbours, I
       return sum_over_neighbours<K, D>(neighbours, i, x, position, own, term);
     });
   } else if constexpr (takes_packets<Term, D>) {
-    return sum_over_packets<K, D>(neighbours, i, x, position, influence, term);
+    return sum_over_packets<K, D>(
+        neighbours, i, x, influence,
+        [&](const Index* j) {
+          PacketVector<D> at;
+          for (int a = 0; a < D; ++a) at[a] = gather(position[a], j);
+          return at;
+        },
+        [&](const Index* j, const PacketVector<D>&, const PacketVector<D>& y, const Packet& omega) {
+          return term(j, y, omega);
+        });
   } else {
     return sum_one_by_one<K, D>(neighbours, i, x, position, influence, term);
   }

@@ -23,11 +23,10 @@ void OneSidedWallForce<D>::add(const FluidStep<D>& step, NearWalls<D>& walls,
   const FluidPoints<D>& points = step.points;
   const double spacing = step.scheme.spacing;
   const double strength = repulsion_ * step.fluid.sound_speed() * step.fluid.sound_speed();
+  const WallDrag<D> drag(step, walls);
   add_pair_forces<D>(step, walls, force, [&](Index i, Index w, const Vector<D>& y, double omega) {
-    Vector<D> pair = stress_along<D>(step, i, y);
-    const Vector<D> drag = wall_drag<D>(step, walls, i, w, y);
     const double volumes = omega * points.volume[i] * walls.volume[w];
-    pair = volumes * (pair + drag);
+    const Vector<D> pair = volumes * (stress_along<D>(step, i, y) + drag(i, w, y));
     const double square = squared_norm(y);
     const double r = std::sqrt(square);
     if (r >= spacing || step.cloud.depth[walls.wall[w]] > spacing) return pair;

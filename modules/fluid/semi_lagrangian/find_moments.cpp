@@ -69,23 +69,24 @@ double divergence(const auto& sum, const SymmetricTensor<D>& inverse_shape) {
 template <int D>
 void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
                   const FluidNeighbours<D>& neighbours, const GaussianInfluence& influence,
-                  FluidMoments<D>& moments) {
+                  FluidValues<D>& values, FluidMoments<D>& moments) {
   const double bulk = moments.bulk_trace / D;
+  values.set(points.position, points.velocity, points.volume, points.density);
   moments.resize(points.count);
   for_each_shared_point(points.count, [&](Index i) {
     const Vector<D> x = points.at(i);
     Vector<D> v;
     for (int a = 0; a < D; ++a) v[a] = points.velocity[a][i];
     const double density = points.density[i];
-    auto sum = sum_over_neighbours<Sums<D>::size, D>(
-        neighbours.fluid_of_fluid(), i, x, points.position, influence,
-        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
-          const Packet weight = omega * gather(points.volume, j);
+    auto sum = sum_over_values<Sums<D>::size, D>(
+        neighbours.fluid_of_fluid(), i, x, values, influence,
+        [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
+          const Packet weight = omega * other[2 * D];
           PacketVector<D> relative;
-          for (int a = 0; a < D; ++a) relative[a] = gather(points.velocity[a], j) - v[a];
+          for (int a = 0; a < D; ++a) relative[a] = other[D + a] - v[a];
           std::array<Packet, Sums<D>::size> term;
           add_moments<D>(y, relative, weight, term);
-          const Packet difference = weight * (gather(points.density, j) - density);
+          const Packet difference = weight * (other[2 * D + 1] - density);
           term[Sums<D>::difference] = difference;
           for (int a = 0; a < D; ++a) term[Sums<D>::slope + a] = difference * y[a];
           return term;
@@ -116,8 +117,8 @@ void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
 }
 
 template void find_moments<2>(const FluidPoints<2>&, const NearWalls<2>&, const FluidNeighbours<2>&,
-                              const GaussianInfluence&, FluidMoments<2>&);
+                              const GaussianInfluence&, FluidValues<2>&, FluidMoments<2>&);
 template void find_moments<3>(const FluidPoints<3>&, const NearWalls<3>&, const FluidNeighbours<3>&,
-                              const GaussianInfluence&, FluidMoments<3>&);
+                              const GaussianInfluence&, FluidValues<3>&, FluidMoments<3>&);
 
 }  // namespace perifrac

@@ -7,31 +7,49 @@
 
 namespace perifrac {
 
+namespace {
+
+template <int D>
+void set_values(const FluidStep<D>& step, ForceValues<D>& values) {
+  std::array<std::span<const double>, 2 * D + 2 + symmetric_size<D>> columns;
+  for (int a = 0; a < D; ++a) {
+    columns[a] = step.points.position[a];
+    columns[D + a] = step.points.velocity[a];
+  }
+  columns[2 * D] = step.points.volume;
+  columns[2 * D + 1] = step.moments.trace;
+  for (int k = 0; k < symmetric_size<D>; ++k) columns[2 * D + 2 + k] = step.stress[k];
+  values.set(columns);
+}
+
+}  // namespace
+
 template <int D>
 void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
-                      std::array<std::vector<double>, D>& force) {
+                      ForceValues<D>& values, std::array<std::vector<double>, D>& force) {
   const FluidPoints<D>& points = step.points;
   const FluidMoments<D>& moments = step.moments;
   const double least = step.fluid.density * step.scheme.artificial_viscosity *
                        step.fluid.sound_speed() * step.scheme.spacing;
   const double viscosity = 4.0 * D * std::max(step.fluid.viscosity, least);
-  for (auto& values : force) values.resize(points.count);
+  for (auto& along : force) along.resize(points.count);
+  set_values<D>(step, values);
   for_each_shared_point(points.count, [&](Index i) {
     std::array<double, symmetric_size<D>> own;
     for (int k = 0; k < symmetric_size<D>; ++k) own[k] = step.stress[k][i];
     const Vector<D> v = vector_at(points.velocity, i);
     const double trace = moments.trace[i];
-    const auto sum = sum_over_neighbours<D, D>(
-        step.neighbours.fluid_of_fluid(), i, points.at(i), points.position, influence,
-        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
-          const Packet weight = omega * gather(points.volume, j);
-          const Packet drag = viscosity / (trace + gather(moments.trace, j));
+    const auto sum = sum_over_values<D, D>(
+        step.neighbours.fluid_of_fluid(), i, points.at(i), values, influence,
+        [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
+          const Packet weight = omega * other[2 * D];
+          const Packet drag = viscosity / (trace + other[2 * D + 1]);
           PacketVector<D> term;
-          for (int a = 0; a < D; ++a) term[a] = drag * (gather(points.velocity[a], j) - v[a]);
+          for (int a = 0; a < D; ++a) term[a] = drag * (other[D + a] - v[a]);
           for (int a = 0; a < D; ++a) {
             for (int b = a; b < D; ++b) {
               const int k = symmetric_index<D>(a, b);
-              const Packet stress = own[k] + gather(step.stress[k], j);
+              const Packet stress = own[k] + other[2 * D + 2 + k];
               term[a] += stress * y[b];
               if (b > a) term[b] += stress * y[a];
             }
@@ -41,12 +59,12 @@ void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influen
         });
     set_at(force, i, points.volume[i] * sum);
   });
-  for (auto& values : force) ranks::gather_shares(values, points.count);
+  for (auto& along : force) ranks::gather_shares(along, points.count);
 }
 
-template void find_pair_forces<2>(const FluidStep<2>&, const GaussianInfluence&,
+template void find_pair_forces<2>(const FluidStep<2>&, const GaussianInfluence&, ForceValues<2>&,
                                   std::array<std::vector<double>, 2>&);
-template void find_pair_forces<3>(const FluidStep<3>&, const GaussianInfluence&,
+template void find_pair_forces<3>(const FluidStep<3>&, const GaussianInfluence&, ForceValues<3>&,
                                   std::array<std::vector<double>, 3>&);
 
 }  // namespace perifrac

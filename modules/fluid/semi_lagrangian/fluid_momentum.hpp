@@ -4,10 +4,16 @@
 
 namespace perifrac {
 
+/// Position, velocity, volume, trace of the shape tensor and stress of all fluid points, images
+/// included.
+template <int D>
+using ForceValues = NeighbourValues<D, 2 * D + 2 + symmetric_size<D>>;
+
 /// Sets the force on each fluid point by the others [N]: pressure in the antisymmetric pair form
-/// (paper Eq 21) and viscosity, physical and artificial, as a pair Laplacian.
+/// (paper Eq 21) and viscosity, physical and artificial, as a pair Laplacian. `values` are to work
+/// with.
 template <int D>
 void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
-                      std::array<std::vector<double>, D>& force);
+                      ForceValues<D>& values, std::array<std::vector<double>, D>& force);
 
 }  // namespace perifrac

@@ -16,15 +16,17 @@ class SemiLagrangianMethod final : public FluidMethod<D> {
   const PairInfluence& influence() const override { return influence_; }
   void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
                     const FluidNeighbours<D>& neighbours, FluidMoments<D>& moments) override {
-    perifrac::find_moments<D>(points, walls, neighbours, gaussian_, moments);
+    perifrac::find_moments<D>(points, walls, neighbours, gaussian_, moment_values_, moments);
   }
   void find_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) override {
-    find_pair_forces<D>(step, gaussian_, force);
+    find_pair_forces<D>(step, gaussian_, force_values_, force);
   }
 
  private:
   GaussianInfluence gaussian_;
   PairInfluence influence_;
+  FluidValues<D> moment_values_;
+  ForceValues<D> force_values_;
 };
 
 template <int D>

@@ -19,13 +19,14 @@ class SphMethod final : public FluidMethod<D> {
     moments_.find(points, walls, neighbours, wendland_, moments);
   }
   void find_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) override {
-    find_sph_forces<D>(step, wendland_, force);
+    find_sph_forces<D>(step, wendland_, force_values_, force);
   }
 
  private:
   WendlandInfluence wendland_;
   PairInfluence influence_;
   SphMoments<D> moments_;
+  FluidValues<D> force_values_;
 };
 
 template <int D>

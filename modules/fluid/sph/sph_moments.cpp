@@ -34,11 +34,11 @@ void add_density_moments(const PacketVector<D>& y, const PacketVector<D>& relati
   sum[DensitySums<D>::square] = weight * square;
 }
 
+/// `velocity(a)` along each axis, less v.
 template <int D>
-PacketVector<D> relative_to(const Vector<D>& v, const std::array<std::vector<double>, D>& velocity,
-                            const Index* j) {
+PacketVector<D> relative_to(const Vector<D>& v, auto&& velocity) {
   PacketVector<D> relative;
-  for (int a = 0; a < D; ++a) relative[a] = gather(velocity[a], j) - v[a];
+  for (int a = 0; a < D; ++a) relative[a] = velocity(a) - v[a];
   return relative;
 }
 
@@ -65,17 +65,19 @@ void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& 
                               const FluidNeighbours<D>& neighbours,
                               const WendlandInfluence& influence, FluidMoments<D>& moments) {
   const double bulk = moments.bulk_trace / D;
-  for (auto& values : slope_) values.resize(points.count);
+  for (auto& along : slope_) along.resize(points.count);
+  values_.set(points.position, points.velocity, points.volume, points.density);
   for_each_shared_point(points.count, [&](Index i) {
     const Vector<D> x = points.at(i), v = vector_at(points.velocity, i);
     const double density = points.density[i];
-    auto sum = sum_over_neighbours<DensitySums<D>::size, D>(
-        neighbours.fluid_of_fluid(), i, x, points.position, influence,
-        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
-          const Packet weight = omega * gather(points.volume, j);
+    auto sum = sum_over_values<DensitySums<D>::size, D>(
+        neighbours.fluid_of_fluid(), i, x, values_, influence,
+        [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
+          const Packet weight = omega * other[2 * D];
+          const auto relative = relative_to<D>(v, [&](int a) { return other[D + a]; });
           std::array<Packet, DensitySums<D>::size> term;
-          add_density_moments<D>(y, relative_to<D>(v, points.velocity, j), weight, term);
-          const Packet difference = weight * (gather(points.density, j) - density);
+          add_density_moments<D>(y, relative, weight, term);
+          const Packet difference = weight * (other[2 * D + 1] - density);
           for (int a = 0; a < D; ++a) {
             for (int b = a; b < D; ++b) {
               term[DensitySums<D>::shape + symmetric_index<D>(a, b)] = weight * y[a] * y[b];
@@ -89,9 +91,10 @@ void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& 
       const auto wall = sum_over_neighbours<DensitySums<D>::of_walls, D>(
           neighbours.walls_of_fluid(), i, x, walls.position, influence,
           [&](const Index* w, const PacketVector<D>& y, const Packet& omega) {
+            const auto relative =
+                relative_to<D>(v, [&](int a) { return gather(walls.velocity[a], w); });
             std::array<Packet, DensitySums<D>::of_walls> term;
-            add_density_moments<D>(y, relative_to<D>(v, walls.velocity, w),
-                                   omega * gather(walls.volume, w), term);
+            add_density_moments<D>(y, relative, omega * gather(walls.volume, w), term);
             return term;
           });
       for (int k = 0; k < DensitySums<D>::of_walls; ++k) sum[k] += wall[k];
@@ -105,25 +108,24 @@ void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& 
       moments.crowding[a][i] = sum[DensitySums<D>::bonds + a] / bulk;
     }
   });
-  for (auto& values : slope_) ranks::gather_shares(values, points.count);
+  for (auto& along : slope_) ranks::gather_shares(along, points.count);
 }
 
 template <int D>
 void SphMoments<D>::find_diffusion(const FluidPoints<D>& points,
                                    const FluidNeighbours<D>& neighbours,
                                    const WendlandInfluence& influence, FluidMoments<D>& moments) {
-  for (auto& values : slope_) neighbours.images().copy(values, points.count);
+  for (auto& along : slope_) neighbours.images().copy(along, points.count);
+  values_.set(points.position, slope_, points.volume, points.density);
   for_each_shared_point(points.count, [&](Index i) {
     const double density = points.density[i];
     const Vector<D> slope = vector_at(slope_, i);
-    const auto sum = sum_over_neighbours<1, D>(
-        neighbours.fluid_of_fluid(), i, points.at(i), points.position, influence,
-        [&](const Index* j, const PacketVector<D>& y, const Packet& omega) {
-          Packet difference = gather(points.density, j) - density;
-          for (int a = 0; a < D; ++a) {
-            difference -= 0.5 * (slope[a] + gather(slope_[a], j)) * y[a];
-          }
-          return std::array{omega * gather(points.volume, j) * difference};
+    const auto sum = sum_over_values<1, D>(
+        neighbours.fluid_of_fluid(), i, points.at(i), values_, influence,
+        [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
+          Packet difference = other[2 * D + 1] - density;
+          for (int a = 0; a < D; ++a) difference -= 0.5 * (slope[a] + other[D + a]) * y[a];
+          return std::array<Packet, 1>{omega * other[2 * D] * difference};
         });
     moments.diffusion[i] = 2.0 * D / moments.bulk_trace * sum[0];
   });

@@ -3,6 +3,7 @@
 #include "core/geometry/wendland_influence.hpp"
 #include "modules/fluid/points/fluid_moments.hpp"
 #include "modules/fluid/points/fluid_neighbours.hpp"
+#include "modules/fluid/points/fluid_values.hpp"
 #include "modules/fluid/points/wall_cloud.hpp"
 
 namespace perifrac {
@@ -31,6 +32,7 @@ class SphMoments {
                       const WendlandInfluence& influence, FluidMoments<D>& moments);
 
   std::array<std::vector<double>, D> slope_;  ///< of the density, with images [kg/m^4]
+  FluidValues<D> values_;                     ///< to work with
 };
 
 }  // namespace perifrac

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/geometry/wendland_influence.hpp"
+#include "modules/fluid/points/fluid_values.hpp"
 #include "modules/fluid/walls/wall_force.hpp"
 
 namespace perifrac {
@@ -10,8 +11,9 @@ namespace perifrac {
 /// the symmetric sum, which pairs with the divergence so that pressure's work is what compression
 /// takes up, and the viscosity of Morris, Fox and Zhu (1997), physical or artificial, whichever is
 /// larger. Sound in a lattice under tension would be unstable; walls and surfaces bear none.
+/// `values` are to work with.
 template <int D>
 void find_sph_forces(const FluidStep<D>& step, const WendlandInfluence& influence,
-                     std::array<std::vector<double>, D>& force);
+                     FluidValues<D>& values, std::array<std::vector<double>, D>& force);
 
 }  // namespace perifrac

@@ -9,17 +9,15 @@ namespace perifrac {
 
 namespace {
 
-/// The force of wall point w on fluid point i, y from i to w.
+/// The force of wall point w on fluid point i, y from i to w, `drag` of the two.
 template <int D>
 Vector<D> pair_force(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index w,
-                     const Vector<D>& y, double omega) {
+                     const Vector<D>& y, double omega, const Vector<D>& drag) {
   const FluidPoints<D>& points = step.points;
   const double bulk = step.moments.bulk_trace / D;
   const double volumes = omega * points.volume[i] * walls.volume[w];
-  Vector<D> force = wall_drag<D>(step, walls, i, w, y);
   const Vector<D> stress = points.pressure[i] > 0.0 ? stress_along<D>(step, i, y) : Vector<D>{};
-  force += stress - walls.pressure[w] / bulk * y;
-  return volumes * force;
+  return volumes * (drag + (stress - walls.pressure[w] / bulk * y));
 }
 
 }  // namespace
@@ -46,8 +44,9 @@ template <int D>
 void TwoSidedWallForce<D>::add(const FluidStep<D>& step, NearWalls<D>& walls,
                                std::array<std::vector<double>, D>& force) {
   extrapolate_pressure(step, walls);
+  const WallDrag<D> drag(step, walls);
   add_pair_forces<D>(step, walls, force, [&](Index i, Index w, const Vector<D>& y, double omega) {
-    return pair_force<D>(step, walls, i, w, y, omega);
+    return pair_force<D>(step, walls, i, w, y, omega, drag(i, w, y));
   });
 }
 

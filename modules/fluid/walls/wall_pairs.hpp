@@ -57,29 +57,40 @@ Vector<D> stress_along(const FluidStep<D>& step, Index i, const Vector<D>& y) {
   return result;
 }
 
-/// Dynamic, between fluid and walls that do not slip [Pa s].
+/// The drag of walls on fluid points.
 template <int D>
-double wall_viscosity(const FluidStep<D>& step) {
-  return std::max(step.fluid.viscosity, step.fluid.density * step.scheme.wall_viscosity *
-                                            step.fluid.sound_speed() * step.scheme.spacing);
-}
+class WallDrag {
+ public:
+  /// Both must stay.
+  WallDrag(const FluidStep<D>& step, const NearWalls<D>& walls)
+      : step_(step),
+        walls_(walls),
+        viscosity_(4.0 * D *
+                   std::max(step.fluid.viscosity, step.fluid.density * step.scheme.wall_viscosity *
+                                                      step.fluid.sound_speed() *
+                                                      step.scheme.spacing)) {}
 
-/// The drag of wall point w on fluid point i over omega V_i V_w; 0 where the wall slips. Velocities
-/// are mirrored at the surface: linear between the two points, the wall's own in between.
-template <int D>
-Vector<D> wall_drag(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index w,
-                    const Vector<D>& y) {
-  const Index wall = walls.wall[w];
-  if (step.cloud.slips[wall]) return {};
-  const Vector<D> normal = vector_at(step.cloud.normal, wall);
-  const Vector<D> relative = vector_at(step.points.velocity, i) - vector_at(walls.velocity, w);
-  double height = -step.cloud.depth[wall];
-  for (int a = 0; a < D; ++a) height -= normal[a] * y[a];
-  const double steepness =
-      1.0 + step.cloud.depth[wall] / std::max(height, 0.5 * step.scheme.spacing);
-  const double factor = wall_viscosity(step) * 4.0 * D /
-                        (step.moments.trace[i] + step.moments.bulk_trace) * steepness;
-  return -factor * (relative - dot(normal, relative) * normal);
-}
+  /// That of wall point w on fluid point i over omega V_i V_w, y [m] from i to w; 0 where the wall
+  /// slips. Velocities are mirrored at the surface: linear between the two points, the wall's own
+  /// in between.
+  Vector<D> operator()(Index i, Index w, const Vector<D>& y) const {
+    const Index wall = walls_.wall[w];
+    if (step_.cloud.slips[wall]) return {};
+    const Vector<D> normal = vector_at(step_.cloud.normal, wall);
+    const Vector<D> relative = vector_at(step_.points.velocity, i) - vector_at(walls_.velocity, w);
+    const double depth = step_.cloud.depth[wall];
+    double height = -depth;
+    for (int a = 0; a < D; ++a) height -= normal[a] * y[a];
+    height = std::max(height, 0.5 * step_.scheme.spacing);
+    const double factor = viscosity_ * (height + depth) /
+                          (height * (step_.moments.trace[i] + step_.moments.bulk_trace));
+    return -factor * (relative - dot(normal, relative) * normal);
+  }
+
+ private:
+  const FluidStep<D>& step_;
+  const NearWalls<D>& walls_;
+  double viscosity_;  ///< 4 D times that between fluid and walls that do not slip [Pa s]
+};
 
 }  // namespace perifrac

@@ -45,7 +45,8 @@ struct JitteredWater {
     neighbours.images().copy(points.density, points.count);
     neighbours.images().copy(points.volume, points.count);
     moments.bulk_trace = lattice_trace<D>(spacing, 2.5 * spacing, influence);
-    find_moments<D>(points, no_walls, neighbours, influence, moments);
+    FluidValues<D> values;
+    find_moments<D>(points, no_walls, neighbours, influence, values, moments);
     neighbours.images().copy(moments.trace, points.count);
   }
 
@@ -141,9 +142,10 @@ void expect_forces(int count) {
   }
   for (auto& values : stress) water.neighbours.images().copy(values, water.points.count);
   std::array<std::vector<double>, D> force;
+  ForceValues<D> values;
   find_pair_forces<D>({water.points, WallCloud<D>{}, water.neighbours, water.moments, fluid, scheme,
                        water.influence, Vector<D>{}, stress},
-                      water.influence, force);
+                      water.influence, values, force);
   Bond all = Bond::Zero();
   double largest = 0.0;
   for (Index i = 0; i < water.points.count; ++i) {

@@ -94,7 +94,8 @@ struct FluidOverBody {
     neighbours.images().copy(points.volume, points.count);
     neighbours.images().copy(points.pressure, points.count);
     moments.bulk_trace = lattice_trace<D>(scheme.spacing, scheme.horizon, influence);
-    find_moments<D>(points, walls, neighbours, GaussianInfluence(scheme.horizon), moments);
+    FluidValues<D> values;
+    find_moments<D>(points, walls, neighbours, GaussianInfluence(scheme.horizon), values, moments);
     neighbours.images().copy(moments.trace, points.count);
   }
 

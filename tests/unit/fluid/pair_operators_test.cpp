@@ -52,16 +52,18 @@ struct Cloud {
   }
 
   void find() {
-    find_moments<D>(points, walls, neighbours, influence, moments);
+    FluidValues<D> values;
+    find_moments<D>(points, walls, neighbours, influence, values, moments);
     for (int k = 0; k < symmetric_size<D>; ++k) {
       stress[k].resize(points.count);
       for (Index i = 0; i < points.count; ++i) {
         stress[k][i] = -points.pressure[i] * moments.inverse_shape[k][i];
       }
     }
+    ForceValues<D> force_values;
     find_pair_forces<D>(
         {points, cloud, neighbours, moments, fluid, scheme, influence, gravity, stress}, influence,
-        force);
+        force_values, force);
   }
 
   /// Calls use(i, x) for the points so many horizons from the outermost ones.

@@ -71,7 +71,8 @@ struct SphWater {
     sums.find(points, no_walls, neighbours, influence, moments);
     const FluidStep<D> step{points, cloud,  neighbours, moments, fluid,
                             scheme, weight, gravity,    stress};
-    find_sph_forces<D>(step, influence, force);
+    FluidValues<D> values;
+    find_sph_forces<D>(step, influence, values, force);
   }
 
   /// Uses every point that has all its neighbours.

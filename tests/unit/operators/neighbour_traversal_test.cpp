@@ -85,6 +85,34 @@ TEST(NeighbourTraversal, SumsOverShortLists) {
   for (int count = 1; count < 12; ++count) expect_all_pairs<2>({count, 1});
 }
 
+template <int N, class Values>
+void expect_own_numbers() {
+  constexpr Index count = 40;
+  std::array<std::vector<double>, N> numbers;
+  std::array<std::span<const double>, N> columns;
+  for (int k = 0; k < N; ++k) {
+    for (Index i = 0; i < count; ++i) numbers[k].push_back(100.0 * i + k);
+    columns[k] = numbers[k];
+  }
+  Values values;
+  values.set(columns);
+  std::array<Index, packet_size> j;
+  for (int l = 0; l < packet_size; ++l) j[l] = (7 * l + 3) % count;
+  const auto brought = values.gather(j.data());
+  for (int k = 0; k < N; ++k) {
+    const Packet packet = brought[k];
+    for (int l = 0; l < packet_size; ++l)
+      ASSERT_EQ(packet[l], 100.0 * j[l] + k) << "number " << k << " of " << N << ", point " << l;
+  }
+}
+
+TEST(NeighbourTraversal, BringsEachPointsOwnNumbersByRowAndByColumn) {
+  expect_own_numbers<1, NeighbourRows<1>>();
+  expect_own_numbers<8, NeighbourRows<8>>();
+  expect_own_numbers<14, NeighbourRows<14>>();
+  expect_own_numbers<9, NeighbourColumns<9>>();
+}
+
 TEST(NeighbourTraversal, ReadsOtherTargetsThanThePointsThemselves) {
   const std::array<std::vector<double>, 2> position = {{{1.0, 0.0, 3.0}, {0.0, 2.0, 0.0}}};
   const Neighbours neighbours{.offset = {0, 0, 2}, .other = {0, 1}};
