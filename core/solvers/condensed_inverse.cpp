@@ -14,6 +14,8 @@ namespace {
 
 /// What is left of a stiffness, as a part of it, that counts as nothing.
 constexpr double singular = 1e-12;
+/// Each is as long as the factor's matrix while it is found.
+constexpr Eigen::Index columns_at_once = 64;
 
 /// Drops what comes again from `first` on; order counts.
 void keep_first_of_each(std::vector<int>& names, Eigen::Index first) {
@@ -37,23 +39,33 @@ void CondensedInverse::add(std::span<const int> unknowns) {
   }
   keep_first_of_each(names, before);
   const Eigen::Index all = std::ssize(names);
-  const Eigen::Index added = all - before;
-  if (added == 0) return;
+  if (all == before) return;
 
-  Eigen::MatrixXd columns(all, added);  // of A0^-1
-  factor_.solve_part(std::span(names).subspan(before), Eigen::MatrixXd::Identity(added, added),
-                     names, columns);
-
-  const Eigen::MatrixXd old = columns.topRows(before);
-  const Eigen::MatrixXd corrected = old - block_ * force_of_changes(old);
-  const Eigen::MatrixXd own =
-      columns.bottomRows(added) - old.transpose() * force_of_changes(corrected);
-  block_.conservativeResize(all, all);
-  block_.topRightCorner(before, added) = corrected;
-  block_.bottomLeftCorner(added, before) = corrected.transpose();
-  block_.bottomRightCorner(added, added) = 0.5 * (own + own.transpose());
+  Eigen::MatrixXd block(all, all);
+  block.topLeftCorner(before, before) = block_;
+  for (Eigen::Index first = before; first < all; first += columns_at_once) {
+    find_columns(std::span(names).first(std::min(all, first + columns_at_once)), first, block);
+  }
+  block_.swap(block);
   unknowns_ = std::move(names);
   for (Eigen::Index k = before; k < all; ++k) place_[unknowns_[k]] = static_cast<int>(k);
+}
+
+/// Of `block`, those of `names` from `first` on, whose earlier part is known.
+void CondensedInverse::find_columns(std::span<const int> names, Eigen::Index first,
+                                    Eigen::MatrixXd& block) const {
+  const Eigen::Index all = std::ssize(names), added = all - first;
+  Eigen::MatrixXd columns(all, added);  // of A0^-1
+  factor_.solve_part(names.subspan(first), Eigen::MatrixXd::Identity(added, added), names, columns);
+  if (!changes_.empty()) {
+    const Eigen::MatrixXd old = columns.topRows(first);
+    columns.topRows(first) -= block.topLeftCorner(first, first) * force_of_changes(old);
+    columns.bottomRows(added) -= old.transpose() * force_of_changes(columns.topRows(first));
+  }
+  const auto own = columns.bottomRows(added);
+  block.block(0, first, first, added) = columns.topRows(first);
+  block.block(first, 0, added, first) = columns.topRows(first).transpose();
+  block.block(first, first, added, added) = 0.5 * (own + own.transpose());
 }
 
 void CondensedInverse::change(std::span<const int> places, const Eigen::MatrixXd& delta) {

@@ -21,7 +21,8 @@ class CondensedInverse {
 
   /// Place of an unknown in S, -1 where it has not been named.
   int place(int unknown) const { return place_[unknown]; }
-  /// Adds those that have no place yet.
+  /// Adds those that have no place yet; many at once cost less than one after the other, each of
+  /// which copies the block.
   void add(std::span<const int> unknowns);
 
   /// A += delta on the unknowns at these places, symmetric. Throws
@@ -46,6 +47,8 @@ class CondensedInverse {
   Eigen::MatrixXd force_of_changes(const Eigen::MatrixXd& block) const;
 
  private:
+  void find_columns(std::span<const int> names, Eigen::Index first, Eigen::MatrixXd& block) const;
+
   const SparseCholesky& factor_;
   std::vector<int> place_;
   std::vector<int> unknowns_;

@@ -60,8 +60,14 @@ void CondensedBody<D>::start() {
   pressed_.clear();
   change_of_.clear();
   partial_ = {};
-  for (const CrackFacet<D>& seed : seeds_)
-    add_mode(face_jump<D>(seed, intact_, spacing_, longest_));
+  std::vector<FaceJump<D>> seeds;
+  std::vector<int> unknowns;
+  for (const CrackFacet<D>& seed : seeds_) {
+    seeds.push_back(face_jump<D>(seed, intact_, spacing_, longest_));
+    std::ranges::copy(unknowns_of(seeds.back()), std::back_inserter(unknowns));
+  }
+  inverse_->add(unknowns);
+  for (const FaceJump<D>& seed : seeds) add_mode(seed);
   begun_.resize(0);
   set_load(load_);
   find_compliance();
@@ -149,8 +155,9 @@ PointStiffness CondensedBody<D>::on_free(const PointStiffness& all) const {
   return result;
 }
 
+/// What is solved for of the points that a jump is found from.
 template <int D>
-void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
+std::vector<int> CondensedBody<D>::unknowns_of(const FaceJump<D>& jump) const {
   std::vector<int> unknowns;
   for (const auto& [point, coefficient] : jump.terms) {
     for (int a = 0; a < D; ++a) {
@@ -158,7 +165,12 @@ void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
       if (free >= 0) unknowns.push_back(free);
     }
   }
-  inverse_->add(unknowns);
+  return unknowns;
+}
+
+template <int D>
+void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
+  inverse_->add(unknowns_of(jump));
   this->add_jump(jump);
   modes_.push_back(mode_of(jump));
 }

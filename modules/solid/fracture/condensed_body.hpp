@@ -95,6 +95,7 @@ class CondensedBody final : public CrackedBody<D> {
     std::vector<PointStiffness> less, more;
   };
   void change_stiffness(const Parts& parts);
+  std::vector<int> unknowns_of(const FaceJump<D>& jump) const;
   void add_mode(const FaceJump<D>& jump);
   Mode mode_of(const FaceJump<D>& jump) const;
   void find_opening();
