@@ -17,7 +17,7 @@ namespace perifrac {
 namespace {
 
 /// [spacings]: stresses are a fifth off within them, and 8 % half a spacing farther.
-constexpr double nearest = 2.0;
+constexpr double least_distance = 2.0;
 
 bool reads_cracks(const Section& scene, const std::string& probe) {
   return scene.has(probe + ".field") && scene.text(probe + ".field").starts_with("crack_");
@@ -65,7 +65,7 @@ std::optional<std::string> probe_at_tip_warning(const Section& scene) {
       } else if (scene.has(crack + ".radius")) {
         distance = distance_to_rim(scene, crack, place);
       }
-      if (!(distance < nearest * spacing)) continue;
+      if (!(distance < least_distance * spacing)) continue;
       return fmt::format(
           "probe '{}' lies {:.2g} spacings from the end of {}: displacement and stress vary "
           "there as points resolve them; probe a horizon away, or bring points closer together",

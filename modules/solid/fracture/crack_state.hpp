@@ -31,7 +31,7 @@ struct CrackState {
   std::span<const double> leak_off;
   /// What pressure fluid at rest has at every facet by its weight, up to a constant [Pa]; empty
   /// where it has none.
-  std::span<const double> fluid_weight;
+  std::span<const double> fluid_weight{};
   /// Of all points [Pa]; empty where no pore flow is simulated.
   std::span<const double> pore_stress;
   /// All displacements, of which those named count: they are found when they are asked for.
