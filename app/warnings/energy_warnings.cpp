@@ -20,8 +20,9 @@ bool is_rigid(const Section& scene) {
   return scene.has("solid") && scene.word("solid.type") == "rigid";
 }
 
-/// What the body holds at a strain of 1e-9 all over, or of 1e-4 of what it bears at rest, which is
-/// nearer than equilibrium by iteration comes to it [J], in 2D per metre; 0 where nothing strains.
+/// What the body holds at a strain of 1e-9 all over, or of 1e-4 of what it bears at rest: 1e-8 of
+/// the energy of that, of which equilibrium by iteration was seen to leave 3e-9 [J]. In 2D per
+/// metre; 0 where nothing strains.
 double hardly_any(const Section& scene, const Simulation& simulation) {
   if (!simulation.has_body() || !has_elastic_rock(scene)) return 0.0;
   const double modulus = read_isotropic_elasticity<3>(scene.at("solid"), "material").shear_modulus;

@@ -19,7 +19,6 @@ namespace perifrac {
 namespace {
 
 constexpr double least_filled = 4.0;  // spacings a wing
-constexpr double hardly_wet = 1e-4;   // spacings, what openings that iterate leave by themselves
 constexpr double least_wet = 2.0;     // spacings
 constexpr double far_ahead = 0.2;     // of what is wet
 constexpr double least_waves = 5.0;   // spacings: by half of one, energies are a tenth off then
@@ -84,16 +83,18 @@ bool pumps_at_a_rate(const Section& scene) {
   return false;
 }
 
-/// What was pumped in flows back or leaks off by then: cracks end as empty as they come.
+/// What was pumped in, if anything, flows back or leaks off by then: cracks end as empty as they
+/// come.
 bool is_emptied(const Section& scene, double time) {
-  if (!pumps_at_a_rate(scene)) return false;
+  if (scene.count("crack_fluid.inlets") == 0) return false;
   bool empties = scene.word("crack_fluid.leak_off") != "none";
   for (std::size_t k = 0; k < scene.count("crack_fluid.inlets"); ++k) {
     const std::string inlet = fmt::format("inlets[{}]", k);
     if (!scene.has("crack_fluid." + inlet + ".rate")) return false;
-    const double factor = read_schedule(scene.at("crack_fluid"), inlet).factor(time);
-    if (factor > 0.0) return false;
-    empties = empties || factor < 0.0;
+    const double flow = scene.number("crack_fluid." + inlet + ".rate") *
+                        read_schedule(scene.at("crack_fluid"), inlet).factor(time);
+    if (flow > 0.0) return false;
+    empties = empties || flow < 0.0;
   }
   return empties;
 }
@@ -161,8 +162,7 @@ std::optional<std::string> filling_warning(const Section& scene, const Simulatio
   const double dry = scene.integer("dimension") == 2
                          ? largest_of(simulation, "fluid_lag")
                          : std::sqrt(largest_of(simulation, "dry_area"));
-  if (filled <= hardly_wet * spacing || filled >= least_filled * spacing || !(dry > spacing))
-    return {};
+  if (!(filled > 0.0) || filled >= least_filled * spacing || !(dry > spacing)) return {};
   return fmt::format(
       "fluid fills {:.2g} m of the cracks in the end{}, {:.1f} spacings: its pressure and what it "
       "opens are those of facets as long as body.spacing, not of a crack; a later time.end or a "

@@ -16,17 +16,17 @@ class SphMethod final : public FluidMethod<D> {
   const PairInfluence& influence() const override { return influence_; }
   void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
                     const FluidNeighbours<D>& neighbours, FluidMoments<D>& moments) override {
-    moments_.find(points, walls, neighbours, wendland_, moments);
+    moments_.find(points, walls, neighbours, wendland_, values_, moments);
   }
   void find_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) override {
-    find_sph_forces<D>(step, wendland_, force_values_, force);
+    find_sph_forces<D>(step, wendland_, values_, force);
   }
 
  private:
   WendlandInfluence wendland_;
   PairInfluence influence_;
   SphMoments<D> moments_;
-  FluidValues<D> force_values_;
+  FluidValues<D> values_;
 };
 
 template <int D>

@@ -63,15 +63,16 @@ Vector<D> slope_of(const std::array<double, DensitySums<D>::size>& sum, double b
 template <int D>
 void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& walls,
                               const FluidNeighbours<D>& neighbours,
-                              const WendlandInfluence& influence, FluidMoments<D>& moments) {
+                              const WendlandInfluence& influence, FluidValues<D>& values,
+                              FluidMoments<D>& moments) {
   const double bulk = moments.bulk_trace / D;
   for (auto& along : slope_) along.resize(points.count);
-  values_.set(points.position, points.velocity, points.volume, points.density);
+  values.set(points.position, points.velocity, points.volume, points.density);
   for_each_shared_point(points.count, [&](Index i) {
     const Vector<D> x = points.at(i), v = vector_at(points.velocity, i);
     const double density = points.density[i];
     auto sum = sum_over_values<DensitySums<D>::size, D>(
-        neighbours.fluid_of_fluid(), i, x, values_, influence,
+        neighbours.fluid_of_fluid(), i, x, values, influence,
         [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
           const Packet weight = omega * other[2 * D];
           const auto relative = relative_to<D>(v, [&](int a) { return other[D + a]; });
@@ -114,14 +115,15 @@ void SphMoments<D>::find_sums(const FluidPoints<D>& points, const NearWalls<D>& 
 template <int D>
 void SphMoments<D>::find_diffusion(const FluidPoints<D>& points,
                                    const FluidNeighbours<D>& neighbours,
-                                   const WendlandInfluence& influence, FluidMoments<D>& moments) {
+                                   const WendlandInfluence& influence, FluidValues<D>& values,
+                                   FluidMoments<D>& moments) {
   for (auto& along : slope_) neighbours.images().copy(along, points.count);
-  values_.set(points.position, slope_, points.volume, points.density);
+  values.set(points.position, slope_, points.volume, points.density);
   for_each_shared_point(points.count, [&](Index i) {
     const double density = points.density[i];
     const Vector<D> slope = vector_at(slope_, i);
     const auto sum = sum_over_values<1, D>(
-        neighbours.fluid_of_fluid(), i, points.at(i), values_, influence,
+        neighbours.fluid_of_fluid(), i, points.at(i), values, influence,
         [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
           Packet difference = other[2 * D + 1] - density;
           for (int a = 0; a < D; ++a) difference -= 0.5 * (slope[a] + other[D + a]) * y[a];
@@ -134,10 +136,10 @@ void SphMoments<D>::find_diffusion(const FluidPoints<D>& points,
 template <int D>
 void SphMoments<D>::find(const FluidPoints<D>& points, const NearWalls<D>& walls,
                          const FluidNeighbours<D>& neighbours, const WendlandInfluence& influence,
-                         FluidMoments<D>& moments) {
+                         FluidValues<D>& values, FluidMoments<D>& moments) {
   moments.resize(points.count);
-  find_sums(points, walls, neighbours, influence, moments);
-  find_diffusion(points, neighbours, influence, moments);
+  find_sums(points, walls, neighbours, influence, values, moments);
+  find_diffusion(points, neighbours, influence, values, moments);
   moments.gather();
 }
 

@@ -20,19 +20,20 @@ class SphMoments {
   ///   2 sum_j V_j omega / b [rho_j - rho_i - (grad rho_i + grad rho_j).y / 2],
   /// its gradients by the inverse of each point's own shape tensor, so that no density that is
   /// linear diffuses, surfaces or not.
+  /// `values` are to work with.
   void find(const FluidPoints<D>& points, const NearWalls<D>& walls,
             const FluidNeighbours<D>& neighbours, const WendlandInfluence& influence,
-            FluidMoments<D>& moments);
+            FluidValues<D>& values, FluidMoments<D>& moments);
 
  private:
   void find_sums(const FluidPoints<D>& points, const NearWalls<D>& walls,
                  const FluidNeighbours<D>& neighbours, const WendlandInfluence& influence,
-                 FluidMoments<D>& moments);
+                 FluidValues<D>& values, FluidMoments<D>& moments);
   void find_diffusion(const FluidPoints<D>& points, const FluidNeighbours<D>& neighbours,
-                      const WendlandInfluence& influence, FluidMoments<D>& moments);
+                      const WendlandInfluence& influence, FluidValues<D>& values,
+                      FluidMoments<D>& moments);
 
   std::array<std::vector<double>, D> slope_;  ///< of the density, with images [kg/m^4]
-  FluidValues<D> values_;                     ///< to work with
 };
 
 }  // namespace perifrac

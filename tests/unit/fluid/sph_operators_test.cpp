@@ -68,10 +68,10 @@ struct SphWater {
     for (auto* values : {&points.density, &points.volume, &points.pressure}) {
       neighbours.images().copy(*values, points.count);
     }
-    sums.find(points, no_walls, neighbours, influence, moments);
+    FluidValues<D> values;
+    sums.find(points, no_walls, neighbours, influence, values, moments);
     const FluidStep<D> step{points, cloud,  neighbours, moments, fluid,
                             scheme, weight, gravity,    stress};
-    FluidValues<D> values;
     find_sph_forces<D>(step, influence, values, force);
   }
 

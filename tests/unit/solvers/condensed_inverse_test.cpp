@@ -1,5 +1,7 @@
 #include "core/solvers/condensed_inverse.hpp"
 
+#include <numeric>
+
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
@@ -56,6 +58,31 @@ TEST(CondensedInverse, IsABlockOfTheInverseOfTheChangedMatrix) {
   }
   EXPECT_EQ(inverse.unknowns().size(), 7u);
   EXPECT_EQ(inverse.place(1), -1);
+}
+
+/// More than are found together, beside changes of what was there before.
+TEST(CondensedInverse, AddsManyUnknownsAtOnce) {
+  constexpr int many = 200;
+  const Eigen::MatrixXd root = test::random_matrix(many, many, 1);
+  Eigen::MatrixXd a = root * root.transpose() + 50.0 * Eigen::MatrixXd::Identity(many, many);
+  const Eigen::SparseMatrix<double> start = a.sparseView();
+  SparseCholesky factor;
+  factor.factor(start);
+  CondensedInverse inverse(factor, many);
+  inverse.add(std::vector<int>{7, 120});
+  inverse.change(std::vector<int>{0, 1}, 9.0 * Eigen::MatrixXd::Identity(2, 2));
+  for (const int unknown : {7, 120}) a(unknown, unknown) += 9.0;
+
+  std::vector<int> rest(many - 20);
+  std::iota(rest.begin(), rest.end(), 0);
+  inverse.add(rest);
+  ASSERT_EQ(inverse.unknowns().size(), rest.size());
+  const Eigen::MatrixXd exact = a.inverse();
+  for (const int r : rest) {
+    for (const int c : rest) {
+      ASSERT_NEAR(inverse.block()(inverse.place(r), inverse.place(c)), exact(r, c), 1e-14);
+    }
+  }
 }
 
 /// What is taken away may be all that there is of an unknown.
