@@ -76,9 +76,9 @@ nlohmann::json regime_json(const SceneRegime& regime) {
 }
 
 /// Those of cracks from the start are part of them.
-std::optional<double> facets_at_end(const Simulation& simulation, std::optional<double> length) {
-  if (!length) return {};
-  return std::visit([&](const auto& body) { return *length / body->spacing(); }, simulation.body);
+std::optional<double> facets_at_end(const Simulation& simulation, std::optional<double> size) {
+  if (!size) return {};
+  return *size / facet_size(simulation);
 }
 
 /// Of the crack in an infinite body.
@@ -157,15 +157,19 @@ nlohmann::json built(const CheckRequest& request, const Section& scene) {
   if (!(request.trial_seconds > 0.0)) return result;
   const double building =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  std::optional<double> length;
+  std::optional<double> size;
   if (!regime || !regime->is_as_in_infinite_body) {
-    length =
-        crack_length_of_coarse_twin(request.scene, request.overrides, scene, request.trial_seconds);
+    size =
+        crack_size_of_coarse_twin(request.scene, request.overrides, scene, request.trial_seconds);
   }
-  if (!length) length = length_at_end(regime);
+  if (!size) size = length_at_end(regime);
   result["forecast"] = forecast_json(forecast(simulation, outputs, request.trial_seconds, building,
-                                              facets_at_end(simulation, length)));
-  if (length) result["forecast"]["crack_length"] = {{"value", *length}, {"unit", "m"}};
+                                              facets_at_end(simulation, size)));
+  if (size) {
+    const bool is_area = scene.integer("dimension") == 3;
+    result["forecast"][is_area ? "crack_area" : "crack_length"] = {{"value", *size},
+                                                                   {"unit", is_area ? "m^2" : "m"}};
+  }
   return result;
 }
 

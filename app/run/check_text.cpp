@@ -49,6 +49,10 @@ void print_forecast(const nlohmann::json& forecast) {
     fmt::print("    for a crack that gets {:.3g} m long\n",
                forecast["crack_length"]["value"].get<double>());
   }
+  if (forecast.contains("crack_area")) {
+    fmt::print("    for cracks of {:.3g} m^2 in the end\n",
+               forecast["crack_area"]["value"].get<double>());
+  }
   if (forecast.contains("failure")) {
     fmt::print("  warning: a run stops: {}\n", forecast["failure"].get<std::string>());
   }

@@ -22,12 +22,8 @@ constexpr int factors[] = {5, 4, 3, 2};
 /// Cracks of fewer facets at the start are another scene's.
 constexpr Index least_facets = 2;
 
-double spacing(const Simulation& simulation) {
-  return std::visit([](const auto& body) { return body->spacing(); }, simulation.body);
-}
-
 /// Runs it.
-std::optional<double> crack_length(const Section& twin, Simulation& simulation, double seconds) {
+std::optional<double> crack_size(const Section& twin, Simulation& simulation, double seconds) {
   const double begin = processor_time();
   CouplingManager& manager = *simulation.manager;
   manager.settle();
@@ -37,14 +33,14 @@ std::optional<double> crack_length(const Section& twin, Simulation& simulation, 
       manager.advance(output);
     }
   }
-  return static_cast<double>(facet_count(simulation)) * spacing(simulation);
+  return static_cast<double>(facet_count(simulation)) * facet_size(simulation);
 }
 
 }  // namespace
 
-std::optional<double> crack_length_of_coarse_twin(const std::string& scene_file,
-                                                  std::vector<std::string> overrides,
-                                                  const Section& scene, double seconds) {
+std::optional<double> crack_size_of_coarse_twin(const std::string& scene_file,
+                                                std::vector<std::string> overrides,
+                                                const Section& scene, double seconds) {
   if (!writes(scene, "damage") || scene.word("damage.type") != "energy_release") return {};
   overrides.emplace_back();
   for (const int factor : factors) {
@@ -55,7 +51,7 @@ std::optional<double> crack_length_of_coarse_twin(const std::string& scene_file,
       initialize(twin, simulation);
       if (facet_count(simulation) < least_facets * static_cast<Index>(scene.count("cracks")))
         continue;
-      return crack_length(twin, simulation, seconds);
+      return crack_size(twin, simulation, seconds);
     } catch (const InputError&) {  // the next one
     } catch (const NumericalError&) {
       return {};

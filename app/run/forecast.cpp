@@ -62,12 +62,15 @@ struct Cost {
   std::vector<double> facet;
 };
 
-/// Means over windows in which no crack grew; a facet costs what the others took more.
-Cost cost_of(const CouplingManager& manager, std::span<const Trial> trial) {
+/// Means over windows in which no crack grew, and over all where there is no such window or it is
+/// not known how far cracks will grow; a facet costs what the others took more.
+Cost cost_of(const CouplingManager& manager, std::span<const Trial> trial, bool knows_facets) {
   const std::size_t parts = manager.modules().size() + 1;
+  const bool apart =
+      knows_facets && std::ranges::any_of(trial, [](const Trial& w) { return w.facets == 0; });
   std::vector<double> seconds(parts, 0.0), steps(parts, 0.0);
   for (const Trial& window : trial) {
-    if (window.facets > 0) continue;
+    if (apart && window.facets > 0) continue;
     const std::vector<double> taken = steps_in(manager, window.length);
     for (std::size_t k = 0; k < parts; ++k) {
       seconds[k] += window.seconds[k];
@@ -81,7 +84,7 @@ Cost cost_of(const CouplingManager& manager, std::span<const Trial> trial) {
   cost.facet.resize(parts);
   double facets = 0.0;
   for (const Trial& window : trial) {
-    if (window.facets == 0) continue;
+    if (!apart || window.facets == 0) continue;
     facets += window.facets;
     const std::vector<double> taken = steps_in(manager, window.length);
     for (std::size_t k = 0; k < parts; ++k) {
@@ -208,16 +211,17 @@ class TrialRun {
 
 /// Adds to the parts of a trial what the rest of the run will take; returns its windows.
 std::int64_t add_the_rest(const CouplingManager& manager, std::span<const Trial> trial,
-                          std::span<const double> outputs, double facets,
+                          std::span<const double> outputs, std::optional<double> facets_to_come,
                           std::vector<double>& parts) {
   std::int64_t windows = 0;
   // What the first windows take is of their own: caches fill, iterations find their pace.
-  const Cost cost = cost_of(manager, trial.subspan(trial.size() / 2));
+  const Cost cost = cost_of(manager, trial.subspan(trial.size() / 2), facets_to_come.has_value());
   for_each_window_to_come(manager, outputs, [&](double length) {
     const std::vector<double> steps = steps_in(manager, length);
     for (std::size_t k = 0; k < parts.size(); ++k) parts[k] += cost.step[k] * steps[k];
     ++windows;
   });
+  const double facets = facets_to_come.value_or(0.0);
   // A facet costs half a window of its own, too: growth ends the one that it comes in, anywhere.
   for (std::size_t k = 0; k < parts.size(); ++k) {
     parts[k] += (0.5 * cost.step[k] + cost.facet[k]) * facets;
@@ -244,7 +248,8 @@ Forecast forecast(Simulation& simulation, std::span<const double> outputs, doubl
 
   std::vector<double> parts = trial.seconds_by_part();
   if (!result.is_whole && !result.failure) {
-    const double facets = std::max(0.0, facets_at_end.value_or(0.0) - facet_count(simulation));
+    std::optional<double> facets;
+    if (facets_at_end) facets = std::max(0.0, *facets_at_end - facet_count(simulation));
     result.windows += add_the_rest(manager, trial.windows(), outputs, facets, parts);
   }
   // As if nothing else ran: one thread is then never kept waiting.

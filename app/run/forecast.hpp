@@ -27,6 +27,7 @@ struct Forecast {
 /// Runs what was initialised for about `trial_seconds` and extrapolates to the last of `outputs`
 /// [s]: a window costs a module what it did on average or, where the module has a stable step of
 /// its own, what a step did; a facet that cracks gain costs what it did and half a window more.
+/// Where it is not known how far they will grow, windows in which they grow count as any others.
 /// `facets_at_end`: how many there will be in the end, where it is known. `building_seconds`: what
 /// is spent already. Times are those of a machine where nothing else runs, if one thread does.
 /// Leaves the simulation where the trial ended.

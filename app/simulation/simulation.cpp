@@ -1,6 +1,7 @@
 #include "app/simulation/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -108,6 +109,14 @@ Index facet_count(const Simulation& simulation) {
   return std::visit(
       [](const auto& body) {
         return body ? static_cast<Index>(body->bond_state().facets().size()) : Index{0};
+      },
+      simulation.body);
+}
+
+double facet_size(const Simulation& simulation) {
+  return std::visit(
+      []<int D>(const std::shared_ptr<const Body<D>>& body) {
+        return std::pow(body->spacing(), D - 1);
       },
       simulation.body);
 }

@@ -31,6 +31,8 @@ void initialize(const Section& scene, Simulation& simulation);
 
 /// Of the cracks that there are by now; 0 without a body.
 Index facet_count(const Simulation& simulation);
+/// How long a facet is [m], in 3D its area [m^2].
+double facet_size(const Simulation& simulation);
 
 /// An out-port that lives on points.
 struct Field {
