@@ -17,8 +17,6 @@ constexpr int slip_patience = 10;
 constexpr int most_rounds = 20, sweeps_a_round = 100;
 constexpr double limit_tolerance = 1e-9;
 
-enum class Pair { open, stick, forward, backward };
-
 class Search {
  public:
   Search(const Eigen::MatrixXd& m, const Eigen::VectorXd& q, double coefficient, double rounding)
@@ -27,13 +25,18 @@ class Search {
         count_(q.size() / 2),
         coefficient_(coefficient),
         rounding_(rounding),
-        pairs_(count_, Pair::open) {}
+        pairs_(count_, PairState::open) {}
 
-  FrictionalContact run() {
+  FrictionalContact run(std::span<const PairState> guess) {
+    if (std::ssize(guess) == count_) {
+      pairs_.assign(guess.begin(), guess.end());
+      if (newton()) return {x_, y_};
+      pairs_.assign(count_, PairState::open);
+    }
     const Complementarity smooth =
         solve_complementarity(m_.topLeftCorner(count_, count_), q_.head(count_), rounding_);
     for (Eigen::Index i = 0; i < count_; ++i) {
-      if (smooth.held[i]) pairs_[i] = can_slip(i) ? Pair::stick : Pair::forward;
+      if (smooth.held[i]) pairs_[i] = can_slip(i) ? PairState::stick : PairState::forward;
     }
     Eigen::VectorXd swept = Eigen::VectorXd::Zero(2 * count_);
     for (int round = 0; round < most_rounds; ++round) {
@@ -46,18 +49,18 @@ class Search {
  private:
   bool can_slip(Eigen::Index i) const { return m_(count_ + i, count_ + i) > 0.0; }
   bool can_open(Eigen::Index i) const { return m_(i, i) > 0.0; }
-  static double direction(Pair pair) {
-    return pair == Pair::forward ? 1.0 : pair == Pair::backward ? -1.0 : 0.0;
+  static double direction(PairState pair) {
+    return pair == PairState::forward ? 1.0 : pair == PairState::backward ? -1.0 : 0.0;
   }
 
   /// What x and y are where every pair is in its present state.
   void find_values() {
     std::vector<Eigen::Index> held;
     for (Eigen::Index i = 0; i < count_; ++i) {
-      if (pairs_[i] != Pair::open) held.push_back(i);
+      if (pairs_[i] != PairState::open) held.push_back(i);
     }
     for (Eigen::Index i = 0; i < count_; ++i) {
-      if (pairs_[i] == Pair::stick) held.push_back(count_ + i);
+      if (pairs_[i] == PairState::stick) held.push_back(count_ + i);
     }
     x_.setZero(q_.size());
     y_ = q_;
@@ -79,22 +82,23 @@ class Search {
   }
 
   /// What a pair is to be by its present values.
-  Pair next(Eigen::Index i) const {
+  PairState next(Eigen::Index i) const {
     const Eigen::Index t = count_ + i;
     switch (pairs_[i]) {
-      case Pair::open:
-        if (!can_open(i) || !(y_[i] < -rounding_)) return Pair::open;
-        if (!can_slip(i)) return Pair::forward;
-        if (std::abs(y_[t] / m_(t, t)) <= coefficient_ * -y_[i] / m_(i, i)) return Pair::stick;
-        return y_[t] > 0.0 ? Pair::forward : Pair::backward;
-      case Pair::stick:
-        if (x_[i] < 0.0) return Pair::open;
-        if (std::abs(x_[t]) <= (1.0 + limit_tolerance) * coefficient_ * x_[i]) return Pair::stick;
-        return x_[t] > 0.0 ? Pair::backward : Pair::forward;
+      case PairState::open:
+        if (!can_open(i) || !(y_[i] < -rounding_)) return PairState::open;
+        if (!can_slip(i)) return PairState::forward;
+        if (std::abs(y_[t] / m_(t, t)) <= coefficient_ * -y_[i] / m_(i, i)) return PairState::stick;
+        return y_[t] > 0.0 ? PairState::forward : PairState::backward;
+      case PairState::stick:
+        if (x_[i] < 0.0) return PairState::open;
+        if (std::abs(x_[t]) <= (1.0 + limit_tolerance) * coefficient_ * x_[i])
+          return PairState::stick;
+        return x_[t] > 0.0 ? PairState::backward : PairState::forward;
       default:
-        if (x_[i] < 0.0) return Pair::open;
+        if (x_[i] < 0.0) return PairState::open;
         if (!can_slip(i) || direction(pairs_[i]) * y_[t] >= -rounding_) return pairs_[i];
-        return Pair::stick;
+        return PairState::stick;
     }
   }
 
@@ -104,7 +108,7 @@ class Search {
       find_values();
       Eigen::Index wrong = 0;
       for (Eigen::Index i = 0; i < count_; ++i) {
-        const Pair pair = next(i);
+        const PairState pair = next(i);
         if (pair != pairs_[i]) ++wrong;
         pairs_[i] = pair;
       }
@@ -132,10 +136,10 @@ class Search {
   }
 
   /// `y`: without the pair's own x.
-  Pair relax(Eigen::Index i, const Eigen::Vector2d& y, Eigen::VectorXd& x) const {
+  PairState relax(Eigen::Index i, const Eigen::Vector2d& y, Eigen::VectorXd& x) const {
     const Eigen::Index t = count_ + i;
     x[i] = x[t] = 0.0;
-    if (y[0] >= 0.0) return Pair::open;
+    if (y[0] >= 0.0) return PairState::open;
     const double determinant = m_(i, i) * m_(t, t) - m_(i, t) * m_(t, i);
     if (can_slip(i)) {
       const double normal = (m_(i, t) * y[1] - m_(t, t) * y[0]) / determinant;
@@ -143,10 +147,10 @@ class Search {
       if (normal >= 0.0 && std::abs(tangential) <= coefficient_ * normal) {
         x[i] = normal;
         x[t] = tangential;
-        return Pair::stick;
+        return PairState::stick;
       }
     }
-    for (const Pair pair : {Pair::forward, Pair::backward}) {
+    for (const PairState pair : {PairState::forward, PairState::backward}) {
       const double way = direction(pair);
       const double normal = -y[0] / (m_(i, i) - way * coefficient_ * m_(i, t));
       const double slip = y[1] + (m_(t, i) - way * coefficient_ * m_(t, t)) * normal;
@@ -155,22 +159,23 @@ class Search {
       x[t] = -way * coefficient_ * normal;
       return pair;
     }
-    return Pair::open;
+    return PairState::open;
   }
 
   const Eigen::MatrixXd& m_;
   const Eigen::VectorXd& q_;
   Eigen::Index count_;
   double coefficient_, rounding_;
-  std::vector<Pair> pairs_;
+  std::vector<PairState> pairs_;
   Eigen::VectorXd x_, y_;
 };
 
 }  // namespace
 
 FrictionalContact solve_frictional_contact(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
-                                           double coefficient, double rounding) {
-  return Search(m, q, coefficient, rounding).run();
+                                           double coefficient, double rounding,
+                                           std::span<const PairState> guess) {
+  return Search(m, q, coefficient, rounding).run(guess);
 }
 
 }  // namespace perifrac

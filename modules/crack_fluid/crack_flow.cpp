@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/profile/profile.hpp"
-#include "core/solvers/complementarity.hpp"
 
 namespace perifrac {
 
@@ -25,7 +24,17 @@ void CrackFlow::find_pressures(const Eigen::VectorXd& v) {
   }
 }
 
+/// By the step alone: where a run goes on from, nothing else is known.
+void CrackFlow::begin_contact(const CrackStep& step) {
+  std::vector<bool> touch;
+  for (const double aperture : step.aperture) {
+    touch.push_back(aperture <= liquid_.residual_aperture);
+  }
+  contact_.begin_from(std::move(touch));
+}
+
 void CrackFlow::rest(const CrackStep& step, const Eigen::VectorXd& v) {
+  begin_contact(step);
   find_pressures(v);
   rest(step, v, step.opening.slope * pressure_);
 }
@@ -69,7 +78,7 @@ void CrackFlow::open(const CrackStep& step, const Eigen::VectorXd& response) {
   face_pressure_ = pressure_;
   closed_.clear();
   if (opening_.minCoeff() >= 0.0) return;
-  Complementarity contact = solve_complementarity(given.slope, opening_, 1e-14 * largest);
+  Complementarity contact = contact_.solve(given.slope, opening_, 1e-14 * largest);
   opening_ = contact.y;
   face_pressure_ += contact.x;
   closed_ = std::move(contact.held);

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
+#include "core/solvers/complementarity.hpp"
 #include "modules/crack_fluid/crack_graph.hpp"
 #include "modules/crack_fluid/crack_liquid.hpp"
 #include "modules/crack_fluid/crack_step.hpp"
@@ -62,8 +63,12 @@ class CrackFlow {
   bool is_beside_full(Index f) const;
 
  protected:
-  /// As rest(), where `response` is the slope of the openings times the pressures [m].
+  /// Before the first rest(): faces that were no wider apart than at the least may touch.
+  void begin_contact(const CrackStep& step);
+  /// As rest(), where `response` is the slope of the openings times the pressures [m], and
+  /// beginning from the faces that touched last.
   void rest(const CrackStep& step, const Eigen::VectorXd& v, const Eigen::VectorXd& response);
+  void find_pressures(const Eigen::VectorXd& v);
   bool is_open(Index f) const { return opening_[f] > liquid_.residual_aperture; }
 
   CrackLiquid liquid_;
@@ -73,6 +78,7 @@ class CrackFlow {
   Eigen::VectorXd terms_;  ///< of the opening, their sizes added up: what it is rounded off by [m]
   Eigen::VectorXd pressure_, fill_, opening_, face_pressure_, aperture_, capacity_;
   std::vector<bool> closed_;  ///< faces that touch; empty: none
+  ComplementaritySolver contact_;
   Eigen::VectorXd residual_, rounding_, outflow_, inflow_;
   LeakedFluid leaked_;                               ///< its by_pressure is part of by_pressure_
   Eigen::VectorXd by_fill_;                          ///< of the residual, diagonal
@@ -80,7 +86,6 @@ class CrackFlow {
   std::vector<Eigen::Triplet<double>> by_aperture_;  ///< of the mass that is stored
 
  private:
-  void find_pressures(const Eigen::VectorXd& v);
   void open(const CrackStep& step, const Eigen::VectorXd& response);
   void store(const CrackStep& step);
   void leak(LeakOff& leak_off);

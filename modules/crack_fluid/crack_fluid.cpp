@@ -72,7 +72,8 @@ template <int D>
 void CrackFluid<D>::rest(const TimeWindow& window) {
   flow_->rest({.time = {window.begin, window.begin},
                .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
-               .mass = facets_.mass},
+               .mass = facets_.mass,
+               .aperture = facets_.aperture},
               vector_of(facets_.unknown));
 }
 
@@ -143,6 +144,7 @@ bool CrackFluid<D>::step(const TimeWindow& time, const TimeWindow& window) {
   const CrackStep step{.time = time,
                        .opening = {opening_.value, opening_.rate, opening_.slope, window.end},
                        .mass = facets_.mass,
+                       .aperture = facets_.aperture,
                        .inflows = inflows,
                        .wells = inlets_.well_flows(time),
                        .leak_off = leak_off_.get()};

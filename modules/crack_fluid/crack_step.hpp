@@ -14,20 +14,18 @@ namespace perifrac {
 /// value + rate (t - end) + slope p at time t under the fluid's pressures p, of all facets. Where
 /// that is negative, faces close: contact adds to p there what keeps them from overlapping.
 struct CrackOpening {
-  using Slope = Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>;
-
   /// `compliance`: count * count values, row by row.
   CrackOpening(std::span<const double> opening, std::span<const double> opening_rate,
                std::span<const double> compliance, double window_end)
       : value(opening),
         rate(opening_rate),
-        slope(compliance.data(), static_cast<Index>(value.size()),
-              static_cast<Index>(value.size())),
+        slope(Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(
+            compliance.data(), static_cast<Index>(value.size()), static_cast<Index>(value.size()))),
         end(window_end) {}
 
   std::span<const double> value;  ///< [m]
   std::span<const double> rate;   ///< [m/s]
-  Slope slope;                    ///< [m/Pa]
+  Eigen::MatrixXd slope;          ///< [m/Pa]
   double end;                     ///< [s]
 };
 
@@ -46,7 +44,8 @@ struct FacetInflow {
 struct CrackStep {
   TimeWindow time;
   CrackOpening opening;
-  std::span<const double> mass;  ///< of the facets when it begins [kg/m]
+  std::span<const double> mass;        ///< of the facets when it begins [kg/m]
+  std::span<const double> aperture{};  ///< likewise, which tells what faces may touch; or empty [m]
   std::span<const FacetInflow> inflows{};
   std::span<WellFlow> wells{};  ///< at facets of their own; they are solved with the fluid
   LeakOff* leak_off = nullptr;  ///< may be null

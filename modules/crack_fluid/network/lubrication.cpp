@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/solvers/complementarity.hpp"
-
 namespace perifrac {
 
 namespace {
@@ -21,14 +19,26 @@ Lubrication::Lubrication(const CrackLiquid& liquid, CrackGraph graph, Eigen::Vec
 }
 
 void Lubrication::evaluate(const CrackStep& step, const Eigen::VectorXd& v) {
-  rest(step, v);
-  opening_slope_ = closed_.empty() ? Eigen::MatrixXd(step.opening.slope)
-                                   : response_with_held(step.opening.slope, closed_);
+  find_pressures(v);
+  rest(step, v, step.opening.slope * pressure_);
+  find_opening_slope(step.opening.slope);
   flow_by_aperture_.clear();
   flow_by_fill_.clear();
   if (step.time.length() > 0.0) flow(step.time.length());
   residual_ += outflow_;
   let_in(step, v);
+}
+
+/// Of facets that are full alone: under the pressure of others nothing changes.
+void Lubrication::find_opening_slope(const Eigen::MatrixXd& slope) {
+  std::vector<Index> full;
+  for (Index f = 0; f < graph_.facet_count(); ++f) {
+    if (is_full(f)) full.push_back(f);
+  }
+  Eigen::MatrixXd of_full = slope(Eigen::all, full);
+  if (!closed_.empty()) of_full = contact_.response(slope, std::move(of_full));
+  opening_slope_.setZero(slope.rows(), slope.cols());
+  opening_slope_(Eigen::all, full) = of_full;
 }
 
 /// Per metre.

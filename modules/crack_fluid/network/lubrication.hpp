@@ -35,7 +35,8 @@ class Lubrication final : public CrackFlow {
   /// Finds residual, outflow and inflow, and what the Jacobian is made of.
   void evaluate(const CrackStep& step, const Eigen::VectorXd& v);
 
-  /// d(opening) / d(pressure), with the faces closed that are closed [m/Pa].
+  /// d(opening) / d(pressure), with the faces closed that are closed; 0 by pressures of facets that
+  /// are not full [m/Pa].
   const Eigen::MatrixXd& opening_slope() const { return opening_slope_; }
   /// Of the residual by v. With conductances held, what is left is what a monotone operator has,
   /// the more mass and flow the higher the pressures.
@@ -70,6 +71,7 @@ class Lubrication final : public CrackFlow {
   std::span<const double> pressures() const {
     return {pressure_.data(), static_cast<std::size_t>(pressure_.size())};
   }
+  void find_opening_slope(const Eigen::MatrixXd& slope);
   void flow(double dt);
   double rounding_of_fall(Index from, Index to) const;
   void differentiate_joint(std::span<const CrackGraph::Branch> joint, double dt);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/solvers/band_lu.hpp"
-#include "core/solvers/complementarity.hpp"
 
 namespace perifrac {
 
@@ -61,12 +60,32 @@ double part_allowed(const Lubrication& lubrication, const CrackLiquid& liquid,
   return part;
 }
 
+/// Facets whose unknown no balance but their own has in it, as those of a dry crack, follow from
+/// the others.
+Eigen::VectorXd solved_in_parts(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& right) {
+  std::vector<Index> alone, others;
+  for (Index f = 0; f < jacobian.cols(); ++f) {
+    const bool has_own = jacobian(f, f) != 0.0;
+    const bool is_alone = has_own && (jacobian.col(f).array() != 0.0).count() == 1;
+    (is_alone ? alone : others).push_back(f);
+  }
+  if (alone.empty()) return jacobian.partialPivLu().solve(right);
+  const Eigen::MatrixXd own = jacobian(others, others);
+  const Eigen::VectorXd found = own.partialPivLu().solve(right(others));
+  Eigen::VectorXd solution(right.size());
+  solution(others) = found;
+  for (const Index f : alone) {
+    solution[f] = (right[f] - jacobian.row(f)(others).dot(found)) / jacobian(f, f);
+  }
+  return solution;
+}
+
 /// Facets answer to their neighbours alone where the solid has inertia, and to all where not.
 Eigen::VectorXd solved(const Eigen::MatrixXd& jacobian, std::span<const Index> order,
                        const Eigen::VectorXd& right) {
   const Eigen::Index width = half_bandwidth(jacobian, order);
   if (8 * width < jacobian.rows()) return solve_band(jacobian, order, width, right);
-  return jacobian.partialPivLu().solve(right);
+  return solved_in_parts(jacobian, right);
 }
 
 Lubrication::Conductances conductances(int iteration) {
@@ -117,6 +136,7 @@ FlowReport solve(Lubrication& lubrication, const CrackLiquid& liquid, const Crac
 FlowReport Lubrication::solve(const CrackStep& step, Eigen::VectorXd& v) {
   const Eigen::VectorXd begin = v;
   const auto solved = [&] {
+    begin_contact(step);
     try {
       return perifrac::solve(*this, liquid_, step, v);
     } catch (const NoContact&) {

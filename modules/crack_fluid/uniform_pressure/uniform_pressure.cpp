@@ -60,25 +60,11 @@ void UniformPressure::evaluate(const CrackStep& step, const Eigen::VectorXd& unk
   }
 }
 
-/// Rows of facets, columns of cracks: with the faces closed that are closed.
-Eigen::MatrixXd UniformPressure::answer_with_contact(const CrackOpening& opening) const {
-  std::vector<int> closed;
-  for (std::size_t f = 0; f < closed_.size(); ++f) {
-    if (closed_[f]) closed.push_back(static_cast<int>(f));
-  }
-  if (closed.empty()) return answer_;
-  const Eigen::MatrixXd own = opening.slope(closed, closed);
-  Eigen::MatrixXd answer = answer_;
-  answer.noalias() -= opening.slope(Eigen::all, closed) *
-                      own.partialPivLu().solve(Eigen::MatrixXd(answer_(closed, Eigen::all)));
-  answer(closed, Eigen::all).setZero();
-  return answer;
-}
-
-Eigen::MatrixXd UniformPressure::jacobian(const CrackStep& step,
-                                          const Eigen::VectorXd& unknown) const {
+Eigen::MatrixXd UniformPressure::jacobian(const CrackStep& step, const Eigen::VectorXd& unknown) {
   const Index count = crack_count();
-  const Eigen::MatrixXd answer = answer_with_contact(step.opening);
+  // Rows of facets, columns of cracks: with the faces closed that are closed.
+  const Eigen::MatrixXd answer =
+      closed_.empty() ? answer_ : contact_.response(step.opening.slope, answer_);
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(count, count);
   for (const auto& entry : by_pressure_) {
     jacobian(crack_[entry.row()], crack_[entry.col()]) += entry.value();
@@ -149,8 +135,7 @@ void UniformPressure::begin(const CrackStep& step) {
 }
 
 /// One of Newton's.
-Eigen::VectorXd UniformPressure::change(const CrackStep& step,
-                                        const Eigen::VectorXd& unknown) const {
+Eigen::VectorXd UniformPressure::change(const CrackStep& step, const Eigen::VectorXd& unknown) {
   Eigen::MatrixXd matrix = jacobian(step, unknown);
   Eigen::VectorXd right = -balance_;
   for (Index c = 0; c < crack_count(); ++c) {
@@ -164,6 +149,7 @@ Eigen::VectorXd UniformPressure::change(const CrackStep& step,
 
 FlowReport UniformPressure::solve(const CrackStep& step, Eigen::VectorXd& v) {
   begin(step);
+  begin_contact(step);
   Eigen::VectorXd unknown = Eigen::VectorXd::Constant(crack_count(), liquid_.empty());
   for (Index f = 0; f < graph_.facet_count(); ++f) {
     unknown[crack_[f]] = std::max(unknown[crack_[f]], v[f]);

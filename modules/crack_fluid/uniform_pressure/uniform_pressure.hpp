@@ -30,9 +30,8 @@ class UniformPressure final : public CrackFlow {
  private:
   void begin(const CrackStep& step);
   void evaluate(const CrackStep& step, const Eigen::VectorXd& unknown);
-  Eigen::VectorXd change(const CrackStep& step, const Eigen::VectorXd& unknown) const;
-  Eigen::MatrixXd jacobian(const CrackStep& step, const Eigen::VectorXd& unknown) const;
-  Eigen::MatrixXd answer_with_contact(const CrackOpening& opening) const;
+  Eigen::VectorXd change(const CrackStep& step, const Eigen::VectorXd& unknown);
+  Eigen::MatrixXd jacobian(const CrackStep& step, const Eigen::VectorXd& unknown);
   bool is_balanced(FlowReport& report) const;
   void spread();
   Eigen::VectorXd by_crack(const Eigen::VectorXd& of_facets) const;

@@ -194,7 +194,7 @@ typename CondensedBody<D>::Mode CondensedBody<D>::mode_of(const FaceJump<D>& jum
 template <int D>
 Eigen::MatrixXd CondensedBody<D>::compliance(int jump, int traction) {
   const bool of_openings = jump == 0 && traction == 0;
-  Eigen::MatrixXd compliance = of_openings ? whole_compliance_ : whole_compliance(jump, traction);
+  Eigen::MatrixXd compliance = whole_compliance(jump, traction);
   if (!partial_.empty()) partial_.hold(compliance, jump, traction);
   if (of_openings) {
     for (std::size_t f = 0; f < modes_.size(); ++f) compliance(f, f) += pressed_[f];
@@ -204,13 +204,15 @@ Eigen::MatrixXd CondensedBody<D>::compliance(int jump, int traction) {
 
 template <int D>
 void CondensedBody<D>::find_compliance() {
-  whole_compliance_ = whole_compliance(0, 0);
+  whole_compliance_.fill({});
   compliance_ = compliance(0, 0);
 }
 
 /// What openings put back apart.
 template <int D>
-Eigen::MatrixXd CondensedBody<D>::whole_compliance(int jump, int traction) const {
+const Eigen::MatrixXd& CondensedBody<D>::whole_compliance(int jump, int traction) {
+  Eigen::MatrixXd& compliance = whole_compliance_[jump * D + traction];
+  if (compliance.size() > 0) return compliance;
   const Eigen::Index count = static_cast<Eigen::Index>(modes_.size());
   Eigen::MatrixXd response(inverse_->block().rows(), count);
   for (Eigen::Index g = 0; g < count; ++g) {
@@ -219,7 +221,7 @@ Eigen::MatrixXd CondensedBody<D>::whole_compliance(int jump, int traction) const
       response.col(g) += jumps_[g].area * coefficient * inverse_->block().col(place);
     }
   }
-  Eigen::MatrixXd compliance(count, count);
+  compliance.resize(count, count);
   for (Eigen::Index f = 0; f < count; ++f) {
     for (Eigen::Index g = 0; g < count; ++g) {
       double sum = 0.0;

@@ -102,7 +102,7 @@ class CondensedBody final : public CrackedBody<D> {
   void find_cut_loaded();
   void find_free_opening();
   void find_compliance();
-  Eigen::MatrixXd whole_compliance(int jump, int traction) const;
+  const Eigen::MatrixXd& whole_compliance(int jump, int traction);
   void take_partial(std::span<const PartialCut> cuts);
   void hold_partial();
   PartialCuts::Cut partial_cut(const PartialCut& cut) const;
@@ -131,7 +131,8 @@ class CondensedBody final : public CrackedBody<D> {
   Eigen::MatrixXd compliance_;
 
   PartialCuts partial_;
-  Eigen::MatrixXd whole_compliance_;  ///< of openings, were partial cuts whole
+  /// Were partial cuts whole; by jump and traction, empty until it is asked for.
+  std::array<Eigen::MatrixXd, D * D> whole_compliance_;
 
   Eigen::VectorXd load_;         ///< of those solved for
   Eigen::VectorXd begun_;        ///< half of the way to what it does

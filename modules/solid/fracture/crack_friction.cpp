@@ -6,7 +6,6 @@
 
 #include "core/base/eigen_view.hpp"
 #include "core/base/errors.hpp"
-#include "core/solvers/frictional_contact.hpp"
 
 namespace perifrac {
 
@@ -16,7 +15,7 @@ void CrackFriction::start(const CrackedBody<2>& body) {
   borne_.clear();
   for (Index f = 0; f < static_cast<Index>(body.facets().size()); ++f) {
     limit_.push_back(coefficient_ * std::max(0.0, -body.relief(f)[0]));
-    borne_.push_back(std::min(std::abs(body.relief(f)[1]), limit_.back()));
+    borne_.push_back(std::clamp(body.relief(f)[1], -limit_.back(), limit_.back()));
   }
   dissipation_ = elastic_energy_ = 0.0;
   version_.reset();
@@ -42,6 +41,20 @@ void CrackFriction::follow(CrackedBody<2>& body) {
   for (Eigen::Index f = 0; f < count; ++f) compliance_(count + f, count + f) += layer_[f];
 }
 
+/// What the faces did when the last window ended; new ones are apart.
+std::vector<PairState> CrackFriction::last_states(std::size_t count) const {
+  constexpr double slides = 1.0 - 1e-8;
+  std::vector<PairState> states(count, PairState::open);
+  for (std::size_t f = 0; f < std::min(count, limit_.size()); ++f) {
+    if (!(limit_[f] > 0.0)) continue;
+    const bool is_sliding = std::abs(borne_[f]) >= slides * limit_[f];
+    states[f] = !is_sliding       ? PairState::stick
+                : borne_[f] < 0.0 ? PairState::forward
+                                  : PairState::backward;
+  }
+  return states;
+}
+
 CrackedBody<2>::Faces CrackFriction::faces(CrackedBody<2>& body, const Eigen::VectorXd& pressure,
                                            double t) {
   const Eigen::Index count = pressure.size();
@@ -55,7 +68,8 @@ CrackedBody<2>::Faces CrackFriction::faces(CrackedBody<2>& body, const Eigen::Ve
   }
   FrictionalContact contact;
   try {
-    contact = solve_frictional_contact(compliance_, jump, coefficient_, 1e-14 * body.spacing());
+    contact = solve_frictional_contact(compliance_, jump, coefficient_, 1e-14 * body.spacing(),
+                                       last_states(static_cast<std::size_t>(count)));
   } catch (const std::runtime_error& error) {
     throw NumericalError("face_shear", "the faces of the cracks", t, error.what());
   }
@@ -87,14 +101,14 @@ void CrackFriction::book(const CrackedBody<2>& body, const CrackedBody<2>::Faces
   elastic_energy_ = 0.0;
   for (Index f = 0; f < std::ssize(faces.slip); ++f) {
     const double limit = coefficient_ * (faces.pressure[f] - pressure[f]);
-    const double first_limit = std::min(limit_[f], std::max(limit, borne_[f]));
+    const double first_limit = std::min(limit_[f], std::max(limit, std::abs(borne_[f])));
     dissipation_ +=
         body.jumps()[f].area * 0.5 * (first_limit + limit) * std::abs(faces.slip[f] - slip_[f]);
     const double shear = faces.shear[f], at_rest = body.relief(f)[1];
     elastic_energy_ += body.jumps()[f].area * 0.5 * layer_[f] * (shear * shear - at_rest * at_rest);
     slip_[f] = faces.slip[f];
     limit_[f] = limit;
-    borne_[f] = std::abs(shear);
+    borne_[f] = shear;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "core/solvers/frictional_contact.hpp"
 #include "core/state/state_visitor.hpp"
 #include "modules/solid/fracture/cracked_body.hpp"
 
@@ -50,10 +51,11 @@ class CrackFriction {
   /// By facet, at the end of the last window; a facet that was cut since has not slipped.
   std::vector<double> slip_;   ///< [m]
   std::vector<double> limit_;  ///< what friction could bear [Pa]
-  std::vector<double> borne_;  ///< what it did, its size [Pa]
+  std::vector<double> borne_;  ///< what it did [Pa]
   double dissipation_ = 0.0, elastic_energy_ = 0.0;
 
   void follow(CrackedBody<2>& body);
+  std::vector<PairState> last_states(std::size_t count) const;
 
   Eigen::MatrixXd compliance_;  ///< openings, then slips, by pressures, then shears [m/Pa]
   std::vector<double> layer_;   ///< by facet: jump by shear of the rock that it is over [m/Pa]

@@ -1,5 +1,7 @@
 #include "core/solvers/complementarity.hpp"
 
+#include <vector>
+
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
@@ -28,6 +30,31 @@ TEST(Complementarity, HoldsWhatWouldFallBelowZero) {
   }
 }
 
+/// One problem after the other, from what the last one held or from places at random, some of which
+/// do not answer at all: the answers of each alone, to the last bit.
+TEST(Complementarity, DoesNotDependOnWhereItBegins) {
+  ComplementaritySolver solver;
+  const int n = 30;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const Eigen::MatrixXd root = test::random_matrix(n, n, seed / 5);
+    Eigen::MatrixXd m = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
+    m.row(3).setZero();
+    m.col(3).setZero();
+    const Eigen::VectorXd q = test::random_matrix(n, 1, seed + 2000);
+    if (seed % 3 == 0) {
+      const Eigen::VectorXd guess = test::random_matrix(n, 1, seed + 3000);
+      std::vector<bool> held;
+      for (const double g : guess) held.push_back(g > 0.0);
+      solver.begin_from(held);
+    }
+    const Complementarity alone = solve_complementarity(m, q, 1e-12);
+    const Complementarity found = solver.solve(m, q, 1e-12);
+    EXPECT_EQ(found.held, alone.held) << seed;
+    EXPECT_EQ(found.x, alone.x) << seed;
+    EXPECT_EQ(found.y, alone.y) << seed;
+  }
+}
+
 TEST(Complementarity, LeavesAloneWhatIsOpen) {
   const Complementarity found =
       solve_complementarity(Eigen::MatrixXd::Identity(2, 2), Eigen::Vector2d(0.0, 3.0), 0.0);
@@ -41,8 +68,9 @@ TEST(Complementarity, RespondsWithThePlacesHeld) {
   const Eigen::MatrixXd root = test::random_matrix(n, n, 7);
   const Eigen::MatrixXd m = root * root.transpose() + Eigen::MatrixXd::Identity(n, n);
   const Eigen::VectorXd q = test::random_matrix(n, 1, 8);
-  const Complementarity found = solve_complementarity(m, q, 0.0);
-  const Eigen::MatrixXd slope = response_with_held(m, found.held);
+  ComplementaritySolver solver;
+  const Complementarity found = solver.solve(m, q, 0.0);
+  const Eigen::MatrixXd slope = solver.response(m, m);
   const double step = 1e-6;
   for (int j = 0; j < n; ++j) {
     const Eigen::VectorXd moved = q + step * m.col(j);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -43,6 +44,26 @@ TEST(FrictionalContact, KeepsSignorinisAndCoulombsConditions) {
     }
   }
   for (const int count : {open, stuck, sliding}) EXPECT_GT(count, 400);
+}
+
+TEST(FrictionalContact, DoesNotDependOnWhereItBegins) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const int n = 20;
+    const Eigen::MatrixXd m = compliance(n, 2.0, seed);
+    const Eigen::VectorXd q = test::random_matrix(2 * n, 1, seed + 1000);
+    const Eigen::VectorXd chance = test::random_matrix(n, 1, seed + 2000);
+    std::vector<PairState> guess;
+    for (const double c : chance) {
+      guess.push_back(c < -0.5  ? PairState::open
+                      : c < 0.0 ? PairState::stick
+                      : c < 0.5 ? PairState::forward
+                                : PairState::backward);
+    }
+    const FrictionalContact from_none = solve_frictional_contact(m, q, 0.3, 1e-14);
+    const FrictionalContact from_there = solve_frictional_contact(m, q, 0.3, 1e-14, guess);
+    EXPECT_EQ(from_there.traction, from_none.traction) << seed;
+    EXPECT_EQ(from_there.jump, from_none.jump) << seed;
+  }
 }
 
 TEST(FrictionalContact, IsContactWithoutFriction) {
