@@ -237,7 +237,8 @@ void DarcySystem<D>::jacobian_times(double t, std::span<const double> y, std::sp
     if (!y.empty()) pressure(t, y, potential_);
     scale_mobility(std::span(potential_).first(y.empty() ? 0 : points_));
   }
-  storage_->pressure_change(t, y.empty() ? y : fluid_content(t, y), v, potential_);
+  storage_->pressure_change(t, y.empty() ? y : fluid_content(t, y), v, potential_,
+                            PoreStorage::to_rounding);
   std::fill(potential_.begin() + points_, potential_.end(), 0.0);
   for (const HeldPoint& held : held_) potential_[held.point] = 0.0;
   flow_->apply(potential_, outflow_);
@@ -251,11 +252,13 @@ void DarcySystem<D>::jacobian_times(double t, std::span<const double> y, std::sp
   }
 }
 
-/// J is that of M dp/dt = -H p, M = volume d(zeta)/d(potential): both are symmetric.
+/// J is that of M dp/dt = -H p, M = volume d(zeta)/d(potential): both are symmetric. The bound has
+/// a margin of two hundredths: solutions need not be better than that by far.
 template <int D>
 double DarcySystem<D>::fastest_rate(double t) {
   if (!flow_->is_symmetric()) return OdeSystem::fastest_rate(t);
   if (!fluid_.is_linear()) scale_mobility({});
+  constexpr double tolerance = 1e-6;
   std::vector<double> change(points_);
   return symmetric_spectral_radius(
       name(), t, points_,
@@ -269,7 +272,7 @@ double DarcySystem<D>::fastest_rate(double t) {
       },
       [&](std::span<const double> content, std::span<double> p) {
         for (Index i = 0; i < points_; ++i) change[i] = content[i] / volume()[i];
-        storage_->pressure_change(t, {}, change, p);
+        storage_->pressure_change(t, {}, change, p, tolerance);
       });
 }
 

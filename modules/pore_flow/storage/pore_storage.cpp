@@ -3,7 +3,8 @@
 namespace perifrac {
 
 void PoreStorage::pressure_change(double t, std::span<const double> zeta,
-                                  std::span<const double> change, std::span<double> dp) {
+                                  std::span<const double> change, std::span<double> dp,
+                                  double /*tolerance*/) {
   const std::span<const double> storage = effective_storage(t, zeta);
   for (Index i = 0; i < materials_.points(); ++i) dp[i] = change[i] / storage[i];
 }

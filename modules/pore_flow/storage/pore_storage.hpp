@@ -52,9 +52,14 @@ class PoreStorage {
   /// rock at rest where zeta is empty. Valid until the next call.
   virtual std::span<const double> effective_storage(double t, std::span<const double> zeta) = 0;
 
-  /// By how much the potential changes with zeta, near zeta, which may be empty as above [Pa].
+  /// Of what is sought: as near to a solution as rounding lets it be.
+  static constexpr double to_rounding = 1e-14;
+
+  /// By how much the potential changes with zeta, near zeta, which may be empty as above, where
+  /// points have to be solved for together to `tolerance` [Pa].
   virtual void pressure_change(double t, std::span<const double> zeta,
-                               std::span<const double> change, std::span<double> dp);
+                               std::span<const double> change, std::span<double> dp,
+                               double tolerance);
 
   /// Makes room in a matrix on points for all that add_to() adds.
   virtual void add_pattern_to(Eigen::SparseMatrix<double>&) const {}

@@ -120,9 +120,8 @@ const Eigen::SparseMatrix<double>& StabilisedStorage<D>::between() const {
 }
 
 template <int D>
-void StabilisedStorage<D>::solve(double t) const {
+void StabilisedStorage<D>::solve(double t, double tolerance) const {
   const ProfileScope profiled("solves");
-  constexpr double tolerance = 1e-14;
   constexpr int most = 300;
   const auto apply = [this](const Eigen::VectorXd& u, Eigen::VectorXd& image) {
     roughness_.apply(view(u), view(image));
@@ -159,7 +158,7 @@ void StabilisedStorage<D>::pressure(double t, std::span<const double> zeta,
   } else {
     x_ = right_side_.cwiseQuotient(own_);
   }
-  solve(t);
+  solve(t, this->to_rounding);
   last_right_side_ = right_side_;
   last_p_ = x_;
   std::ranges::copy(x_, p.begin());
@@ -167,11 +166,12 @@ void StabilisedStorage<D>::pressure(double t, std::span<const double> zeta,
 
 template <int D>
 void StabilisedStorage<D>::pressure_change(double t, std::span<const double>,
-                                           std::span<const double> change, std::span<double> dp) {
+                                           std::span<const double> change, std::span<double> dp,
+                                           double tolerance) {
   const Index points = intact_->point_count;
   for (Index i = 0; i < points; ++i) right_side_[i] = intact_->volume[i] * change[i];
   x_ = right_side_.cwiseQuotient(own_);
-  solve(t);
+  solve(t, tolerance);
   std::ranges::copy(x_, dp.begin());
 }
 

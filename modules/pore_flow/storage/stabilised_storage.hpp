@@ -36,7 +36,7 @@ class StabilisedStorage final : public LinearStorage {
   bool is_local() const override { return !splits_well_; }
   void pressure(double t, std::span<const double> zeta, std::span<double> p) const override;
   void pressure_change(double t, std::span<const double> zeta, std::span<const double> change,
-                       std::span<double> dp) override;
+                       std::span<double> dp, double tolerance) override;
   void add_pattern_to(Eigen::SparseMatrix<double>& matrix) const override;
   void add_to(Eigen::SparseMatrix<double>& matrix, double t, std::span<const double> zeta,
               std::span<const double> volume) override;
@@ -47,7 +47,7 @@ class StabilisedStorage final : public LinearStorage {
   const Eigen::SparseMatrix<double>& between() const;
   void find_own();
   /// (own + B) x_ = right_side_, from x_ on. Throws NumericalError.
-  void solve(double t) const;
+  void solve(double t, double tolerance) const;
 
   std::shared_ptr<const Family<D>> intact_;
   double scale_;                    ///< strength dx^2 [m^2]

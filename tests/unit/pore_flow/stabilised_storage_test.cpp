@@ -109,7 +109,7 @@ TEST(StabilisedStorage, FindsThePressureThatItStores) {
     }
     setting.stored->pressure(t, zeta, found);
     for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(found[i], p[i], 1e-13);
-    setting.stored->pressure_change(t, zeta, change, found);
+    setting.stored->pressure_change(t, zeta, change, found, PoreStorage::to_rounding);
     for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(found[i], dp[i], 1e-13);
     EXPECT_GT(test::largest(held), 1e-2 * test::largest(zeta)) << "nothing to be found";
   }
