@@ -60,14 +60,7 @@ void CondensedBody<D>::start() {
   pressed_.clear();
   change_of_.clear();
   partial_ = {};
-  std::vector<FaceJump<D>> seeds;
-  std::vector<int> unknowns;
-  for (const CrackFacet<D>& seed : seeds_) {
-    seeds.push_back(face_jump<D>(seed, intact_, spacing_, longest_));
-    std::ranges::copy(unknowns_of(seeds.back()), std::back_inserter(unknowns));
-  }
-  inverse_->add(unknowns);
-  for (const FaceJump<D>& seed : seeds) add_mode(seed);
+  add_seeds();
   begun_.resize(0);
   set_load(load_);
   find_compliance();
@@ -168,6 +161,36 @@ std::vector<int> CondensedBody<D>::unknowns_of(const FaceJump<D>& jump) const {
   return unknowns;
 }
 
+/// The jump along its normal, or a tangent.
+template <int D>
+UnknownSum CondensedBody<D>::sum_of(const FaceJump<D>& jump, int axis) const {
+  const Vector<D>& along = axis == 0 ? jump.normal : jump.tangents[axis - 1];
+  UnknownSum sum;
+  for (const auto& [point, coefficient] : jump.terms) {
+    for (int a = 0; a < D; ++a) {
+      const auto& [free, by] = free_of_[a * family_->point_count + point];
+      if (free >= 0) sum.emplace_back(free, by * coefficient * along[a]);
+    }
+  }
+  return sum;
+}
+
+/// Cracks of the start change no stiffness: their jumps are all that is asked of them.
+template <int D>
+void CondensedBody<D>::add_seeds() {
+  std::vector<UnknownSum> sums;
+  for (const CrackFacet<D>& seed : seeds_) {
+    const FaceJump<D> jump = face_jump<D>(seed, intact_, spacing_, longest_);
+    this->add_jump(jump);
+    Mode& mode = modes_.emplace_back();
+    for (int axis = 0; axis < D; ++axis) {
+      mode[axis].emplace_back(static_cast<int>(sums.size()), 1.0);
+      sums.push_back(sum_of(jump, axis));
+    }
+  }
+  inverse_->add(sums);
+}
+
 template <int D>
 void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
   inverse_->add(unknowns_of(jump));
@@ -178,14 +201,9 @@ void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
 template <int D>
 typename CondensedBody<D>::Mode CondensedBody<D>::mode_of(const FaceJump<D>& jump) const {
   Mode mode;
-  for (const auto& [point, coefficient] : jump.terms) {
-    for (int a = 0; a < D; ++a) {
-      const auto& [free, by] = free_of_[a * family_->point_count + point];
-      if (free < 0) continue;
-      mode[0].emplace_back(inverse_->place(free), by * coefficient * jump.normal[a]);
-      for (int k = 1; k < D; ++k) {
-        mode[k].emplace_back(inverse_->place(free), by * coefficient * jump.tangents[k - 1][a]);
-      }
+  for (int axis = 0; axis < D; ++axis) {
+    for (const auto& [free, coefficient] : sum_of(jump, axis)) {
+      mode[axis].emplace_back(inverse_->place(free), coefficient);
     }
   }
   return mode;
@@ -286,7 +304,8 @@ void CondensedBody<D>::find_opening() {
 
 template <int D>
 void CondensedBody<D>::find_cut_loaded() {
-  cut_loaded_ = inverse_->correct_block(factor_.part(begun_, inverse_->unknowns()));
+  cut_loaded_ =
+      inverse_->correct_block(inverse_->at_places(factor_.part(begun_, inverse_->unknowns())));
 }
 
 template <int D>
@@ -361,7 +380,7 @@ Eigen::MatrixXd CondensedBody<D>::solve_named(const Eigen::MatrixXd& force,
     if (free_of_[unknown].first >= 0) wanted.push_back(free_of_[unknown].first);
   }
   Eigen::MatrixXd moved(std::ssize(wanted), force.cols());
-  factor_.solve_part(inverse_->unknowns(), force, wanted, moved);
+  factor_.solve_part(inverse_->unknowns(), inverse_->on_unknowns(force), wanted, moved);
   return moved;
 }
 
@@ -388,7 +407,8 @@ Eigen::VectorXd CondensedBody<D>::unknowns(const Eigen::VectorXd& pressure,
   const Eigen::VectorXd force = block_force(pressure, shear);
   const Eigen::VectorXd block = loaded_ + moved_by(force);
   return free_unknowns_ *
-         factor_.finish(begun_, inverse_->unknowns(), block_force_on_first_body(force, block));
+         factor_.finish(begun_, inverse_->unknowns(),
+                        inverse_->on_unknowns(block_force_on_first_body(force, block)));
 }
 
 template <int D>
@@ -435,7 +455,7 @@ typename CrackedBody<D>::Energies CondensedBody<D>::energies(const Eigen::Vector
   const Eigen::VectorXd block = loaded_ + moved_by(force);
   Energies energies{};
   // The factor's inverse is symmetric, so that load times displacement needs no displacement.
-  const Eigen::VectorXd by_cuts = block_force_on_first_body(force, block);
+  const Eigen::VectorXd by_cuts = inverse_->on_unknowns(block_force_on_first_body(force, block));
   energies.load = intact_move().dot(load_);
   for (Eigen::Index k = 0; k < by_cuts.size(); ++k) {
     energies.load += intact_move()[inverse_->unknowns()[k]] * by_cuts[k];

@@ -85,7 +85,7 @@ class CondensedBody final : public CrackedBody<D> {
   using CrackedBody<D>::pressed_;
   using CrackedBody<D>::partial_version_;
 
-  /// A facet's jump along its normal and tangents, of the condensed unknowns.
+  /// A facet's jump along its normal and tangents, of the condensed unknowns and sums.
   using Mode = std::array<std::vector<std::pair<int, double>>, D>;
 
   /// A symmetric matrix of all unknowns on those solved for.
@@ -96,6 +96,8 @@ class CondensedBody final : public CrackedBody<D> {
   };
   void change_stiffness(const Parts& parts);
   std::vector<int> unknowns_of(const FaceJump<D>& jump) const;
+  UnknownSum sum_of(const FaceJump<D>& jump, int axis) const;
+  void add_seeds();
   void add_mode(const FaceJump<D>& jump);
   Mode mode_of(const FaceJump<D>& jump) const;
   void find_opening();

@@ -125,7 +125,7 @@ typename CrackedBody<D>::Held CondensedBody<D>::held(std::span<const double> unk
                                                      std::span<const double> shear) {
   Held result;
   if (partial_.empty()) return result;
-  const Eigen::Index size = inverse_->block().rows();
+  const std::span<const int> condensed = inverse_->unknowns();
   Eigen::VectorXd free = Eigen::VectorXd::Zero(free_unknowns_.cols()), weight = free;
   for (std::size_t unknown = 0; unknown < free_of_.size(); ++unknown) {
     const auto [column, by] = free_of_[unknown];
@@ -133,11 +133,11 @@ typename CrackedBody<D>::Held CondensedBody<D>::held(std::span<const double> unk
     free[column] += by * unknowns[unknown];
     weight[column] += by * by;
   }
-  Eigen::VectorXd block(size);
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const int column = inverse_->unknowns()[k];
-    block[k] = free[column] / weight[column];
+  Eigen::VectorXd moved(std::ssize(condensed));
+  for (Eigen::Index k = 0; k < moved.size(); ++k) {
+    moved[k] = free[condensed[k]] / weight[condensed[k]];
   }
+  const Eigen::VectorXd block = inverse_->at_places(moved);
   Eigen::VectorXd force = partial_.force(block);
   result.elastic = partial_.energy(block);
   for (std::size_t k = 0; k < partial_.count(); ++k) {
@@ -161,9 +161,9 @@ typename CrackedBody<D>::Held CondensedBody<D>::held(std::span<const double> unk
     }
   }
   Eigen::VectorXd by_free = Eigen::VectorXd::Zero(free_unknowns_.cols());
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const int column = inverse_->unknowns()[k];
-    by_free[column] = force[k] / weight[column];
+  const Eigen::VectorXd by_unknown = inverse_->on_unknowns(force);
+  for (Eigen::Index k = 0; k < by_unknown.size(); ++k) {
+    by_free[condensed[k]] = by_unknown[k] / weight[condensed[k]];
   }
   result.force = free_unknowns_ * by_free;
   return result;

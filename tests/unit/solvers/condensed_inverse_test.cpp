@@ -85,6 +85,42 @@ TEST(CondensedInverse, AddsManyUnknownsAtOnce) {
   }
 }
 
+/// Sums and unknowns beside each other, which share some: rows of (A + changes)^-1 between them.
+TEST(CondensedInverse, TakesSumsOfUnknowns) {
+  const Eigen::MatrixXd root = test::random_matrix(size, size, 1);
+  Eigen::MatrixXd a = root * root.transpose() + 5.0 * Eigen::MatrixXd::Identity(size, size);
+  const Eigen::SparseMatrix<double> start = a.sparseView();
+  SparseCholesky factor;
+  factor.factor(start);
+  CondensedInverse inverse(factor, size);
+  inverse.add(std::vector<UnknownSum>{{{3, 1.0}, {9, -2.0}}, {}, {{9, 0.5}, {9, 0.25}, {4, 1.0}}});
+  inverse.add(std::vector<int>{9, 12});
+  EXPECT_EQ(inverse.place(9), 3);
+  EXPECT_EQ(inverse.place(3), -1);
+  inverse.change(std::vector<int>{3, 4}, 2.0 * Eigen::MatrixXd::Identity(2, 2));
+  for (const int unknown : {9, 12}) a(unknown, unknown) += 2.0;
+  inverse.add(std::vector<UnknownSum>{{{12, 1.0}, {20, 1.0}}});
+
+  Eigen::MatrixXd places = Eigen::MatrixXd::Zero(size, 6);
+  places(3, 0) = 1.0;
+  places(9, 0) = -2.0;
+  places(9, 2) = 0.75;
+  places(4, 2) = places(9, 3) = places(12, 4) = places(12, 5) = places(20, 5) = 1.0;
+  const Eigen::MatrixXd exact = a.inverse();
+  EXPECT_LE((inverse.block() - places.transpose() * exact * places).cwiseAbs().maxCoeff(), 1e-14);
+
+  const auto named = inverse.unknowns();
+  EXPECT_EQ(std::vector<int>(named.begin(), named.end()), (std::vector<int>{3, 9, 4, 12, 20}));
+  const Eigen::VectorXd x = test::random_matrix(size, 1, 2), force = test::random_matrix(6, 1, 3);
+  Eigen::VectorXd x_named(5), force_named(5);
+  for (int k = 0; k < 5; ++k) {
+    x_named[k] = x[named[k]];
+    force_named[k] = (places * force)[named[k]];
+  }
+  EXPECT_LE((inverse.at_places(x_named) - places.transpose() * x).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LE((inverse.on_unknowns(force) - force_named).cwiseAbs().maxCoeff(), 1e-15);
+}
+
 /// What is taken away may be all that there is of an unknown.
 TEST(CondensedInverse, SaysWhereNothingIsLeft) {
   const Eigen::SparseMatrix<double> start = Eigen::MatrixXd::Identity(size, size).sparseView();
