@@ -148,20 +148,7 @@ PointStiffness CondensedBody<D>::on_free(const PointStiffness& all) const {
   return result;
 }
 
-/// What is solved for of the points that a jump is found from.
-template <int D>
-std::vector<int> CondensedBody<D>::unknowns_of(const FaceJump<D>& jump) const {
-  std::vector<int> unknowns;
-  for (const auto& [point, coefficient] : jump.terms) {
-    for (int a = 0; a < D; ++a) {
-      const int free = free_of_[a * family_->point_count + point].first;
-      if (free >= 0) unknowns.push_back(free);
-    }
-  }
-  return unknowns;
-}
-
-/// The jump along its normal, or a tangent.
+/// The jump along its normal, or a tangent, of what is solved for.
 template <int D>
 UnknownSum CondensedBody<D>::sum_of(const FaceJump<D>& jump, int axis) const {
   const Vector<D>& along = axis == 0 ? jump.normal : jump.tangents[axis - 1];
@@ -193,7 +180,9 @@ void CondensedBody<D>::add_seeds() {
 
 template <int D>
 void CondensedBody<D>::add_mode(const FaceJump<D>& jump) {
-  inverse_->add(unknowns_of(jump));
+  std::vector<int> unknowns;  // the same along all axes
+  for (const auto& [free, coefficient] : sum_of(jump, 0)) unknowns.push_back(free);
+  inverse_->add(unknowns);
   this->add_jump(jump);
   modes_.push_back(mode_of(jump));
 }

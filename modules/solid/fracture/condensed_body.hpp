@@ -95,7 +95,6 @@ class CondensedBody final : public CrackedBody<D> {
     std::vector<PointStiffness> less, more;
   };
   void change_stiffness(const Parts& parts);
-  std::vector<int> unknowns_of(const FaceJump<D>& jump) const;
   UnknownSum sum_of(const FaceJump<D>& jump, int axis) const;
   void add_seeds();
   void add_mode(const FaceJump<D>& jump);

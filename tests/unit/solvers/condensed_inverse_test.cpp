@@ -12,16 +12,28 @@ namespace {
 
 constexpr int size = 30;
 
+/// A matrix that is positive definite, its factor, and the inverse condensed from it.
+struct Setting {
+  explicit Setting(int unknowns, double least)
+      : root(test::random_matrix(unknowns, unknowns, 1)),
+        a(root * root.transpose() + least * Eigen::MatrixXd::Identity(unknowns, unknowns)),
+        start(a.sparseView()) {
+    factor.factor(start);
+  }
+
+  Eigen::MatrixXd root, a;  ///< a takes the changes
+  Eigen::SparseMatrix<double> start;
+  SparseCholesky factor;
+  CondensedInverse inverse{factor, start.cols()};
+};
+
 /// After several additions and changes, in whatever order they come: against the dense inverse.
 TEST(CondensedInverse, IsABlockOfTheInverseOfTheChangedMatrix) {
-  const Eigen::MatrixXd root = test::random_matrix(size, size, 1);
-  Eigen::MatrixXd a = root * root.transpose() + 5.0 * Eigen::MatrixXd::Identity(size, size);
-  const Eigen::SparseMatrix<double> start = a.sparseView();
-  SparseCholesky factor;
-  factor.factor(start);
-  CondensedInverse inverse(factor, size);
+  Setting setting(size, 5.0);
+  Eigen::MatrixXd& a = setting.a;
+  CondensedInverse& inverse = setting.inverse;
   const Eigen::VectorXd b = test::random_matrix(size, 1, 2);
-  const Eigen::VectorXd x0 = Eigen::MatrixXd(start).llt().solve(b);
+  const Eigen::VectorXd x0 = Eigen::MatrixXd(setting.start).llt().solve(b);
 
   const std::vector<std::vector<int>> steps = {{3, 17, 8}, {8, 0, 29}, {5}, {17, 5, 12, 3}};
   for (std::size_t step = 0; step < steps.size(); ++step) {
@@ -52,7 +64,7 @@ TEST(CondensedInverse, IsABlockOfTheInverseOfTheChangedMatrix) {
     }
     EXPECT_LE((inverse.correct_block(part0) - part).cwiseAbs().maxCoeff(), 1e-13);
     const Eigen::VectorXd force = inverse.force_of_changes(part);
-    Eigen::VectorXd rest = Eigen::MatrixXd(start) * x - b;
+    Eigen::VectorXd rest = Eigen::MatrixXd(setting.start) * x - b;
     for (std::size_t r = 0; r < named.size(); ++r) rest[named[r]] += force[r];
     EXPECT_LE(rest.cwiseAbs().maxCoeff(), 1e-12);
   }
@@ -63,12 +75,9 @@ TEST(CondensedInverse, IsABlockOfTheInverseOfTheChangedMatrix) {
 /// More than are found together, beside changes of what was there before.
 TEST(CondensedInverse, AddsManyUnknownsAtOnce) {
   constexpr int many = 200;
-  const Eigen::MatrixXd root = test::random_matrix(many, many, 1);
-  Eigen::MatrixXd a = root * root.transpose() + 50.0 * Eigen::MatrixXd::Identity(many, many);
-  const Eigen::SparseMatrix<double> start = a.sparseView();
-  SparseCholesky factor;
-  factor.factor(start);
-  CondensedInverse inverse(factor, many);
+  Setting setting(many, 50.0);
+  Eigen::MatrixXd& a = setting.a;
+  CondensedInverse& inverse = setting.inverse;
   inverse.add(std::vector<int>{7, 120});
   inverse.change(std::vector<int>{0, 1}, 9.0 * Eigen::MatrixXd::Identity(2, 2));
   for (const int unknown : {7, 120}) a(unknown, unknown) += 9.0;
@@ -87,12 +96,9 @@ TEST(CondensedInverse, AddsManyUnknownsAtOnce) {
 
 /// Sums and unknowns beside each other, which share some: rows of (A + changes)^-1 between them.
 TEST(CondensedInverse, TakesSumsOfUnknowns) {
-  const Eigen::MatrixXd root = test::random_matrix(size, size, 1);
-  Eigen::MatrixXd a = root * root.transpose() + 5.0 * Eigen::MatrixXd::Identity(size, size);
-  const Eigen::SparseMatrix<double> start = a.sparseView();
-  SparseCholesky factor;
-  factor.factor(start);
-  CondensedInverse inverse(factor, size);
+  Setting setting(size, 5.0);
+  Eigen::MatrixXd& a = setting.a;
+  CondensedInverse& inverse = setting.inverse;
   inverse.add(std::vector<UnknownSum>{{{3, 1.0}, {9, -2.0}}, {}, {{9, 0.5}, {9, 0.25}, {4, 1.0}}});
   inverse.add(std::vector<int>{9, 12});
   EXPECT_EQ(inverse.place(9), 3);
