@@ -105,6 +105,7 @@ void SceneRun::finish(bool stopped) {
   log_if_any(balance_warning(scene_, simulation_));
   log_if_any(filling_warning(scene_, simulation_));
   log_if_any(closed_front_warning(scene_, simulation_));
+  log_if_any(leaked_away_warning(scene_, simulation_));
   log_if_any(residual_aperture_warning(scene_, simulation_));
   log_if_any(spread_fluid_warning(scene_, simulation_));
   if (!stopped) {

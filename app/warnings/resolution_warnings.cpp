@@ -26,6 +26,7 @@ constexpr double least_waves = 5.0;   // spacings: by half of one, energies are 
 constexpr double least_depth_behind_layer = 5.0;  // spacings
 // Half of the first step of pressures that have gone 2.5 spacings from where they jumped.
 constexpr double steep = 0.1;
+constexpr double no_strain = 1e-9;
 constexpr double most_residual = 0.5;  // of the widest opening; volumes are 3 % off then
 
 /// Of a field; 0 where there is none.
@@ -36,6 +37,15 @@ double largest_of(const Simulation& simulation, const std::string& name) {
     for (const double value : field->values()) largest = std::max(largest, value);
   }
   return largest;
+}
+
+/// Of a total, of the balances or not; 0 where there is none.
+double total_of(const Simulation& simulation, const std::string& name) {
+  for (const LedgerColumn& column : simulation.manager->ledger().columns()) {
+    if (column.name == name) return column.value;
+  }
+  const auto field = find_field(*simulation.manager, name);
+  return field ? field->values().front() : 0.0;
 }
 
 /// Within a spacing of where a crack in 2D begins or ends, or of a face of the body.
@@ -176,17 +186,31 @@ std::optional<std::string> closed_front_warning(const Section& scene,
   if (scene.word("crack_fluid.leak_off") == "none") return {};
   const double wet = size_of("wetted_", scene, simulation);
   const double open = size_of("open_crack_", scene, simulation);
+  const double spacing = scene.number("body.spacing");
   const double ahead = share_of_wing(scene) * (wet - open);
+  const bool few_open = share_of_wing(scene) * open < least_filled * spacing && wet < 2.0 * open;
   // What goes farther flows through cracks that stay closed, as it should.
-  if (!(open > 0.0) || ahead > 1.5 * scene.number("body.spacing")) return {};
+  if (!(open > 0.0) || (ahead > 1.5 * spacing && !few_open)) return {};
   const double part =
       scene.integer("dimension") == 2 ? 1.0 - open / wet : 1.0 - open * open / (wet * wet);
   if (!(part > far_ahead)) return {};
   return fmt::format(
-      "{:.0f} % of what fluid wets in the end are closed cracks, a facet before each front: what "
-      "leaks off there depends on how long facets are; a finer body.spacing, or look at later "
+      "{:.0f} % of what fluid wets in the end are closed cracks, a facet or two before each front: "
+      "what leaks off there depends on how long facets are; a finer body.spacing, or look at later "
       "times",
       100.0 * part);
+}
+
+std::optional<std::string> leaked_away_warning(const Section& scene, const Simulation& simulation) {
+  if (!simulation.has_body() || !scene.has("crack_fluid") || !has_elastic_rock(scene)) return {};
+  const double pumped = total_of(simulation, "injected_crack_fluid_mass");
+  const double leaked = -total_of(simulation, "leaked_crack_fluid_mass");
+  if (!(pumped > 0.0) || leaked < 0.999 * pumped) return {};
+  const double pressure = total_of(simulation, "crack_fluid_work") *
+                          scene.number("crack_fluid.density") / pumped;  // mean where it came in
+  if (pressure > no_strain * read_elastic_rock(scene).uniaxial_modulus()) return {};
+  return "all that was pumped leaked off where it came in, and no pressure built up: a smaller "
+         "leak-off, or a higher rate";
 }
 
 std::optional<std::string> residual_aperture_warning(const Section& scene,

@@ -16,6 +16,9 @@ std::optional<std::string> filling_warning(const Section& scene, const Simulatio
 /// fills the facet before an open one at once, as there is hardly room in it.
 std::optional<std::string> closed_front_warning(const Section& scene, const Simulation& simulation);
 
+/// Where all that is pumped leaks off at once, so that no pressure builds up.
+std::optional<std::string> leaked_away_warning(const Section& scene, const Simulation& simulation);
+
 /// Where cracks that are pumped, and may grow, end hardly wider than what closed ones keep.
 std::optional<std::string> residual_aperture_warning(const Section& scene,
                                                      const Simulation& simulation);
