@@ -8,8 +8,8 @@
 
 namespace perifrac::bench {
 
-/// A lattice; one whose points lie in memory at random and not along the space-filling curve; and
-/// points that lie a fifth of a spacing aside, along the curve.
+/// A lattice; one whose points lie in memory at random and not row by row; and points that lie a
+/// fifth of a spacing aside, along a space-filling curve.
 enum class Cloud { lattice, shuffled, jittered };
 
 /// A box of `count` points an axis at the horizon ratio of everyday use: 2.5 in 2D, 3 in 3D.

@@ -28,7 +28,7 @@ void traverse_bonds(benchmark::State& state) {
     benchmark::DoNotOptimize(sums.data());
   }
   count_bonds<D>(state, *family);
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) * family->other.size() *
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) * family->steps.total() *
                           (sizeof(Index) + sizeof(double)));
 }
 

@@ -23,8 +23,8 @@ std::shared_ptr<const Family<D>> family(benchmark::State& state) {
   if (bonds != Bonds::some_broken) return body->family(0);
   const auto cut = std::make_shared<Family<D>>(*body->family(0));
   for (Index i = 0; i < cut->point_count; ++i) {
-    for (Index bond = cut->offset[i]; bond < cut->offset[i + 1]; ++bond) {
-      const Index j = cut->other[bond];
+    for (const auto& bond : cut->bonds(i)) {
+      const Index j = bond.other;
       if (i < j && (i + j) % 100 == 0) silence(*cut, i, j);
     }
   }

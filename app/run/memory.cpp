@@ -95,7 +95,9 @@ double solid_bytes(const Section& scene, double points) {
   if (type == "quasi_static" && takes_multigrid(scene, points)) {
     return (plane ? 1.2 : 3.0) * kilobyte;
   }
-  if (type == "dynamic") return (plane ? 1.0 : 2.0) * kilobyte;
+  if (type == "dynamic" && scene.has("body.jitter") && scene.number("body.jitter") > 0.0)
+    return (plane ? 1.0 : 2.6) * kilobyte;
+  if (type == "dynamic") return (plane ? 0.7 : 1.1) * kilobyte;
   return (plane ? 20.0 : 230.0 * fill(points)) * kilobyte;
 }
 

@@ -104,7 +104,7 @@ nlohmann::json counts(const Simulation& simulation) {
     if (!body) return;
     points = body->points().size();
     for (const auto& family : body->families()) {
-      bonds += family->other.size();
+      bonds += family->steps.total();
       ghosts += family->ghost_source.size();
     }
   };

@@ -15,8 +15,8 @@ std::vector<Index> next_along(const Body<D>& body, const Family<D>& family, int 
   const double spacing = body.spacing();
   std::vector<Index> next(family.point_count, -1);
   for (Index i = 0; i < family.point_count; ++i) {
-    for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) {
-      const Index j = family.other[b];
+    for (const auto& bond : family.bonds(i)) {
+      const Index j = bond.other;
       if (j >= family.point_count) continue;
       double off = 0.0;
       for (int a = 0; a < D; ++a) {

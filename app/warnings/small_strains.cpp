@@ -41,10 +41,9 @@ class Displaced {
 template <int D>
 StrainMatrix<D> gradient_at(const Family<D>& family, Index i, const Displaced<D>& displaced) {
   LeastSquaresGradient<D> gradient;
-  for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) {
-    const Index j = family.other[b];
+  for (const auto& [j, weight] : family.bonds(i)) {
     if (j >= family.point_count) continue;  // what a ghost does follows from the others
-    gradient.add(displaced.bond(i, j), displaced.moved_apart(i, j), family.weight[b]);
+    gradient.add(displaced.bond(i, j), displaced.moved_apart(i, j), weight);
   }
   return gradient.matrix();
 }

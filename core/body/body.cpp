@@ -92,7 +92,7 @@ Index Body<D>::nearest_point(const Vector<D>& x) const {
   for (Index i = 0; i < points_.size(); ++i) {
     if (in_layer[i]) continue;
     const double r2 = squared_norm(points_.at(i) - x);
-    // A tie between lattice points goes to the first along the curve, whatever the rounding.
+    // A tie between lattice points goes to the first of them, whatever the rounding.
     if (r2 < least * (1.0 - 1e-12)) {
       least = r2;
       nearest = i;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/small_vector.hpp"
+#include "core/bonds/bond_list.hpp"
 
 namespace perifrac {
 
@@ -121,23 +122,19 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
                           FaceSet mirrored, Family<D>& family) {
   if (cutouts.empty()) return;
   const std::vector<Region<D>> boxes = with_images<D>(cutouts, faces, mirrored);
-  Index kept = 0;
-  BondWeightList list(family.other.size());
-  for (Index i = 0, begin = 0; i < family.point_count; ++i) {
-    const Index end = family.offset[i + 1];
+  BondList<D> list;
+  for (Index i = 0; i < family.point_count; ++i) {
     const Vector<D> x = vector_at(family.position, i);
-    for (Index bond = begin; bond < end; ++bond) {
-      const Vector<D> y = vector_at(family.position, family.other[bond]);
+    list.begin(i);
+    for (const auto& [j, weight] : family.bonds(i)) {
+      const Vector<D> y = vector_at(family.position, j);
       if (std::ranges::any_of(boxes, [&](const auto& box) { return passes_through<D>(box, x, y); }))
         continue;
-      family.other[kept++] = family.other[bond];
-      list.add(std::array{family.weight[bond]});
+      list.add(j, weight);
     }
-    family.offset[i + 1] = kept;
-    begin = end;
+    list.end();
   }
-  family.other.resize(kept);
-  family.weight = list.take();
+  list.give_to(family);
 }
 
 template std::vector<Region<2>> read_cutouts<2>(const Section&, const Vector<2>&, double);

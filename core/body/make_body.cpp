@@ -10,6 +10,7 @@
 #include "core/geometry/cloud_points.hpp"
 #include "core/geometry/jitter.hpp"
 #include "core/geometry/lattice.hpp"
+#include "core/geometry/space_filling_curve.hpp"
 #include "core/geometry/voronoi.hpp"
 
 namespace perifrac {
@@ -89,7 +90,10 @@ std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double
   if (!cutouts.empty()) refuse_beside_cutouts(section, layered);
   cut_out<D>(section, cutouts, points);
   const double jitter = section.number("jitter");
-  if (jitter > 0.0) jitter_points(points, jitter * spacing, section.integer("seed"));
+  if (jitter > 0.0) {
+    sort_along_curve(points, spacing);
+    jitter_points(points, jitter * spacing, section.integer("seed"));
+  }
   const bool voronoi = section.has("volumes") ? section.word("volumes") == "voronoi" : jitter > 0.0;
   if (voronoi) set_voronoi_volumes<D>(points, low, high, spacing);
   const auto body =
@@ -135,6 +139,7 @@ std::shared_ptr<Body<D>> make_ball(const Section& section, double spacing, doubl
   }
   Points<D> points = ball_lattice<D>(radius, spacing, octant);
   if (jitter > 0.0) {
+    sort_along_curve(points, spacing);
     jitter_points_in_ball(points, jitter * spacing, section.integer("seed"), radius);
   }
   const auto body = std::make_shared<Body<D>>(std::move(points), ball_faces<D>(radius, octant),

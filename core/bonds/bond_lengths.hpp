@@ -19,9 +19,9 @@ template <int D>
 BondLengths bond_lengths(const Family<D>& family) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
   for (Index i = 0; i < family.point_count; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const double square = squared_norm(vector_at(family.position, family.other[bond]) -
-                                         vector_at(family.position, i));
+    for (const auto& bond : family.bonds(i)) {
+      const double square =
+          squared_norm(vector_at(family.position, bond.other) - vector_at(family.position, i));
       shortest = std::min(shortest, square);
       longest = std::max(longest, square);
     }

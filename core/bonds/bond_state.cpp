@@ -67,11 +67,12 @@ void BondState<D>::place_facets() {
 template <int D>
 void silence(Family<D>& family, Index i, Index j) {
   for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)}) {
-    for (Index bond = family.offset[from]; bond < family.offset[from + 1]; ++bond) {
-      const Index end = family.other[bond];
+    const PointBonds bonds = family.bonds(from);
+    for (Index k = 0; k < bonds.count(); ++k) {
+      const Index end = bonds.other(k);
       const Index source =
           end < family.point_count ? end : family.ghost_source[end - family.point_count];
-      if (source == to) family.weight.set(bond, 0.0);
+      if (source == to) family.weight.set(from, k, 0.0);
     }
   }
 }
@@ -93,10 +94,9 @@ template <int D>
 void find_damage(const Family<D>& family, std::span<double> damage) {
   for_each_point(family.point_count, [&](Index i) {
     double whole = 0.0, lost = 0.0;
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const double volume = family.volume[family.other[bond]];
-      whole += volume;
-      if (family.weight[bond] == 0.0) lost += volume;
+    for (const auto& [j, weight] : family.bonds(i)) {
+      whole += family.volume[j];
+      if (weight == 0.0) lost += family.volume[j];
     }
     damage[i] = whole > 0.0 ? lost / whole : 0.0;
   });

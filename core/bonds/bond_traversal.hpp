@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "core/base/for_each_point.hpp"
 #include "core/bonds/family.hpp"
@@ -18,14 +19,15 @@ inline std::array<double, K> sum_weighted(const Family<D>& family, Index i, cons
   }();
   std::array<const double*, D> position;
   for (int a = 0; a < D; ++a) position[a] = family.position[a].data();
-  const Index* const other = family.other.data();
-  const Index end = family.offset[i + 1];
+  const std::span<const Index> steps = family.steps[i];
+  const Index* const step = steps.data();
+  const Index count = static_cast<Index>(steps.size());
 #pragma omp simd reduction(+ : sum[:K])
-  for (Index bond = family.offset[i]; bond < end; ++bond) {
-    const Index j = other[bond];
+  for (Index n = 0; n < count; ++n) {
+    const Index j = i + step[n];
     Vector<D> xi;
     for (int a = 0; a < D; ++a) xi[a] = position[a][j] - x[a];
-    const std::array<double, K> t = term(j, xi, weight[bond]);
+    const std::array<double, K> t = term(j, xi, weight[n]);
     for (int k = 0; k < K; ++k) sum[k] += t[k];
   }
   std::array<double, K> result;
@@ -39,7 +41,7 @@ inline std::array<double, K> sum_weighted(const Family<D>& family, Index i, cons
 template <int K, int D, class Term>
 inline std::array<double, K> sum_over_bonds(const Family<D>& family, Index i, Term&& term) {
   return family.weight.with(
-      [&](const auto& weight) { return sum_weighted<K>(family, i, weight, term); });
+      i, [&](const auto& weight) { return sum_weighted<K>(family, i, weight, term); });
 }
 
 }  // namespace perifrac

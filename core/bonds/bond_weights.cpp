@@ -12,9 +12,9 @@ constexpr std::size_t most_numbers = 256;  // that a byte tells apart
 
 }  // namespace
 
-BondWeightList::BondWeightList(std::size_t bonds) : bonds_(bonds) {
+BondWeightList::BondWeightList() {
+  weights_.is_packed_ = true;
   weights_.table_ = {0.0};
-  weights_.code_.reserve(bonds);
 }
 
 std::optional<std::uint8_t> BondWeightList::place_of(double weight) {
@@ -33,56 +33,78 @@ std::optional<std::uint8_t> BondWeightList::place_of(double weight) {
   return guess;
 }
 
-void BondWeightList::add(std::span<const double> weights) {
+bool BondWeightList::find_codes(std::span<const double> weights) {
+  row_.clear();
   for (const double weight : weights) {
-    if (weights_.all_.empty()) {
-      if (const auto place = place_of(weight)) {
-        weights_.code_.push_back(*place);
-        continue;
-      }
-      weights_.unpack();
-      weights_.all_.reserve(bonds_);
-    }
-    weights_.all_.push_back(weight);
+    const auto place = place_of(weight);
+    if (!place) return false;
+    row_.push_back(*place);
   }
+  return true;
+}
+
+void BondWeightList::add(std::span<const double> weights) {
+  if (is_packed()) {
+    if (find_codes(weights)) {
+      codes_.add(row_);
+      return;
+    }
+    weights_.code_ = codes_.take();
+    weights_.unpack();
+  }
+  weights_.all_.add(weights);
+}
+
+BondWeights BondWeightList::take() {
+  if (is_packed()) weights_.code_ = codes_.take();
+  return std::move(weights_);
 }
 
 void BondWeights::pack() {
-  if (is_packed() || all_.empty()) return;
-  BondWeightList list(all_.size());
-  for (const double& weight : all_) {
-    list.add({&weight, 1});
+  if (is_packed_) return;
+  BondWeightList list;
+  for (Index i = 0; i < all_.count(); ++i) {
+    list.add(all_[i]);
     if (!list.is_packed()) return;
   }
   *this = list.take();
 }
 
 void BondWeights::unpack() {
-  if (!is_packed()) return;
-  all_.reserve(code_.size());
-  for (const std::uint8_t code : code_) all_.push_back(table_[code]);
-  code_ = std::vector<std::uint8_t>();  // gives its memory back, as {} would not
+  if (!is_packed_) return;
+  all_.reserve(code_.count(), code_.total());
+  std::vector<double> weights;
+  for (Index i = 0; i < code_.count(); ++i) {
+    weights.clear();
+    for (const std::uint8_t code : code_[i]) weights.push_back(table_[code]);
+    all_.add(weights);
+  }
+  is_packed_ = false;
+  code_ = {};
   table_ = std::vector<double>();
 }
 
-void BondWeights::set(std::size_t bond, double weight) {
-  if (is_packed()) {
+void BondWeights::set(Index i, Index k, double weight) {
+  if (is_packed_) {
     const auto found = std::ranges::find(table_, weight);
     const auto place = static_cast<std::size_t>(found - table_.begin());
     if (place < most_numbers) {
       if (found == table_.end()) table_.push_back(weight);
-      code_[bond] = static_cast<std::uint8_t>(place);
+      code_.own(i)[k] = static_cast<std::uint8_t>(place);
       return;
     }
     unpack();
   }
-  all_[bond] = weight;
+  all_.own(i)[k] = weight;
 }
 
 bool BondWeights::operator==(const BondWeights& other) const {
-  if (size() != other.size()) return false;
-  for (std::size_t bond = 0; bond < size(); ++bond) {
-    if ((*this)[bond] != other[bond]) return false;
+  if (point_count() != other.point_count()) return false;
+  for (Index i = 0; i < point_count(); ++i) {
+    if (bond_count(i) != other.bond_count(i)) return false;
+    for (Index k = 0; k < bond_count(i); ++k) {
+      if ((*this)(i, k) != other(i, k)) return false;
+    }
   }
   return true;
 }

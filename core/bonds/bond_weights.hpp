@@ -8,42 +8,47 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/shared_rows.hpp"
+
 namespace perifrac {
 
-/// omega(|xi|) V_other of every bond; 0: it is broken. On a lattice few are different: then a byte
-/// a bond says which it is.
+/// omega(|xi|) V_other of every bond, by point; 0: it is broken. On a lattice few are different:
+/// then a byte a bond says which it is, and points whose bonds have the same weights share them.
 class BondWeights {
  public:
-  /// What says which, for loops: weight[bond].
+  /// What says which, for loops: weight[k] of a point's k-th bond.
   struct Packed {
     const std::uint8_t* code;
     const double* table;
-    double operator[](std::size_t bond) const { return table[code[bond]]; }
+    double operator[](Index k) const { return table[code[k]]; }
   };
 
   BondWeights() = default;
-  explicit BondWeights(std::vector<double> all) : all_(std::move(all)) {}
+  explicit BondWeights(SharedRows<double> all) : all_(std::move(all)) {}
 
-  std::size_t size() const { return is_packed() ? code_.size() : all_.size(); }
-  double operator[](std::size_t bond) const {
-    return is_packed() ? table_[code_[bond]] : all_[bond];
+  Index point_count() const { return is_packed_ ? code_.count() : all_.count(); }
+  Index bond_count(Index i) const { return is_packed_ ? code_.size(i) : all_.size(i); }
+  double operator()(Index i, Index k) const {
+    return is_packed_ ? table_[code_[i][k]] : all_[i][k];
   }
   /// From several threads only where they are not packed.
-  void set(std::size_t bond, double weight);
+  void set(Index i, Index k, double weight);
 
-  /// Calls use(weight), weight[bond] as above, for loops that shall not ask at every bond.
+  /// Calls use(weight), weight[k] being that of the k-th bond of point i, for loops that shall not
+  /// ask at every bond.
   template <class Use>
-  auto with(Use&& use) const {
-    if (is_packed()) return use(Packed{code_.data(), table_.data()});
-    return use(all_.data());
+  auto with(Index i, Use&& use) const {
+    if (is_packed_) return use(Packed{code_[i].data(), table_.data()});
+    return use(all_[i].data());
   }
 
   /// Takes a byte a bond where that will do: weights that differ by rounding alone become equal.
   void pack();
+  /// No two points share their weights afterwards.
   void unpack();
-  bool is_packed() const { return !code_.empty(); }
+  bool is_packed() const { return is_packed_; }
   std::size_t bytes() const {
-    return sizeof(double) * (all_.size() + table_.size()) + code_.size();
+    return all_.bytes() + code_.bytes() + sizeof(double) * table_.size();
   }
 
   /// Of equal weights, however they are kept.
@@ -52,27 +57,32 @@ class BondWeights {
  private:
   friend class BondWeightList;
 
-  std::vector<double> all_;         ///< empty where they are packed
-  std::vector<std::uint8_t> code_;  ///< place in the table; 0 of broken bonds
-  std::vector<double> table_;
+  bool is_packed_ = false;
+  SharedRows<double> all_;         ///< empty where they are packed
+  SharedRows<std::uint8_t> code_;  ///< places in the table
+  std::vector<double> table_;      ///< the first is 0
 };
 
-/// Weights as they are found, one bond after the other: packed from the first on, as long as that
+/// Weights as they are found, one point after the other: packed from the first on, as long as that
 /// will do, so that those of a lattice never take a number each.
 class BondWeightList {
  public:
-  explicit BondWeightList(std::size_t bonds);  ///< that are expected
+  BondWeightList();
 
+  /// Those of the next point's bonds.
   void add(std::span<const double> weights);
   bool is_packed() const { return weights_.is_packed(); }
-  BondWeights take() { return std::move(weights_); }
+  BondWeights take();
 
  private:
   /// The place of a number in the table, up to rounding, or none where it is full.
   std::optional<std::uint8_t> place_of(double weight);
+  /// False where the table does not hold them.
+  bool find_codes(std::span<const double> weights);
 
-  std::size_t bonds_;
   BondWeights weights_;
+  SharedRowList<std::uint8_t> codes_;
+  std::vector<std::uint8_t> row_;           ///< workspace
   std::array<std::uint8_t, 4096> guess_{};  ///< by leading digits
 };
 

@@ -65,9 +65,8 @@ std::vector<std::pair<Index, Index>> bonds_cut_by(const CrackFacet<D>& facet,
     const Vector<D> x = vector_at(family.position, i);
     if (squared_norm(x - centre) > far * far) continue;
     const double below = blade.height(x);
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const Index j = family.other[bond];
-      if (j <= i || j >= family.point_count || family.weight[bond] == 0.0) continue;
+    for (const auto& [j, weight] : family.bonds(i)) {
+      if (j <= i || j >= family.point_count || weight == 0.0) continue;
       const Vector<D> y = vector_at(family.position, j);
       if (blade.cuts(x, below, y, blade.height(y))) cut.emplace_back(i, j);
     }

@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "core/base/small_vector.hpp"
-#include "core/bonds/bond_traversal.hpp"
+#include "core/bonds/bond_list.hpp"
 #include "core/geometry/cell_grid.hpp"
 
 namespace perifrac {
 
 namespace {
 
-constexpr Index points_at_once = 1 << 14;  // whose weights are found before they are packed
+constexpr Index points_at_once = 1 << 14;  // whose bonds are found before they are packed
 
 template <int D>
 double squared_distance(const Family<D>& family, Index i, Index j) {
@@ -53,29 +53,12 @@ void add_ghosts(Family<D>& family, const Face& face, int number, double horizon,
   }
 }
 
-/// Takes out the bonds of bondless points.
-void remove_bonds(const std::vector<bool>& bondless, Neighbours& near) {
-  const Index points = static_cast<Index>(bondless.size());
-  const auto is_bondless = [&](Index i) { return i < points && bondless[i]; };
-  Index kept = 0;
-  for (Index i = 0, begin = 0; i < points; ++i) {
-    const Index end = near.offset[i + 1];
-    for (Index k = begin; k < end && !bondless[i]; ++k) {
-      if (!is_bondless(near.other[k])) near.other[kept++] = near.other[k];
-    }
-    near.offset[i + 1] = kept;
-    begin = end;
-  }
-  near.other.resize(kept);
-}
-
 }  // namespace
 
 template <int D>
 std::size_t Family<D>::bytes() const {
   return sizeof(double) * (D + 1) * volume.size() + sizeof(Index) * ghost_source.size() +
-         (sizeof(FaceSet) + 1) * ghost_faces.size() +
-         sizeof(Index) * (offset.size() + other.size()) + weight.bytes();
+         (sizeof(FaceSet) + 1) * ghost_faces.size() + steps.bytes() + weight.bytes();
 }
 
 template <int D>
@@ -95,27 +78,30 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
 
   CellGrid<D> grid;
   grid.build(positions_of(family.position), reach);
+  const auto is_bondless = [&](Index i) { return i < points.size() && bondless[i]; };
   Neighbours near;
-  grid.find_others(points.size(), reach, near);
-  remove_bonds(bondless, near);
-  family.offset = std::move(near.offset);
-  family.other = std::move(near.other);
-  BondWeightList list(family.other.size());
   std::vector<double> weight;
+  BondList<D> list;
   for (Index first = 0; first < points.size(); first += points_at_once) {
     const Index count = std::min(points_at_once, points.size() - first);
-    const Index begin = family.offset[first];
-    weight.resize(family.offset[first + count] - begin);
+    grid.find_others(first, first + count, reach, near);
+    weight.resize(near.other.size());
     for_each_point(count, [&](Index k) {
-      for (Index bond = family.offset[first + k]; bond < family.offset[first + k + 1]; ++bond) {
-        const Index j = family.other[bond];
+      for (Index n = near.offset[k]; n < near.offset[k + 1]; ++n) {
+        const Index j = near.other[n];
         const double r = std::sqrt(squared_distance(family, first + k, j));
-        weight[bond - begin] = influence(influence_function, r, horizon) * family.volume[j];
+        weight[n] = influence(influence_function, r, horizon) * family.volume[j];
       }
     });
-    list.add(weight);
+    for (Index k = 0; k < count; ++k) {
+      list.begin(first + k);
+      for (Index n = near.offset[k]; n < near.offset[k + 1] && !bondless[first + k]; ++n) {
+        if (!is_bondless(near.other[n])) list.add(near.other[n], weight[n]);
+      }
+      list.end();
+    }
   }
-  family.weight = list.take();
+  list.give_to(family);
   return family;
 }
 
@@ -136,17 +122,15 @@ Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored) {
     part.ghost_axes.push_back(family.ghost_axes[ghost]);
   }
   part.curved = family.curved;
-  part.offset.push_back(0);
-  BondWeightList list(family.other.size());
+  BondList<D> list;
   for (Index i = 0; i < family.point_count; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      if (number[family.other[bond]] < 0) continue;
-      part.other.push_back(number[family.other[bond]]);
-      list.add(std::array{family.weight[bond]});
+    list.begin(i);
+    for (const auto& [j, weight] : family.bonds(i)) {
+      if (number[j] >= 0) list.add(number[j], weight);
     }
-    part.offset.push_back(static_cast<Index>(part.other.size()));
+    list.end();
   }
-  part.weight = list.take();
+  list.give_to(part);
   return part;
 }
 

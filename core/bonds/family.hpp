@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "core/base/points.hpp"
+#include "core/base/shared_rows.hpp"
 #include "core/bonds/bond_weights.hpp"
 #include "core/bonds/influence_function.hpp"
+#include "core/bonds/point_bonds.hpp"
 #include "core/geometry/faces.hpp"
 
 namespace perifrac {
@@ -27,18 +29,21 @@ struct Family {
   std::vector<FaceSet> ghost_faces;             ///< the faces that it was mirrored at
   std::vector<std::uint8_t> ghost_axes;         ///< bit a: its coordinate a is reversed
   bool curved = false;                          ///< some ghosts are images at a sphere
-  std::vector<Index> offset;                    ///< bonds of i: offset[i] .. offset[i + 1]
-  std::vector<Index> other;                     ///< the bond's other end
-  BondWeights weight;                           ///< omega(|xi|) V_other
+  /// By point, how far the numbers of its bonds' other ends are from its own, ascending. On a
+  /// lattice most points have the same, and share them.
+  SharedRows<Index> steps;
+  BondWeights weight;  ///< omega(|xi|) V_other of the same bonds
 
   Index ghost_count() const { return static_cast<Index>(ghost_source.size()); }
   Index node_count() const { return point_count + ghost_count(); }
-  Index bond_count(Index i) const { return offset[i + 1] - offset[i]; }
-  /// Of i's bonds, which are sorted by their other end, the first to a ghost; offset[i + 1]: none.
+  PointBonds bonds(Index i) const { return {i, steps[i], weight}; }
+  Index bond_count(Index i) const { return steps.size(i); }
+  /// Of i's bonds, which are sorted by their other end, the first to a ghost; bond_count(i): none.
   Index first_ghost_bond(Index i) const {
-    Index bond = offset[i + 1];
-    while (bond > offset[i] && other[bond - 1] >= point_count) --bond;
-    return bond;
+    const PointBonds own = bonds(i);
+    Index k = own.count();
+    while (k > 0 && own.other(k - 1) >= point_count) --k;
+    return k;
   }
   std::size_t bytes() const;
 };

@@ -51,11 +51,11 @@ std::optional<Grid<D>> find_grid(const Family<D>& family, double spacing) {
   return grid;
 }
 
-/// Of a bond of point i, in spacings.
+/// Of a bond from i to j, in spacings.
 template <int D>
-std::array<Index, D> step_of(const Family<D>& family, const Grid<D>& grid, Index i, Index bond) {
+std::array<Index, D> step_of(const Grid<D>& grid, Index i, Index j) {
   std::array<Index, D> step;
-  for (int a = 0; a < D; ++a) step[a] = grid.place[family.other[bond]][a] - grid.place[i][a];
+  for (int a = 0; a < D; ++a) step[a] = grid.place[j][a] - grid.place[i][a];
   return step;
 }
 
@@ -64,8 +64,8 @@ template <int D>
 Index farthest_step(const Family<D>& family, const Grid<D>& grid) {
   Index reach = 0;
   for (Index i = 0; i < family.point_count; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      for (const Index step : step_of(family, grid, i, bond)) {
+    for (const auto& bond : family.bonds(i)) {
+      for (const Index step : step_of(grid, i, bond.other)) {
         reach = std::max(reach, std::abs(step));
       }
     }
@@ -108,11 +108,11 @@ std::optional<std::vector<double>> find_weights(const Family<D>& family, const G
   const Steps<D> steps{grid.reach};
   std::vector<double> weights(steps.count(), 0.0);
   for (Index i = 0; i < family.point_count; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      if (family.weight[bond] == 0.0) continue;
-      double& weight = weights[steps.number(step_of(family, grid, i, bond))];
-      if (weight == 0.0) weight = family.weight[bond];
-      if (differ(family.weight[bond], weight)) return {};
+    for (const auto& bond : family.bonds(i)) {
+      if (bond.weight == 0.0) continue;
+      double& weight = weights[steps.number(step_of(grid, i, bond.other))];
+      if (weight == 0.0) weight = bond.weight;
+      if (differ(bond.weight, weight)) return {};
     }
   }
   // Opposite directions lie in opposite places. A direction that bonds have to ghosts alone has no
@@ -205,9 +205,9 @@ bool LatticeBonds<D>::take_neighbours(const Family<D>& family, const Grid& grid,
   for (std::size_t k = 0; k < neighbours_.size(); ++k) all_[k / word_bits] |= bit(k);
   present_.assign(all_.size() * cell_count_, 0);
   for_each_point(family.point_count, [&](Index i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      if (family.weight[bond] == 0.0) continue;
-      const Index k = number_[steps.number(step_of<D>(family, grid, i, bond))];
+    for (const auto& [j, weight] : family.bonds(i)) {
+      if (weight == 0.0) continue;
+      const Index k = number_[steps.number(step_of<D>(grid, i, j))];
       word_of(k, cell_of_[i]) |= bit(k);
     }
   });
@@ -247,12 +247,12 @@ void LatticeBonds<D>::update(const Family<D>& family, std::span<const Index> poi
   for (const Index i : points) {
     const Index cell = cell_of_[i];
     for (std::size_t word = 0; word < all_.size(); ++word) word_of(word * word_bits, cell) = 0;
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      if (family.weight[bond] == 0.0) continue;
+    for (const auto& [j, weight] : family.bonds(i)) {
+      if (weight == 0.0) continue;
       std::array<Index, D> step;
       for (int a = 0; a < D; ++a) {
         const std::vector<double>& x = family.position[a];
-        step[a] = static_cast<Index>(std::lround((x[family.other[bond]] - x[i]) / spacing_));
+        step[a] = static_cast<Index>(std::lround((x[j] - x[i]) / spacing_));
       }
       const Index k = number_[Steps<D>{reach_}.number(step)];
       word_of(k, cell) |= bit(k);

@@ -92,10 +92,12 @@ class MomentProjection {
   /// Where no factors would do, those of Newton's steps grow beyond bounds.
   void find_range(WeightProjection& done) const {
     done.least_factor = done.largest_factor = 1.0;
-    for (std::size_t bond = 0; bond < plain_.size(); ++bond) {
-      const double factor = family_.weight[bond] / plain_[bond];
-      done.least_factor = std::min(done.least_factor, factor);
-      done.largest_factor = std::max(done.largest_factor, factor);
+    for (Index i = 0; i < family_.point_count; ++i) {
+      for (Index k = 0; k < family_.bond_count(i); ++k) {
+        const double factor = family_.weight(i, k) / plain_(i, k);
+        done.least_factor = std::min(done.least_factor, factor);
+        done.largest_factor = std::max(done.largest_factor, factor);
+      }
     }
     if (done.least_factor < least_factor || done.largest_factor > largest_factor) {
       refuse(fmt::format("range from {:.2g} to {:.2g}", done.least_factor, done.largest_factor));
@@ -175,13 +177,14 @@ class MomentProjection {
     return sum;
   }
 
-  /// Calls use(bond, ln s) for every bond of a point, after spread().
+  /// Calls use(k, ln s) for every bond of a point, after spread().
   template <class Use>
   void for_exponents(const Eigen::VectorXd& multiplier, Index i, Use&& use) const {
     const Moments own = own_multipliers(multiplier, i);
-    for (Index bond = family_.offset[i]; bond < family_.offset[i + 1]; ++bond) {
-      const Index node = family_.other[bond];
-      use(bond, exponent(own, node, moments_of(bond_vector(i, node))));
+    const PointBonds bonds = family_.bonds(i);
+    for (Index k = 0; k < bonds.count(); ++k) {
+      const Index node = bonds.other(k);
+      use(k, exponent(own, node, moments_of(bond_vector(i, node))));
     }
   }
 
@@ -198,8 +201,8 @@ class MomentProjection {
   void set_weights(const Eigen::VectorXd& multiplier) {
     spread(multiplier);
     for_each_point(family_.point_count, [&](Index i) {
-      for_exponents(multiplier, i, [&](Index bond, double e) {
-        family_.weight.set(bond, plain_[bond] * std::exp(e));
+      for_exponents(multiplier, i, [&](Index k, double e) {
+        family_.weight.set(i, k, plain_(i, k) * std::exp(e));
       });
     });
   }
@@ -317,10 +320,9 @@ class MomentProjection {
           }
         }
       };
-      for (Index bond = family_.offset[i]; bond < family_.offset[i + 1]; ++bond) {
-        const Index node = family_.other[bond];
+      for (const auto& [node, weight] : family_.bonds(i)) {
         const Moments t = moments_of(bond_vector(i, node));
-        const double c = family_.volume[i] * family_.weight[bond];
+        const double c = family_.volume[i] * weight;
         add(row, t, c, sign);
         const Index column = T * number_[source_of(node)];
         if (column >= 0 && column <= row) add(column, t, c, end_signs(node));

@@ -32,17 +32,32 @@ template <int D>
 /// One routine, never inlined: what a family's moments are must not depend, in the last digit, on
 /// whether they were made with all others or anew after bonds broke and mended.
 template <int D>
-[[gnu::noinline]] void set_inverse(const std::array<double, D * D>& sum, Index i,
-                                   FamilyMoments<D>& moments) {
+[[gnu::noinline]] Tensor<D, D> inverse_of(const Tensor<D, D>& shape) {
   using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
-  const Matrix inverse = Eigen::Map<const Matrix>(sum.data()).inverse();
-  for (int k = 0; k < D * D; ++k) moments.inverse_shape[k][i] = inverse(k / D, k % D);
+  const Matrix inverse = Eigen::Map<const Matrix>(shape.data()).inverse();
+  Tensor<D, D> result;
+  for (int k = 0; k < D * D; ++k) result[k] = inverse(k / D, k % D);
+  return result;
+}
+
+/// m_i, infinite where no bond is left.
+template <int D>
+double trace_of(const Tensor<D, D>& shape) {
+  double trace = 0.0;
+  for (int a = 0; a < D; ++a) trace += shape[a * D + a];
+  return trace > 0.0 ? trace : std::numeric_limits<double>::infinity();
+}
+
+template <int D>
+void set_inverse(const Tensor<D, D>& shape, Index i, FamilyMoments<D>& moments) {
+  const Tensor<D, D> inverse = inverse_of<D>(shape);
+  for (int k = 0; k < D * D; ++k) moments.inverse_shape[k][i] = inverse[k];
 }
 
 }  // namespace
 
 template <int D>
-[[gnu::noinline]] std::array<double, D * D> shape_tensor_at(const Family<D>& family, Index i) {
+[[gnu::noinline]] Tensor<D, D> shape_tensor_at(const Family<D>& family, Index i) {
   return sum_over_bonds<D * D>(family, i, [](Index, const Vector<D>& xi, double w) {
     std::array<double, D * D> product;
     for (int a = 0; a < D; ++a) {
@@ -50,6 +65,16 @@ template <int D>
     }
     return product;
   });
+}
+
+template <int D>
+Tensor<D, D> inverse_shape_at(const Family<D>& family, Index i) {
+  return inverse_of<D>(shape_tensor_at(family, i));
+}
+
+template <int D>
+double weighted_volume(const Family<D>& family, Index i) {
+  return trace_of<D>(shape_tensor_at(family, i));
 }
 
 template <int D>
@@ -67,7 +92,7 @@ FamilyMoments<D> family_moments(const Family<D>& family) {
       refuse_flat_family(family, i);
     }
     set_inverse<D>(sum, i, moments);
-    moments.weighted_volume[i] = shape.trace();
+    moments.weighted_volume[i] = trace_of<D>(sum);
   }
   return moments;
 }
@@ -83,24 +108,25 @@ bool is_thin(const Family<D>& family, Index i) {
 
 template <int D>
 bool set_moments(const Family<D>& family, Index i, FamilyMoments<D>& moments) {
-  using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
   const bool thin = is_thin(family, i);
-  const auto sum = shape_tensor_at(family, i);
-  const Eigen::Matrix<double, D, D> shape = Eigen::Map<const Matrix>(sum.data());
+  const Tensor<D, D> shape = shape_tensor_at(family, i);
   if (thin) {
     for (auto& entry : moments.inverse_shape) entry[i] = 0.0;
   } else {
-    set_inverse<D>(sum, i, moments);
+    set_inverse<D>(shape, i, moments);
   }
-  const double m = shape.trace();
-  moments.weighted_volume[i] = m > 0.0 ? m : std::numeric_limits<double>::infinity();
+  moments.weighted_volume[i] = trace_of<D>(shape);
   return thin;
 }
 
 template struct FamilyMoments<2>;
 template struct FamilyMoments<3>;
-template std::array<double, 4> shape_tensor_at<2>(const Family<2>&, Index);
-template std::array<double, 9> shape_tensor_at<3>(const Family<3>&, Index);
+template Tensor<2, 2> shape_tensor_at<2>(const Family<2>&, Index);
+template Tensor<3, 3> shape_tensor_at<3>(const Family<3>&, Index);
+template Tensor<2, 2> inverse_shape_at<2>(const Family<2>&, Index);
+template Tensor<3, 3> inverse_shape_at<3>(const Family<3>&, Index);
+template double weighted_volume<2>(const Family<2>&, Index);
+template double weighted_volume<3>(const Family<3>&, Index);
 template FamilyMoments<2> family_moments<2>(const Family<2>&);
 template FamilyMoments<3> family_moments<3>(const Family<3>&);
 template bool set_moments<2>(const Family<2>&, Index, FamilyMoments<2>&);

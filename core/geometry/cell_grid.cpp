@@ -195,10 +195,10 @@ void CellGrid<D>::find(const Positions<D>& targets, double reach, Neighbours& re
 }
 
 template <int D>
-void CellGrid<D>::find_others(Index targets, double reach, Neighbours& result) {
+void CellGrid<D>::find_others(Index first, Index last, double reach, Neighbours& result) {
   search(
-      targets, reach, [&](Index i) { return vector_at(sorted_, place_[i]); },
-      [&](Index i) { return place_[i]; }, result);
+      last - first, reach, [&](Index k) { return vector_at(sorted_, place_[first + k]); },
+      [&](Index k) { return place_[first + k]; }, result);
 }
 
 template class CellGrid<2>;

@@ -41,7 +41,11 @@ class CellGrid {
   void find(const Positions<D>& targets, double reach, Neighbours& result);
 
   /// The same for the grid's own first `targets` points, themselves left out.
-  void find_others(Index targets, double reach, Neighbours& result);
+  void find_others(Index targets, double reach, Neighbours& result) {
+    find_others(0, targets, reach, result);
+  }
+  /// The same for its points from `first` on, to before `last`; the first is target 0.
+  void find_others(Index first, Index last, double reach, Neighbours& result);
 
  private:
   using Cell = std::array<std::int64_t, D>;

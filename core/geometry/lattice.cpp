@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "core/base/small_vector.hpp"
-#include "core/geometry/space_filling_curve.hpp"
 
 namespace perifrac {
 
@@ -22,7 +21,7 @@ void for_each_cell(const std::array<int, D>& counts, Use&& use) {
   }
 }
 
-/// The cells of a ball's octant by their numbers along the axes.
+/// The cells of a ball by their numbers along the axes; what they hold is found in an octant.
 template <int D>
 class BallCells {
  public:
@@ -37,9 +36,33 @@ class BallCells {
     });
   }
 
-  /// The points, each with the part of the octant that is nearest to it as its volume, found by
-  /// sampling the cells that the surface cuts.
-  Points<D> points() {
+  /// The points of the octant, or of the ball, row by row.
+  Points<D> points(bool octant) {
+    find_volumes();
+    if (octant) return std::move(points_);
+    Cell counts;
+    counts.fill(2 * along_);
+    Points<D> all;
+    for_each_cell<D>(counts, [&](const Cell& cell) {
+      Cell image;
+      for (int a = 0; a < D; ++a) {
+        image[a] = cell[a] < along_ ? along_ - 1 - cell[a] : cell[a] - along_;
+      }
+      const Index point = number_[flat(image)];
+      if (point < 0) return;
+      Vector<D> x = points_.at(point);
+      for (int a = 0; a < D; ++a) x[a] = cell[a] < along_ ? -x[a] : x[a];
+      all.add(x, points_.volume[point]);
+    });
+    return all;
+  }
+
+ private:
+  using Cell = std::array<int, D>;
+
+  /// A point has the part of the octant that is nearest to it, found by sampling the cells that the
+  /// surface cuts.
+  void find_volumes() {
     constexpr int samples = 10;  // along an axis of a cell
     Cell subcells;
     subcells.fill(samples);
@@ -57,11 +80,7 @@ class BallCells {
     const double ball = (D == 2 ? 1.0 : 4.0 / 3.0) * std::numbers::pi * std::pow(radius_, D);
     const double sum = std::accumulate(points_.volume.begin(), points_.volume.end(), 0.0);
     for (double& volume : points_.volume) volume *= ball / (1 << D) / sum;
-    return std::move(points_);
   }
-
- private:
-  using Cell = std::array<int, D>;
 
   template <class Use>
   void for_each(Use&& use) const {
@@ -127,23 +146,12 @@ Points<D> box_lattice(const std::array<int, D>& counts, double spacing,
     for (int a = 0; a < D; ++a) x[a] = (first[a] + cell[a] + 0.5) * spacing;
     points.add(x, volume);
   });
-  sort_along_curve(points, spacing);
   return points;
 }
 
 template <int D>
 Points<D> ball_lattice(double radius, double spacing, bool octant) {
-  const Points<D> part = BallCells<D>(radius, spacing).points();
-  Points<D> points;
-  for (int reversed = 0; reversed < (octant ? 1 : 1 << D); ++reversed) {
-    for (Index i = 0; i < part.size(); ++i) {
-      Vector<D> x = part.at(i);
-      for (int a = 0; a < D; ++a) x[a] = (reversed >> a) & 1 ? -x[a] : x[a];
-      points.add(x, part.volume[i]);
-    }
-  }
-  sort_along_curve(points, spacing);
-  return points;
+  return BallCells<D>(radius, spacing).points(octant);
 }
 
 template Points<2> box_lattice<2>(const std::array<int, 2>&, double, const std::array<int, 2>&);

@@ -40,25 +40,30 @@ std::uint64_t hilbert_key(std::array<std::uint32_t, D> cell) {
 }  // namespace
 
 template <int D>
-void sort_along_curve(Points<D>& points, double spacing) {
-  const Index n = points.size();
+std::vector<Index> order_along_curve(const Positions<D>& position, double spacing) {
+  const Index n = static_cast<Index>(position[0].size());
   std::vector<std::uint64_t> key(n);
   Vector<D> low;
   for (int a = 0; a < D; ++a) {
-    low[a] = n == 0 ? 0.0 : *std::ranges::min_element(points.position[a]);
+    low[a] = n == 0 ? 0.0 : *std::ranges::min_element(position[a]);
   }
   for (Index i = 0; i < n; ++i) {
     std::array<std::uint32_t, D> cell;
     for (int a = 0; a < D; ++a) {
-      cell[a] =
-          static_cast<std::uint32_t>(std::floor((points.position[a][i] - low[a]) / spacing + 0.5));
+      cell[a] = static_cast<std::uint32_t>(std::floor((position[a][i] - low[a]) / spacing + 0.5));
     }
     key[i] = hilbert_key<D>(cell);
   }
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](Index i) { return key[i]; });
+  return order;
+}
 
+template <int D>
+void sort_along_curve(Points<D>& points, double spacing) {
+  const Index n = points.size();
+  const std::vector<Index> order = order_along_curve<D>(positions_of(points.position), spacing);
   const auto reorder = [&](std::vector<double>& values) {
     std::vector<double> sorted(values.size());
     for (Index i = 0; i < n; ++i) sorted[i] = values[order[i]];
@@ -68,6 +73,8 @@ void sort_along_curve(Points<D>& points, double spacing) {
   reorder(points.volume);
 }
 
+template std::vector<Index> order_along_curve<2>(const Positions<2>&, double);
+template std::vector<Index> order_along_curve<3>(const Positions<3>&, double);
 template void sort_along_curve<2>(Points<2>&, double);
 template void sort_along_curve<3>(Points<3>&, double);
 

@@ -19,7 +19,8 @@ namespace {
 // The seal is a text in front of the HDF5 file (its user block: HDF5 looks for its own beginning at
 // 0, 512, 1024, ...). It is checked before HDF5 sees the file, which may crash on a damaged one.
 constexpr std::size_t seal_size = 512;
-constexpr std::string_view seal_title = "perifrac checkpoint, format 1\n";
+/// Format 2: points of lattices have other numbers than in format 1.
+constexpr std::string_view seal_title = "perifrac checkpoint, format 2\n";
 
 constexpr std::size_t npos = std::string::npos;
 

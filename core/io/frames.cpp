@@ -16,19 +16,6 @@
 namespace perifrac {
 namespace {
 
-/// From component by component to point by point; `columns` may exceed the components given, the
-/// rest is 0.
-std::vector<double> interleave(std::span<const std::span<const double>> components,
-                               std::size_t count, std::size_t columns) {
-  std::vector<double> rows(count * columns, 0.0);
-  for (std::size_t column = 0; column < components.size(); ++column) {
-    for (std::size_t point = 0; point < count; ++point) {
-      rows[point * columns + column] = components[column][point];
-    }
-  }
-  return rows;
-}
-
 void write_geometry(Hdf5Writer& file, const PointSet& points) {
   constexpr std::uint8_t vtk_vertex = 1;
   const auto count = static_cast<std::int64_t>(points.count);
@@ -38,7 +25,7 @@ void write_geometry(Hdf5Writer& file, const PointSet& points) {
   file.write<std::int64_t>("VTKHDF/NumberOfConnectivityIds", one_count);
 
   const auto axes = std::span(points.position).first(static_cast<std::size_t>(points.dimension));
-  file.write<double>("VTKHDF/Points", interleave(axes, points.count, 3), 3);
+  file.write_columns("VTKHDF/Points", axes, 3);
 
   std::vector<std::int64_t> ids(points.count + 1);
   std::iota(ids.begin(), ids.end(), 0);
@@ -58,7 +45,7 @@ void write_field(Hdf5Writer& file, const FrameField& field, std::size_t count) {
     }
     // A vector has three components for VTK.
     const std::size_t columns = std::max<std::size_t>(3, components.size());
-    file.write<double>(name, interleave(components, count, columns), columns);
+    file.write_columns(name, components, columns);
   }
   file.write_attribute(name, "units", field.unit);
 }

@@ -125,6 +125,32 @@ void Hdf5Writer::write(const std::string& name, std::span<const Number> values,
   }
 }
 
+void Hdf5Writer::write_columns(const std::string& name,
+                               std::span<const std::span<const double>> given,
+                               std::size_t columns) {
+  constexpr std::size_t rows_at_once = 4096;  // lest the whole be there twice
+  const std::size_t count = given.empty() ? 0 : given.front().size();
+  const hsize_t shape[] = {count, columns};
+  const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
+  const Handle dataset(create_dataset(name, type_of<double>(), space), H5Dclose);
+  std::vector<double> rows;
+  for (std::size_t first = 0; first < count; first += rows_at_once) {
+    const std::size_t taken = std::min(rows_at_once, count - first);
+    rows.assign(taken * columns, 0.0);
+    for (std::size_t column = 0; column < given.size(); ++column) {
+      for (std::size_t k = 0; k < taken; ++k) {
+        rows[k * columns + column] = given[column][first + k];
+      }
+    }
+    const hsize_t begin[] = {first, 0}, size[] = {taken, columns};
+    const Handle part(H5Screate_simple(2, size, nullptr), H5Sclose);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, begin, nullptr, size, nullptr);
+    if (H5Dwrite(dataset, type_of<double>(), part, space, H5P_DEFAULT, rows.data()) < 0) {
+      misused("writing " + name);
+    }
+  }
+}
+
 void Hdf5Writer::write_text(const std::string& name, const std::string& text) {
   const Handle type(make_text_type(text.size()), H5Tclose);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);

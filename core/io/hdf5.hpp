@@ -26,6 +26,9 @@ class Hdf5Writer {
   /// Rows of `columns` values each; one column makes a one-dimensional dataset.
   template <class Number>
   void write(const std::string& name, std::span<const Number> values, std::size_t columns = 1);
+  /// Rows of `columns` values from as long columns, or fewer: the rest is 0.
+  void write_columns(const std::string& name, std::span<const std::span<const double>> given,
+                     std::size_t columns);
   void write_text(const std::string& name, const std::string& text);
   void create_group(const std::string& name);
 

@@ -110,18 +110,17 @@ class LinearExactOperator {
 
   /// The second derivative of the energy of point i alone.
   PointStiffness point_stiffness(Index i) const {
-    const Index first = family_->offset[i];
-    const Index bonds = family_->offset[i + 1] - first;
+    const PointBonds own_bonds = family_->bonds(i);
+    const Index bonds = own_bonds.count();
     const Index nodes = bonds + 1;  // the point itself is last
     using Gradient = Eigen::Matrix<double, Eigen::Dynamic, D>;
     Gradient gradient = Gradient::Zero(nodes, D);
     for (Index b = 0; b < bonds; ++b) {
-      const double w = family_->weight[first + b];
+      const double w = own_bonds.weight(b);
       for (int a = 0; a < D; ++a) {
         for (int c = 0; c < D; ++c) {
-          gradient(b, a) +=
-              w * moments_.inverse_shape[a * D + c][i] *
-              (family_->position[c][family_->other[first + b]] - family_->position[c][i]);
+          gradient(b, a) += w * moments_.inverse_shape[a * D + c][i] *
+                            (family_->position[c][own_bonds.other(b)] - family_->position[c][i]);
         }
       }
       gradient.row(bonds) -= gradient.row(b);
@@ -150,7 +149,7 @@ class LinearExactOperator {
     for (int r = 0; r < R; ++r) {
       const Index own = r * nodes + bonds;
       for (Index b = 0; b < bonds; ++b) {
-        const double pull = volume * bond_stiffness_[i] * family_->weight[first + b];
+        const double pull = volume * bond_stiffness_[i] * own_bonds.weight(b);
         const Index other = r * nodes + b;
         matrix(other, other) += pull;
         matrix(own, own) += pull;
@@ -252,7 +251,7 @@ class LinearExactOperator {
 
   /// Gradient of the field at a point.
   Tensor<R, D> gradient_at(Index i) const {
-    return perifrac::gradient_at<R, D>(*family_, moments_, field_.data(), i);
+    return perifrac::gradient_at<R, D>(*family_, moments_.inverse_shape_at(i), field_.data(), i);
   }
 
   /// Gradient of the field at every point: R * D blocks of point_count, block r * D + b.
@@ -276,7 +275,8 @@ class LinearExactOperator {
 
   /// ForceOfStress on its bonds.
   Eigen::VectorXd force_of_stress(const Eigen::VectorXd& stress) const {
-    return perifrac::force_of_stress(*family_, moments_, mirror_, stress);
+    return perifrac::force_of_stress<D, R>(
+        *family_, [this](Index i) { return moments_.inverse_shape_at(i); }, mirror_, stress);
   }
 
   /// The matrix that takes an unknown vector to its gradient, rows as in gradient().
@@ -332,7 +332,7 @@ class LinearExactOperator {
     const Tensor<R, D> f = gradient_at(i);
     Tensor<R, D> stress = law_at(law_, i).stress(f);
     add(i, f, stress);
-    stress = times_inverse_shape<R, D>(stress, moments_, i);
+    stress = times_inverse_shape<R, D>(stress, moments_.inverse_shape_at(i));
     for (int k = 0; k < R * D; ++k) state(k)[i] = stress[k] - bond_stiffness_[i] * f[k];
   }
 
@@ -365,8 +365,9 @@ class LinearExactOperator {
   }
 
   bool touches_odd_face(Index i) const {
-    for (Index bond = family_->first_ghost_bond(i); bond < family_->offset[i + 1]; ++bond) {
-      const Index ghost = family_->other[bond] - family_->point_count;
+    const PointBonds bonds = family_->bonds(i);
+    for (Index b = family_->first_ghost_bond(i); b < bonds.count(); ++b) {
+      const Index ghost = bonds.other(b) - family_->point_count;
       for (int r = 0; r < R; ++r) {
         if (mirror_.image(family_->ghost_faces[ghost], r).term_count > 0) return true;
       }
@@ -380,8 +381,9 @@ class LinearExactOperator {
     std::ranges::fill(reaction, 0.0);
     const Index points = family_->point_count;
     for (const Index i : face_points_) {
-      for (Index bond = family_->first_ghost_bond(i); bond < family_->offset[i + 1]; ++bond) {
-        const Index j = family_->other[bond];
+      const PointBonds bonds = family_->bonds(i);
+      for (Index bond = family_->first_ghost_bond(i); bond < bonds.count(); ++bond) {
+        const Index j = bonds.other(bond);
         for (int r = 0; r < R; ++r) {
           const auto& image = mirror_.image(family_->ghost_faces[j - points], r);
           if (image.term_count == 0) continue;
@@ -389,7 +391,7 @@ class LinearExactOperator {
           for (int b = 0; b < D; ++b) {
             force += state(r * D + b)[i] * (family_->position[b][j] - family_->position[b][i]);
           }
-          force *= family_->volume[i] * family_->weight[bond];
+          force *= family_->volume[i] * bonds.weight(bond);
           for (int k = 0; k < image.term_count; ++k) {
             reaction[image.terms[k].face_value] += image.terms[k].coefficient * force;
           }

@@ -16,17 +16,16 @@ Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
                                             const MirrorCondition<D, R>& mirror) {
   const Index points = family.point_count;
   Triplets triplets;
-  triplets.reserve(family.other.size() * R * D * 2);
+  triplets.reserve(family.steps.total() * R * D * 2);
   for (Index i = 0; i < points; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const Index j = family.other[bond];
+    for (const auto& [j, weight] : family.bonds(i)) {
       for (int b = 0; b < D; ++b) {
         double entry = 0.0;  // w (K^-1 xi)_b
         for (int c = 0; c < D; ++c) {
           entry +=
               moments.inverse_shape[b * D + c][i] * (family.position[c][j] - family.position[c][i]);
         }
-        entry *= family.weight[bond];
+        entry *= weight;
         for (int r = 0; r < R; ++r) {
           const Index row = (r * D + b) * points + i;
           const Combination end = node_unknowns(family, mirror, j, r);
@@ -44,7 +43,8 @@ Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
 }
 
 template <int D, int R>
-Eigen::VectorXd force_of_stress(const Family<D>& family, const FamilyMoments<D>& moments,
+Eigen::VectorXd force_of_stress(const Family<D>& family,
+                                const std::function<Tensor<D, D>(Index i)>& inverse_shape,
                                 const MirrorCondition<D, R>& mirror,
                                 const Eigen::VectorXd& stress) {
   const Index points = family.point_count, nodes = family.node_count();
@@ -53,14 +53,13 @@ Eigen::VectorXd force_of_stress(const Family<D>& family, const FamilyMoments<D>&
     Tensor<R, D> own;
     for (int k = 0; k < R * D; ++k) own[k] = stress[static_cast<Eigen::Index>(k) * points + i];
     if (own == Tensor<R, D>{}) continue;
-    own = times_inverse_shape<R, D>(own, moments, i);
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const Index j = family.other[bond];
+    own = times_inverse_shape<R, D>(own, inverse_shape(i));
+    for (const auto& [j, weight] : family.bonds(i)) {
       const Vector<D> xi = vector_at(family.position, j) - vector_at(family.position, i);
       for (int r = 0; r < R; ++r) {
         double pull = 0.0;
         for (int b = 0; b < D; ++b) pull += own[r * D + b] * xi[b];
-        pull *= family.weight[bond];
+        pull *= weight;
         force[static_cast<std::size_t>(r) * nodes + j] += pull;
         force[static_cast<std::size_t>(r) * nodes + i] -= pull;
       }
@@ -77,15 +76,15 @@ Eigen::SparseMatrix<double> bond_matrix(const Family<D>& family,
                                         std::span<const double> bond_stiffness) {
   const Index points = family.point_count;
   Triplets triplets;
-  triplets.reserve(family.other.size() * R * 4);
+  triplets.reserve(family.steps.total() * R * 4);
   for (Index i = 0; i < points; ++i) {
     for (int r = 0; r < R && family.bond_count(i) == 0; ++r) {
       triplets.emplace_back(r * points + i, r * points + i, 0.0);
     }
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const double stiffness = family.volume[i] * bond_stiffness[i] * family.weight[bond];
+    for (const auto& [j, weight] : family.bonds(i)) {
+      const double stiffness = family.volume[i] * bond_stiffness[i] * weight;
       for (int r = 0; r < R; ++r) {
-        Combination difference = node_unknowns(family, mirror, family.other[bond], r);
+        Combination difference = node_unknowns(family, mirror, j, r);
         difference.add(r * points + i, -1.0);
         for (int k = 0; k < difference.count; ++k) {
           for (int l = 0; l < difference.count; ++l) {
@@ -111,13 +110,17 @@ template Eigen::SparseMatrix<double> gradient_matrix(const Family<3>&, const Fam
                                                      const MirrorCondition<3, 1>&);
 template Eigen::SparseMatrix<double> gradient_matrix(const Family<3>&, const FamilyMoments<3>&,
                                                      const MirrorCondition<3, 3>&);
-template Eigen::VectorXd force_of_stress(const Family<2>&, const FamilyMoments<2>&,
+template Eigen::VectorXd force_of_stress(const Family<2>&,
+                                         const std::function<Tensor<2, 2>(Index)>&,
                                          const MirrorCondition<2, 1>&, const Eigen::VectorXd&);
-template Eigen::VectorXd force_of_stress(const Family<2>&, const FamilyMoments<2>&,
+template Eigen::VectorXd force_of_stress(const Family<2>&,
+                                         const std::function<Tensor<2, 2>(Index)>&,
                                          const MirrorCondition<2, 2>&, const Eigen::VectorXd&);
-template Eigen::VectorXd force_of_stress(const Family<3>&, const FamilyMoments<3>&,
+template Eigen::VectorXd force_of_stress(const Family<3>&,
+                                         const std::function<Tensor<3, 3>(Index)>&,
                                          const MirrorCondition<3, 1>&, const Eigen::VectorXd&);
-template Eigen::VectorXd force_of_stress(const Family<3>&, const FamilyMoments<3>&,
+template Eigen::VectorXd force_of_stress(const Family<3>&,
+                                         const std::function<Tensor<3, 3>(Index)>&,
                                          const MirrorCondition<3, 3>&, const Eigen::VectorXd&);
 template Eigen::SparseMatrix<double> bond_matrix(const Family<2>&, const MirrorCondition<2, 1>&,
                                                  std::span<const double>);

@@ -13,14 +13,14 @@
 
 namespace perifrac {
 
-/// T K_i^-1.
+/// T K_i^-1; `inverse_shape` is K_i^-1.
 template <int R, int D>
-Tensor<R, D> times_inverse_shape(const Tensor<R, D>& t, const FamilyMoments<D>& moments, Index i) {
+Tensor<R, D> times_inverse_shape(const Tensor<R, D>& t, const Tensor<D, D>& inverse_shape) {
   Tensor<R, D> result{};
   for (int r = 0; r < R; ++r) {
     for (int b = 0; b < D; ++b) {
       for (int c = 0; c < D; ++c) {
-        result[r * D + b] += t[r * D + c] * moments.inverse_shape[c * D + b][i];
+        result[r * D + b] += t[r * D + c] * inverse_shape[c * D + b];
       }
     }
   }
@@ -30,7 +30,7 @@ Tensor<R, D> times_inverse_shape(const Tensor<R, D>& t, const FamilyMoments<D>& 
 /// The nonlocal gradient (paper Eq 8) of a field at point i, sum_j w_ij (u_j - u_i) (x) K_i^-1 xi;
 /// `field`: R blocks of nodes.
 template <int R, int D>
-Tensor<R, D> gradient_at(const Family<D>& family, const FamilyMoments<D>& moments,
+Tensor<R, D> gradient_at(const Family<D>& family, const Tensor<D, D>& inverse_shape,
                          const double* field, Index i) {
   std::array<const double*, R> u;
   std::array<double, R> own;
@@ -47,7 +47,7 @@ Tensor<R, D> gradient_at(const Family<D>& family, const FamilyMoments<D>& moment
         }
         return t;
       });
-  return times_inverse_shape<R, D>(moment, moments, i);
+  return times_inverse_shape<R, D>(moment, inverse_shape);
 }
 
 /// The same as a sparse matrix from an unknown vector (R blocks of point
@@ -61,9 +61,10 @@ Eigen::SparseMatrix<double> gradient_matrix(const Family<D>& family,
 /// unknown, face values last [N]: the transpose of the gradient.
 using ForceOfStress = std::function<Eigen::VectorXd(const Eigen::VectorXd& stress)>;
 
-/// ForceOfStress on a family; a point without stress costs nothing.
+/// ForceOfStress on a family, inverse_shape(i) being K_i^-1; a point without stress costs nothing.
 template <int D, int R>
-Eigen::VectorXd force_of_stress(const Family<D>& family, const FamilyMoments<D>& moments,
+Eigen::VectorXd force_of_stress(const Family<D>& family,
+                                const std::function<Tensor<D, D>(Index i)>& inverse_shape,
                                 const MirrorCondition<D, R>& mirror, const Eigen::VectorXd& stress);
 
 /// The matrix of sum_i V_i 1/2 s_i sum_j w_ij |u_j - u_i|^2, with s_i per point. Its whole diagonal

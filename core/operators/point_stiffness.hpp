@@ -27,7 +27,7 @@ void append_family_unknowns(const Family<D>& family, const MirrorCondition<D, R>
       for (int k = 0; k < end.count; ++k) unknowns.push_back(end.terms[k].unknown);
     };
     append(i);
-    for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) append(family.other[b]);
+    for (const auto& bond : family.bonds(i)) append(bond.other);
   }
 }
 
@@ -36,13 +36,12 @@ void append_family_unknowns(const Family<D>& family, const MirrorCondition<D, R>
 template <int D, int R>
 PointStiffness on_unknowns(const Family<D>& family, const MirrorCondition<D, R>& mirror, Index i,
                            const Eigen::MatrixXd& nodes) {
-  const Index first = family.offset[i];
-  const Index bonds = family.offset[i + 1] - first;
+  const PointBonds bonds = family.bonds(i);
   std::vector<Combination> ends;
   PointStiffness result;
   for (int r = 0; r < R; ++r) {
-    for (Index b = 0; b <= bonds; ++b) {
-      ends.push_back(node_unknowns(family, mirror, b < bonds ? family.other[first + b] : i, r));
+    for (Index b = 0; b <= bonds.count(); ++b) {
+      ends.push_back(node_unknowns(family, mirror, b < bonds.count() ? bonds.other(b) : i, r));
       for (int k = 0; k < ends.back().count; ++k) {
         result.unknowns.push_back(ends.back().terms[k].unknown);
       }

@@ -12,32 +12,31 @@
 namespace perifrac {
 
 /// A sum of vectors, each multiplied by a schedule of its own: what a boundary prescribes on all
-/// unknowns at a time.
+/// unknowns at a time. Zeros, as most are, take no room.
 class ScheduledVector {
  public:
-  explicit ScheduledVector(Eigen::Index size) : constant_(Eigen::VectorXd::Zero(size)) {}
+  explicit ScheduledVector(Eigen::Index size) : constant_(size) {}
 
   void add(const Schedule& schedule, const Eigen::VectorXd& vector) {
-    if (schedule.is_constant()) {
-      constant_ += vector;
-    } else {
-      parts_.emplace_back(schedule, vector);
-    }
+    add(schedule, Entries(vector.sparseView()));
   }
 
   /// Adds matrix * other.
   void add(const Eigen::SparseMatrix<double>& matrix, const ScheduledVector& other) {
     constant_ += matrix * other.constant_;
-    for (const auto& [schedule, vector] : other.parts_) add(schedule, matrix * vector);
+    for (const auto& [schedule, vector] : other.parts_) add(schedule, Entries(matrix * vector));
   }
 
   Eigen::Index size() const { return constant_.size(); }
   bool is_constant() const { return parts_.empty(); }
+  /// Other than 0 at some time.
+  bool is_anything() const { return constant_.nonZeros() > 0 || !parts_.empty(); }
 
   /// The entry is other than 0 at some time.
   bool has(Eigen::Index entry) const {
-    return constant_[entry] != 0.0 ||
-           std::ranges::any_of(parts_, [&](const auto& part) { return part.second[entry] != 0.0; });
+    const auto is_there = [&](const Entries& entries) { return entries.coeff(entry) != 0.0; };
+    return is_there(constant_) ||
+           std::ranges::any_of(parts_, [&](const auto& part) { return is_there(part.second); });
   }
 
   /// Of all its schedules, sorted [s].
@@ -64,8 +63,18 @@ class ScheduledVector {
   }
 
  private:
-  Eigen::VectorXd constant_;
-  std::vector<std::pair<Schedule, Eigen::VectorXd>> parts_;
+  using Entries = Eigen::SparseVector<double>;
+
+  void add(const Schedule& schedule, const Entries& entries) {
+    if (schedule.is_constant()) {
+      constant_ += entries;
+    } else {
+      parts_.emplace_back(schedule, entries);
+    }
+  }
+
+  Entries constant_;
+  std::vector<std::pair<Schedule, Entries>> parts_;
 };
 
 }  // namespace perifrac

@@ -4,28 +4,18 @@
 #include <cmath>
 #include <map>
 
-#include "core/bonds/bond_traversal.hpp"
+#include "core/bonds/shape_tensor.hpp"
 
 namespace perifrac {
 
 namespace {
 
-/// m_i of the intact family.
-template <int D>
-double weighted_volume(const Family<D>& family, Index i) {
-  return sum_over_bonds<1, D>(family, i, [](Index, const Vector<D>& xi, double weight) {
-    double square = 0.0;
-    for (int a = 0; a < D; ++a) square += xi[a] * xi[a];
-    return std::array{weight * square};
-  })[0];
-}
-
 /// omega V_j of the bond from i to j.
 template <int D>
 double weight_of(const Family<D>& family, Index i, Index j) {
-  const auto begin = family.other.begin() + family.offset[i];
-  const auto end = family.other.begin() + family.offset[i + 1];
-  return family.weight[std::lower_bound(begin, end, j) - family.other.begin()];
+  const std::span<const Index> steps = family.steps[i];
+  const auto place = std::ranges::lower_bound(steps, j - i);
+  return family.weight(i, static_cast<Index>(place - steps.begin()));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void DynamicSolid<D>::make_ports(const SolidBoundary<D>& boundary) {
         return PortView{points, pore_stress_, pore_stress_rate_, pore_stress_slope_};
       });
   ports_.in(
-      InterfaceForce::port(D), [this, count] { interface_.connect(D * count); },
+      InterfaceForce::port(D), [this] { connect_interface(); },
       [this, points] {
         return PortView{points, interface_.impulse()};
       });
@@ -82,6 +82,13 @@ void DynamicSolid<D>::make_ports(const SolidBoundary<D>& boundary) {
                });
   energy("fracture_energy", PortRole::energy_dissipated,
          [this] { return breaking_->released_energy(); });
+}
+
+template <int D>
+void DynamicSolid<D>::connect_interface() {
+  if (interface_.is_linked()) return;
+  interface_.connect(D * body_->points().volume.size());
+  system_->expect_interface_force();
 }
 
 template <int D>

@@ -65,6 +65,7 @@ class DynamicSolid : public PhysicsModule {
 
  private:
   void make_ports(const SolidBoundary<D>& boundary);
+  void connect_interface();
 };
 
 }  // namespace perifrac

@@ -54,7 +54,7 @@ class GivenFiles(RunTest):
 
     def test_a_checkpoint_of_another_size_is_not_read_whole(self):
         huge = self.folder / "checkpoint_000001.h5"
-        huge.write_text("perifrac checkpoint, format 1\n100 bytes, FNV-1a 0000000000000000\n")
+        huge.write_text("perifrac checkpoint, format 2\n100 bytes, FNV-1a 0000000000000000\n")
         os.truncate(huge, 1 << 42)  # takes no room on the disk
         self.assert_refused(perifrac("run", MANDEL, "--output", self.folder / "new", "--restart", huge), "cut short")
 

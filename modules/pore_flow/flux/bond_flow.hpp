@@ -65,12 +65,13 @@ class BondFlow final : public GradientFlow<D, Law> {
     std::ranges::fill(inflow, 0.0);
     const Family<D>& family = this->family();
     for (Index i = 0; i < family.point_count; ++i) {
-      for (Index bond = family.first_ghost_bond(i); bond < family.offset[i + 1]; ++bond) {
-        const Index j = family.other[bond];
+      const PointBonds bonds = family.bonds(i);
+      for (Index bond = family.first_ghost_bond(i); bond < bonds.count(); ++bond) {
+        const Index j = bonds.other(bond);
         const auto& image =
             this->operator_.mirror().image(family.ghost_faces[j - family.point_count], 0);
         const double flux =
-            family.volume[i] * stiffness_[i] * family.weight[bond] * (pressure_[j] - pressure_[i]);
+            family.volume[i] * stiffness_[i] * bonds.weight(bond) * (pressure_[j] - pressure_[i]);
         for (int k = 0; k < image.term_count; ++k) {
           inflow[image.terms[k].face_value] += image.terms[k].coefficient * flux;
         }

@@ -21,9 +21,7 @@ template <int D>
 std::vector<double> raise_near_faces(const Family<D>& family) {
   std::vector<double> weight(family.point_count, 0.0);
   for (Index i = 0; i < family.point_count; ++i) {
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      weight[i] += family.weight[bond];
-    }
+    for (const auto& bond : family.bonds(i)) weight[i] += bond.weight;
   }
   std::vector<double> sorted = weight;
   std::ranges::sort(sorted);
@@ -101,10 +99,10 @@ void StabilisedStorage<D>::find_own() {
   for (Index i = 0; i < family.point_count; ++i) {
     const double stiffness =
         family.volume[i] * roughness_.law().at(i).stabilisation() / roughness_.weighted_volume(i);
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const double part = stiffness * family.weight[bond];
+    for (const auto& [j, weight] : family.bonds(i)) {
+      const double part = stiffness * weight;
       diagonal[i] += part;
-      diagonal[family.other[bond]] += part;
+      diagonal[j] += part;
     }
   }
   inverse_ = diagonal.cwiseInverse();

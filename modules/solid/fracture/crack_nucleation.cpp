@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/random_bits.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 
@@ -99,13 +100,15 @@ double CrackNucleation::find_readiness(std::span<const double> stress) {
   return readiest_.readiness;
 }
 
-/// Of its family; the first of equals.
+/// Of its family; of equals the first in a random order, so that in even stress a few are left
+/// everywhere, and not the one that is the first of all.
 bool CrackNucleation::is_largest(Index i) const {
   const Family<2>& family = cracked_.family();
-  for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-    const Index j = family.other[bond];
+  for (const auto& bond : family.bonds(i)) {
+    const Index j = bond.other;
     if (j >= family.point_count) continue;
-    if (readiness_[j] > readiness_[i] || (readiness_[j] == readiness_[i] && j < i)) return false;
+    if (readiness_[j] > readiness_[i]) return false;
+    if (readiness_[j] == readiness_[i] && random_bits(0, j) < random_bits(0, i)) return false;
   }
   return true;
 }

@@ -72,7 +72,7 @@ bool CriticalStretch<D>::breaks(std::span<const double> u) {
   return true;
 }
 
-/// Pairs i < j, in the order of the points.
+/// Pairs i < j, block by block.
 template <int D>
 auto CriticalStretch<D>::stretched_bonds(std::span<const double> u) -> Bonds {
   const std::span<const Index> due = budget_.due(u);
@@ -81,7 +81,7 @@ auto CriticalStretch<D>::stretched_bonds(std::span<const double> u) -> Bonds {
                                   8) if (count * budget_.block_size >= points_worth_threads)
   for (Index k = 0; k < count; ++k) {
     double least = std::numeric_limits<double>::infinity();
-    for (Index i = budget_.begin(due[k]); i < budget_.end(due[k]); ++i) {
+    for (const Index i : budget_.points(due[k])) {
       const double left = left_to_limit(i, u);
       overstretched_[i] = left < budget_.rounding();
       least = std::min(least, left);
@@ -90,7 +90,7 @@ auto CriticalStretch<D>::stretched_bonds(std::span<const double> u) -> Bonds {
   }
   Bonds bonds;
   for (const Index block : due) {
-    for (Index i = budget_.begin(block); i < budget_.end(block); ++i) {
+    for (const Index i : budget_.points(block)) {
       if (overstretched_[i]) append_stretched(i, u, bonds);
     }
   }
@@ -111,15 +111,14 @@ double CriticalStretch<D>::left_to_limit(Index i, std::span<const double> u) con
     x[a] = position[a][i];
     own[a] = moved[a][i];
   }
-  const Index* const other = family_->other.data();
-  const Index end = budget_.end_of_real_bonds(i);
+  const Index* const step = family_->steps[i].data();
+  const Index count = budget_.real_bonds(i);
   constexpr double whole = std::numeric_limits<double>::infinity();
-  const Index begin = family_->offset[i];
-  const double smallest = family_->weight.with([&](const auto& weight) {
+  const double smallest = family_->weight.with(i, [&](const auto& weight) {
     double least = whole;
 #pragma omp simd reduction(min : least)
-    for (Index bond = begin; bond < end; ++bond) {
-      const Index j = other[bond];
+    for (Index k = 0; k < count; ++k) {
+      const Index j = i + step[k];
       double now = 0.0, square = 0.0;
       for (int a = 0; a < D; ++a) {
         const double xi = position[a][j] - x[a];
@@ -128,7 +127,7 @@ double CriticalStretch<D>::left_to_limit(Index i, std::span<const double> u) con
         square += xi * xi;
       }
       const double left = (most * square - now) / std::sqrt(square);
-      const double counted = ((j > i) & (weight[bond] != 0.0)) ? left : whole;
+      const double counted = ((j > i) & (weight[k] != 0.0)) ? left : whole;
       least = counted < least ? counted : least;
     }
     return least;
@@ -140,9 +139,10 @@ template <int D>
 void CriticalStretch<D>::append_stretched(Index i, std::span<const double> u, Bonds& bonds) const {
   const Index points = family_->point_count;
   const double most = (1.0 + limit_) * (1.0 + limit_);
-  for (Index bond = family_->offset[i]; bond < budget_.end_of_real_bonds(i); ++bond) {
-    const Index j = family_->other[bond];
-    if (j <= i || family_->weight[bond] == 0.0) continue;
+  const PointBonds own = family_->bonds(i);
+  for (Index k = 0; k < budget_.real_bonds(i); ++k) {
+    const Index j = own.other(k);
+    if (j <= i || own.weight(k) == 0.0) continue;
     const Vector<D> xi = vector_at(family_->position, j) - vector_at(family_->position, i);
     const Vector<D> moved = xi + vector_at<D>(u, points, j) - vector_at<D>(u, points, i);
     if (squared_norm(moved) > most * squared_norm(xi)) bonds.emplace_back(i, j);

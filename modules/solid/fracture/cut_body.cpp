@@ -14,11 +14,12 @@ namespace {
 template <int D>
 void unsilence(Family<D>& family, const Family<D>& whole, Index i, Index j) {
   for (const auto& [from, to] : {std::pair(i, j), std::pair(j, i)}) {
-    for (Index bond = family.offset[from]; bond < family.offset[from + 1]; ++bond) {
-      const Index end = family.other[bond];
+    const PointBonds bonds = family.bonds(from);
+    for (Index k = 0; k < bonds.count(); ++k) {
+      const Index end = bonds.other(k);
       const Index source =
           end < family.point_count ? end : family.ghost_source[end - family.point_count];
-      if (source == to) family.weight.set(bond, whole.weight[bond]);
+      if (source == to) family.weight.set(from, k, whole.weight(from, k));
     }
   }
 }

@@ -26,9 +26,8 @@ void walk(const Family<D>& family, Index first, std::vector<bool>& is_met, Use&&
   for (std::size_t k = 0; k < met.size(); ++k) {
     const Index i = met[k];
     if (!use(i)) return;
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const Index j = family.other[bond];
-      if (j >= family.point_count || family.weight[bond] == 0.0 || is_met[j]) continue;
+    for (const auto& [j, weight] : family.bonds(i)) {
+      if (j >= family.point_count || weight == 0.0 || is_met[j]) continue;
       is_met[j] = true;
       met.push_back(j);
     }

@@ -6,6 +6,7 @@
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_lengths.hpp"
 #include "core/bonds/bond_traversal.hpp"
+#include "core/geometry/space_filling_curve.hpp"
 
 namespace perifrac {
 
@@ -21,24 +22,24 @@ constexpr double least_margin = 1e-9, farthest = 1e3;
 
 template <int D>
 StretchBudget<D>::StretchBudget(const Family<D>& family)
-    : points_(family.point_count),
-      rounding_(least_margin * bond_lengths(family).longest),
-      last_(static_cast<std::size_t>(D) * points_) {
+    : points_(family.point_count), last_(static_cast<std::size_t>(D) * points_) {
+  const BondLengths lengths = bond_lengths(family);
+  rounding_ = least_margin * lengths.longest;
+  order_ = order_along_curve<D>(positions_of(family.position, points_), lengths.shortest);
   for (Index i = 0; i < points_; ++i) {
-    const auto begin = family.other.begin() + family.offset[i];
-    const auto end = family.other.begin() + family.offset[i + 1];
-    const auto ghosts = std::lower_bound(begin, end, points_);  // they come last
-    real_end_.push_back(static_cast<Index>(ghosts - family.other.begin()));
+    real_bonds_.push_back(family.first_ghost_bond(i));
   }
   const Index count = (points_ + block_size - 1) / block_size;
   left_.assign(count, at_once);
   motion_.resize(count);
   first_near_.push_back(0);
-  std::vector<Index> near;
+  std::vector<Index> block_of(points_), near;
+  for (Index k = 0; k < points_; ++k) block_of[order_[k]] = k / block_size;
   for (Index block = 0; block < count; ++block) {
     near.assign(1, block);
-    for (Index bond = family.offset[begin(block)]; bond < family.offset[end(block)]; ++bond) {
-      if (family.other[bond] < points_) near.push_back(family.other[bond] / block_size);
+    for (const Index i : points(block)) {
+      const PointBonds bonds = family.bonds(i);
+      for (Index k = 0; k < real_bonds_[i]; ++k) near.push_back(block_of[bonds.other(k)]);
     }
     std::ranges::sort(near);
     near.erase(std::unique(near.begin(), near.end()), near.end());
@@ -85,16 +86,19 @@ void StretchBudget<D>::watch_rounding(std::span<const double> u) {
 template <int D>
 auto StretchBudget<D>::motion_of(Index block, std::span<const double> u) -> Box {
   Box box;
+  const Index* const own = points(block).data();
+  const Index count = static_cast<Index>(points(block).size());
   for (int a = 0; a < D; ++a) {
     const double* const now = u.data() + static_cast<std::size_t>(a) * points_;
-    double* const before = last_.data() + static_cast<std::size_t>(a) * points_;
+    double* const before =
+        last_.data() + static_cast<std::size_t>(a) * points_ + block * block_size;
     double low = std::numeric_limits<double>::infinity(), high = -low;
 #pragma omp simd reduction(min : low) reduction(max : high)
-    for (Index i = begin(block); i < end(block); ++i) {
-      const double way = now[i] - before[i];
+    for (Index k = 0; k < count; ++k) {
+      const double way = now[own[k]] - before[k];
       low = way < low ? way : low;
       high = way > high ? way : high;
-      before[i] = now[i];
+      before[k] = now[own[k]];
     }
     box.low[a] = low;
     box.high[a] = high;

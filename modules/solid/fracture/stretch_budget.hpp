@@ -32,10 +32,13 @@ class StretchBudget {
   /// `left` [m].
   void set_left(Index block, double left) { left_[block] = left - rounding_; }
 
-  /// Bonds of point i to real points end here.
-  Index end_of_real_bonds(Index i) const { return real_end_[i]; }
-  Index begin(Index block) const { return block * block_size; }
-  Index end(Index block) const { return std::min(points_, (block + 1) * block_size); }
+  /// Of point i to real points, which come first.
+  Index real_bonds(Index i) const { return real_bonds_[i]; }
+  /// Of a block.
+  std::span<const Index> points(Index block) const {
+    const Index begin = block * block_size;
+    return std::span(order_).subspan(begin, std::min(points_ - begin, block_size));
+  }
   /// A length that sums of displacements are exact to [m].
   double rounding() const { return rounding_; }
 
@@ -51,9 +54,10 @@ class StretchBudget {
 
   Index points_;
   double rounding_ = 0.0;
-  std::vector<Index> real_end_;           ///< by point
+  std::vector<Index> real_bonds_;         ///< by point
   std::vector<Index> first_near_, near_;  ///< by block: those that its bonds lead to, itself too
-  std::vector<double> last_;              ///< displacements of the last call [m]
+  std::vector<Index> order_;              ///< points, block by block
+  std::vector<double> last_;              ///< displacements of the last call, in that order [m]
   std::vector<Box> motion_;               ///< by block, since then [m]
   double largest_ = 0.0;                  ///< bound of any component of a displacement [m]
   std::vector<double> left_;              ///< by block [m]; negative: to be looked at

@@ -28,10 +28,9 @@ CrossingBonds crossing_bonds(const Family<D>& family, double spacing) {
   }
   const auto sum_beyond = [&](double plane) {
     double sum = 0.0;
-    for (Index bond = family.offset[whole]; bond < family.offset[whole + 1]; ++bond) {
-      const Vector<D> xi =
-          vector_at(family.position, family.other[bond]) - vector_at(family.position, whole);
-      if (xi[0] >= plane) sum += family.weight[bond] * squared_norm(xi);
+    for (const auto& [j, weight] : family.bonds(whole)) {
+      const Vector<D> xi = vector_at(family.position, j) - vector_at(family.position, whole);
+      if (xi[0] >= plane) sum += weight * squared_norm(xi);
     }
     return sum;
   };

@@ -18,16 +18,16 @@ namespace perifrac {
 template <int D>
 PointStiffness bond_energy_stiffness(const Family<D>& family, const MirrorCondition<D, D>& mirror,
                                      const IsotropicElasticity<D>& law, Index i) {
-  const Index first = family.offset[i];
-  const Index bonds = family.offset[i + 1] - first;
+  const PointBonds own_bonds = family.bonds(i);
+  const Index bonds = own_bonds.count();
   const Eigen::Index size = D * (bonds + 1);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd dilatation = Eigen::VectorXd::Zero(size);  // sum_j w |xi| e
   double weighted_volume = 0.0;
   for (Index b = 0; b < bonds; ++b) {
     const Vector<D> xi =
-        vector_at(family.position, family.other[first + b]) - vector_at(family.position, i);
-    const double weight = family.weight[first + b], square = dot<D>(xi, xi);
+        vector_at(family.position, own_bonds.other(b)) - vector_at(family.position, i);
+    const double weight = own_bonds.weight(b), square = dot<D>(xi, xi);
     weighted_volume += weight * square;
     for (int a = 0; a < D; ++a) {
       dilatation[a * (bonds + 1) + b] += weight * xi[a];

@@ -30,7 +30,7 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
       law_(std::move(law)),
       initial_stress_(initial_stress),
       pore_sign_(pore_sign),
-      moments_(family_moments(*family_)),
+      is_thin_(family_->point_count, false),
       field_(static_cast<std::size_t>(D) * family_->node_count()),
       dilatation_scale_(family_->point_count),
       bond_stiffness_(family_->node_count(), 0.0),
@@ -39,9 +39,10 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
   if (initial_stress_) {
     initial_state_.resize(static_cast<std::size_t>(D) * D * family_->node_count());
   }
+  const FamilyMoments<D> moments = family_moments(*family_);
   for (Index i = 0; i < points; ++i) {
-    take_moments(i);
-    if (family_->first_ghost_bond(i) < family_->offset[i + 1]) face_points_.push_back(i);
+    take_moments(i, moments.weighted_volume[i]);
+    if (family_->first_ghost_bond(i) < family_->bond_count(i)) face_points_.push_back(i);
   }
   for (const FaceSet faces : family_->ghost_faces) {
     Vector<D> sign;
@@ -58,24 +59,31 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
   give_to_lattice([&](const auto& rock) { lattice_->take(rock, all); });
 }
 
+/// Found where it is asked for: few points' gradients are.
+template <int D>
+Tensor<D, D> LpsElasticity<D>::inverse_shape_at(Index i) const {
+  if (is_thin_[i] || family_->bond_count(i) == 0) return {};
+  return perifrac::inverse_shape_at(*family_, i);
+}
+
 /// What follows from the moments of a point's family.
 template <int D>
-void LpsElasticity<D>::take_moments(Index i) {
-  const double m = moments_.weighted_volume[i];
-  dilatation_scale_[i] = D / m;
-  bond_stiffness_[i] = bonds_per_shear_modulus<D> * law_.at(i).shear_modulus / m;
+void LpsElasticity<D>::take_moments(Index i, double weighted_volume) {
+  dilatation_scale_[i] = D / weighted_volume;
+  bond_stiffness_[i] = bonds_per_shear_modulus<D> * law_.at(i).shear_modulus / weighted_volume;
   if (!initial_stress_) return;
+  const Tensor<D, D> inverse = inverse_shape_at(i);
   for (int k = 0; k < D * D; ++k) {
     initial_state_[static_cast<std::size_t>(k) * family_->node_count() + i] =
-        (*initial_stress_)[k / D] * moments_.inverse_shape[k][i];
+        (*initial_stress_)[k / D] * inverse[k];
   }
 }
 
 template <int D>
 void LpsElasticity<D>::update(std::span<const Index> points) {
   for (const Index i : points) {
-    set_moments(*family_, i, moments_);
-    take_moments(i);
+    is_thin_[i] = is_thin(*family_, i);
+    take_moments(i, weighted_volume(*family_, i));
   }
   if (initial_stress_) mirror_.fill_conjugate(initial_state_);
   give_to_lattice([&](const auto& rock) { lattice_->update(*family_, rock, points); });
@@ -230,8 +238,8 @@ template <int D>
 Vector<D> LpsElasticity<D>::image_forces(Index i) const {
   const Index points = family_->point_count;
   Vector<D> force{};
-  for (Index bond = family_->offset[i]; bond < family_->offset[i + 1]; ++bond) {
-    const Index ghost = family_->other[bond] - points;
+  for (const auto& [j, weight] : family_->bonds(i)) {
+    const Index ghost = j - points;
     if (ghost < 0) continue;
     const Index source = family_->ghost_source[ghost];
     const Vector<D> xi = bond_vector(i, points + ghost);
@@ -239,7 +247,7 @@ Vector<D> LpsElasticity<D>::image_forces(Index i) const {
     const double pull = volume_state_[source] + bond_stiffness_[source] *
                                                     dot(image, difference(i, points + ghost)) /
                                                     squared_norm(xi);
-    force += family_->weight[bond] * pull * image;
+    force += weight * pull * image;
   }
   return family_->volume[i] * force;
 }
@@ -254,8 +262,9 @@ void LpsElasticity<D>::add_face_reactions(std::span<double> reaction) const {
   const Index points = family_->point_count;
   const std::size_t nodes = family_->node_count();
   for (const Index i : face_points_) {
-    for (Index bond = family_->first_ghost_bond(i); bond < family_->offset[i + 1]; ++bond) {
-      const Index j = family_->other[bond];
+    const PointBonds bonds = family_->bonds(i);
+    for (Index bond = family_->first_ghost_bond(i); bond < bonds.count(); ++bond) {
+      const Index j = bonds.other(bond);
       const Vector<D> xi = bond_vector(i, j);
       const double pull =
           volume_state_[i] + bond_stiffness_[i] * dot(xi, difference(i, j)) / squared_norm(xi);
@@ -266,7 +275,7 @@ void LpsElasticity<D>::add_face_reactions(std::span<double> reaction) const {
         for (int b = 0; b < D && initially_stressed; ++b) {
           force += initial_state_[(r * D + b) * nodes + i] * xi[b];
         }
-        force *= family_->volume[i] * family_->weight[bond];
+        force *= family_->volume[i] * bonds.weight(bond);
         for (int k = 0; k < image.term_count; ++k) {
           reaction[image.terms[k].face_value] += image.terms[k].coefficient * force;
         }
@@ -309,16 +318,25 @@ template <int D>
 void LpsElasticity<D>::stress(std::span<const double> u, std::span<double> stress) {
   mirror_.spread(u, field_);
   const Index points = family_->point_count;
-  for_each_point(points, [&](Index i) {
-    Tensor<D, D> result = stress_at(i, {});
-    for (int a = 0; a < D && initial_stress_; ++a) result[a * D + a] += (*initial_stress_)[a];
-    for (int k = 0; k < D * D; ++k) stress[static_cast<std::size_t>(k) * points + i] = result[k];
-  });
+  if (lattice_) {
+    lattice_->find_stress(field_, stress);
+  } else {
+    for_each_shared_point(points, [&](Index i) {
+      const Tensor<D, D> result = stress_at(i, {});
+      for (int k = 0; k < D * D; ++k) stress[static_cast<std::size_t>(k) * points + i] = result[k];
+    });
+    ranks::gather_shares(stress, points);
+  }
+  for (int a = 0; a < D && initial_stress_; ++a) {
+    for (double& s : stress.subspan(static_cast<std::size_t>(a) * (D + 1) * points, points)) {
+      s += (*initial_stress_)[a];
+    }
+  }
 }
 
 template <int D>
 Tensor<D, D> LpsElasticity<D>::gradient_at(Index i) const {
-  return perifrac::gradient_at<D, D>(*family_, moments_, field_.data(), i);
+  return perifrac::gradient_at<D, D>(*family_, inverse_shape_at(i), field_.data(), i);
 }
 
 template <int D>
@@ -354,7 +372,8 @@ Eigen::SparseMatrix<double> LpsElasticity<D>::assemble() const {
 
 template <int D>
 Eigen::VectorXd LpsElasticity<D>::force_of_stress(const Eigen::VectorXd& stress) const {
-  return perifrac::force_of_stress(*family_, moments_, mirror_, stress);
+  return perifrac::force_of_stress<D, D>(
+      *family_, [this](Index i) { return inverse_shape_at(i); }, mirror_, stress);
 }
 
 template <int D>

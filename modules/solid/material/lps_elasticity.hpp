@@ -53,7 +53,8 @@ class LpsElasticity final : public BreakableElasticity<D> {
   Tensor<D, D> gradient_at(Index i) const override;
   Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const override;
   double point_energy(Index i, std::span<const double> u) const override;
-  void take_moments(Index i);
+  Tensor<D, D> inverse_shape_at(Index i) const;
+  void take_moments(Index i, double weighted_volume);
   template <class Take>
   void give_to_lattice(Take&& take);
   /// lambda - mu: the stiffness against dilatation that the bonds do not have.
@@ -79,7 +80,7 @@ class LpsElasticity final : public BreakableElasticity<D> {
   LawByRegion<IsotropicElasticity<D>> law_;
   std::optional<Vector<D>> initial_stress_;
   double pore_sign_;
-  FamilyMoments<D> moments_;
+  std::vector<bool> is_thin_;             ///< see is_thin(); of points whose bonds broke
   std::vector<double> field_;             ///< u on real points and ghosts
   std::vector<double> dilatation_scale_;  ///< d / m_i
   std::vector<double> bond_stiffness_;    ///< c / m_i on real points; 0 on ghosts

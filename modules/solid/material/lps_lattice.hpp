@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/small_vector.hpp"
 #include "core/bonds/lattice_bonds.hpp"
 
 namespace perifrac {
@@ -61,9 +62,7 @@ class LpsLattice {
   void apply(std::span<const double> field, PullOfPores&& pull_of_pores,
              std::span<double> dilatation, std::span<double> volume_state,
              std::span<double> force) {
-    for (int r = 0; r < D; ++r) {
-      bonds_.spread(&field[static_cast<std::size_t>(r) * nodes_], displacement_[r]);
-    }
+    take_displacement(field);
     bonds_.for_each_packet([&](Index c) {
       const PointPacket points = bonds_.points(c);
       const Packet theta = dilatation_at(c);
@@ -87,6 +86,18 @@ class LpsLattice {
     bonds_.gather_points(force, points_);
   }
 
+  /// sum_j T(xi) (x) xi of the points' own force states T, initial stress apart: D * D blocks.
+  void find_stress(std::span<const double> field, std::span<double> stress) {
+    take_displacement(field);
+    bonds_.for_each_packet([&](Index c) {
+      const auto s = stress_at(c);
+      for (int k = 0; k < D * D; ++k) {
+        set_value(stress.data() + static_cast<std::size_t>(k) * points_, bonds_.points(c), s[k]);
+      }
+    });
+    bonds_.gather_points(stress, points_);
+  }
+
  private:
   LpsLattice(const Family<D>& family, LatticeBonds<D> bonds)
       : bonds_(std::move(bonds)),
@@ -99,6 +110,13 @@ class LpsLattice {
         state_(scale_) {
     displacement_.fill(scale_);
     for (Index i = 0; i < points_; ++i) volume_[bonds_.cell_of(i)] = family.volume[i];
+  }
+
+  /// Of all nodes.
+  void take_displacement(std::span<const double> field) {
+    for (int r = 0; r < D; ++r) {
+      bonds_.spread(&field[static_cast<std::size_t>(r) * nodes_], displacement_[r]);
+    }
   }
 
   PacketVector<D> displacement(Index c) const {
@@ -117,6 +135,25 @@ class LpsLattice {
       return std::array{along};
     });
     return load(&scale_[c]) * sum[0];
+  }
+
+  std::array<Packet, D * D> stress_at(Index c) const {
+    const PacketVector<D> own = displacement(c);
+    const Packet state = load(&scale_[c]) * load(&volume_stiffness_[c]) * dilatation_at(c);
+    const Packet stiffness = load(&stiffness_[c]);
+    return bonds_.template sum_over_bonds<D * D>(c, [&](Index j, const auto& bond) {
+      const double square = 1.0 / squared_norm(bond.inverse);
+      Packet along{};
+      for (int r = 0; r < D; ++r) {
+        along += (load(&displacement_[r][j]) - own[r]) * bond.inverse[r];
+      }
+      const Packet pull = state + stiffness * along;
+      std::array<Packet, D * D> t;
+      for (int k = 0; k < D * D; ++k) {
+        t[k] = pull * bond.weighted[k / D] * (square * bond.inverse[k % D]);
+      }
+      return t;
+    });
   }
 
   template <bool initially_stressed>

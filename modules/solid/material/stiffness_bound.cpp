@@ -11,9 +11,7 @@ template <int D>
 double stiffness_bound(const Family<D>& family, const IsotropicElasticity<D>& law, Index i) {
   using Matrix = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
   double weight = 0.0;
-  for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-    weight += family.weight[bond];
-  }
+  for (const auto& bond : family.bonds(i)) weight += bond.weight;
   if (!(weight > 0.0)) return 0.0;
   const auto sum = shape_tensor_at(family, i);
   const Eigen::Matrix<double, D, D> shape = Eigen::Map<const Matrix>(sum.data());

@@ -19,13 +19,13 @@ class TurningBonds {
                const IsotropicElasticity<D>& law, Index i)
       : bulk_(family.volume[i] * law.drained_bulk_modulus()),
         shear_(family.volume[i] * D * (D + 2) * law.shear_modulus) {
-    for (Index b = family.offset[i]; b < family.offset[i + 1]; ++b) {
-      if (family.weight[b] == 0.0) continue;
+    for (const auto& [j, weight] : family.bonds(i)) {
+      if (weight == 0.0) continue;
       Bond bond{};
-      bond.weight = family.weight[b];
-      bond.xi = vector_at(family.position, family.other[b]) - vector_at(family.position, i);
+      bond.weight = weight;
+      bond.xi = vector_at(family.position, j) - vector_at(family.position, i);
       for (int a = 0; a < D; ++a) {
-        bond.parting[a] = node_unknowns(family, mirror, family.other[b], a);
+        bond.parting[a] = node_unknowns(family, mirror, j, a);
         bond.parting[a].add(a * family.point_count + i, -1.0);
       }
       bond.length = norm(bond.xi);

@@ -35,10 +35,8 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
       prescribed_(elastic_->size()),
       loads_(elastic_->size()),
       moved_(lumped(body, boundary, density)),
-      now_{Eigen::VectorXd(elastic_->size()),
-           Eigen::VectorXd(elastic_->size()),
-           {},
-           std::vector<double>(elastic_->size())},
+      now_{.load = Eigen::VectorXd(elastic_->size()),
+           .trial = std::vector<double>(elastic_->size())},
       inner_(elastic_->size()) {
   const auto mirror = boundary.mirror_condition(*body.family(boundary.mirrored()));
   prescribed_ = boundary.prescribed(mirror);
@@ -52,12 +50,12 @@ ElasticDynamics<D>::ElasticDynamics(const Body<D>& body,
     plate_unknowns_.push_back(
         static_cast<Index>(Eigen::SparseMatrix<double>::InnerIterator(free, plate.column).row()));
   }
-  prescribed_.at(0.0, now_.prescribed);
-  prescribes_ = !prescribed_.is_constant() || !now_.prescribed.isZero(0.0);
+  if (prescribed_.is_anything()) now_.prescribed = prescribed_.at(0.0);
   loads_.at(0.0, now_.load);
   initial_force_ = elastic_->initial_force();
-  if (std::ranges::all_of(initial_force_, [](double f) { return f == 0.0; })) initial_force_ = {};
-  find_acted_on();
+  if (std::ranges::all_of(initial_force_, [](double f) { return f == 0.0; })) {
+    initial_force_ = std::vector<double>();  // gives its memory back
+  }
 }
 
 template <int D>
@@ -84,16 +82,14 @@ void ElasticDynamics<D>::force(double t, std::span<const double> y, std::span<do
   if (!prescribed_.is_constant()) prescribed_.at(t, now_.prescribed);
   if (!loads_.is_constant()) find_loads(t);
   pore_stress_.find(t);
-  now_.before.swap(unknowns_);
-  unknowns_.resize(moved_.unknowns());
-  moved_.expand(y, prescribes_ ? view(std::as_const(now_.prescribed)) : std::span<const double>(),
-                unknowns_);
+  work_.leave(unknowns_);
+  moved_.expand(y, view(std::as_const(now_.prescribed)), unknowns_);
   place_plates(view(std::as_const(now_.load)), pore_stress_.now().value, unknowns_);
   apply(unknowns_, pore_stress_.now(), inner_,
         pore_stress_.is_there() ? std::span(dilatation_) : std::span<double>());
   inner_is_elastic_ = !pore_stress_.is_there() && fracture_ == nullptr;
   if (fracture_ != nullptr) fracture_->add(t, unknowns_, inner_);
-  work_.book(now_.before, unknowns_, [&](Index k) {
+  work_.book(unknowns_, [&](Index k) {
     return moved_.owner(k) == LumpedMass::none ? inner_[k] : now_.load[k];
   });
   moved_.gather([&](Index k) { return now_.load[k] - inner_[k]; }, force);
@@ -148,9 +144,7 @@ void ElasticDynamics<D>::place_plates(std::span<const double> load,
 
 template <int D>
 void ElasticDynamics<D>::set_interface_force(std::span<const double> force) {
-  const bool is_first = interface_force_.empty() && !force.empty();
   interface_force_ = force;
-  if (is_first) find_acted_on();
   if (loads_.is_constant()) find_loads(0.0);
 }
 
@@ -161,15 +155,14 @@ void ElasticDynamics<D>::find_loads(double t) {
 }
 
 template <int D>
-void ElasticDynamics<D>::find_acted_on() {
-  std::vector<Index> acted_on;
+std::vector<Index> ElasticDynamics<D>::acted_on(bool by_interface) const {
+  std::vector<Index> unknowns;
   const Index points = D * body_.points().size();
   for (Index k = 0; k < moved_.unknowns(); ++k) {
-    const bool by_interface = !interface_force_.empty() && k < points;
     const bool is_held = moved_.owner(k) == LumpedMass::none;
-    if (by_interface || is_held || loads_.has(k)) acted_on.push_back(k);
+    if ((by_interface && k < points) || is_held || loads_.has(k)) unknowns.push_back(k);
   }
-  work_.set_acted_on(std::move(acted_on));
+  return unknowns;
 }
 
 template <int D>
@@ -177,7 +170,7 @@ void ElasticDynamics<D>::start() {
   unknowns_.assign(moved_.unknowns(), 0.0);
   if (memory_ != nullptr) memory_->forget();
   inner_is_elastic_ = false;
-  work_.start(unknowns_.size());
+  work_.start(acted_on(false));
   pore_stress_.start();
   dilatation_.assign(body_.points().size(), 0.0);
 }

@@ -75,8 +75,10 @@ class ElasticDynamics final : public SecondOrderSystem {
   /// none.
   void set_interface_force(std::span<const double> force);
 
-  /// Undeformed, nothing done on it.
+  /// Undeformed, nothing done on it, and no interface force to come.
   void start();
+  /// Interface forces may come; after start(), before anything moves.
+  void expect_interface_force() { work_.start(acted_on(true)); }
   /// Displacements, the external force on each of them and the work it did.
   void visit_state(StateVisitor& visitor);
   /// The state was replaced: takes its stiffness of reference. Before derive().
@@ -110,13 +112,13 @@ class ElasticDynamics final : public SecondOrderSystem {
   void place_plates(std::span<const double> load, std::span<const double> pore_stress,
                     std::vector<double>& unknowns);
   void find_loads(double t);
-  void find_acted_on();
+  std::vector<Index> acted_on(bool by_interface) const;
 
-  /// Of every unknown, at the time of a force: what is prescribed and the load; the displacements
-  /// before it, and others tried.
+  /// Of every unknown, at the time of a force: what is prescribed, empty where nothing is, and the
+  /// load; displacements tried.
   struct Now {
     Eigen::VectorXd prescribed, load;
-    std::vector<double> before, trial;
+    std::vector<double> trial;
   };
 
   const Body<D>& body_;
@@ -125,7 +127,6 @@ class ElasticDynamics final : public SecondOrderSystem {
   BodyFracture* fracture_ = nullptr;
   std::vector<double> initial_force_;  ///< of the initial stress [N]; empty without one
   ScheduledVector prescribed_;
-  bool prescribes_ = false;  ///< something other than 0
   ScheduledVector loads_;
   LumpedMass moved_;
   MasslessPlates plates_;

@@ -47,8 +47,8 @@ void cut(const Body<2>& body, double x, int facets) {
   const auto family = body.family(0);
   std::vector<std::vector<std::pair<Index, Index>>> bonds(facets);
   for (Index i = 0; i < family->point_count; ++i) {
-    for (Index bond = family->offset[i]; bond < family->offset[i + 1]; ++bond) {
-      const Index j = family->other[bond];
+    for (const auto& bond : family->bonds(i)) {
+      const Index j = bond.other;
       const Vector<2> a = body.points().at(i), b = body.points().at(j);
       if (j < i || (a[0] < x) == (b[0] < x)) continue;
       const double y = a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);

@@ -115,7 +115,7 @@ TEST(CrackNucleation, LiesNormalToTheLargestStress) {
 TEST(CrackNucleation, KeepsAwayFromCracks) {
   const auto seeds = straight_crack({20.0, 20.0}, 0.0, 10);
   const auto beside = [](const Vector<2>& x) {
-    const bool is_near = std::abs(x[1] - 20.0) < 4.0 && std::abs(x[0] - 20.0) < 9.0;
+    const bool is_near = std::abs(x[1] - 20.0) < 3.0 && std::abs(x[0] - 20.0) < 8.0;
     return std::array{0.0, is_near ? 1e-2 : 1e-4, 0.0};
   };
   EXPECT_NEAR(StressedPlate(4.0, seeds).readiness(beside), 0.1, 0.01);

@@ -16,9 +16,9 @@ template <int D>
 double least_left(const Family<D>& family, const StretchBudget<D>& budget, Index block,
                   const std::vector<double>& u, double limit) {
   double least = INFINITY;
-  for (Index i = budget.begin(block); i < budget.end(block); ++i) {
-    for (Index bond = family.offset[i]; bond < budget.end_of_real_bonds(i); ++bond) {
-      const Index j = family.other[bond];
+  for (const Index i : budget.points(block)) {
+    for (Index k = 0; k < budget.real_bonds(i); ++k) {
+      const Index j = family.bonds(i).other(k);
       double before = 0.0, after = 0.0;
       for (int a = 0; a < D; ++a) {
         const double xi = family.position[a][j] - family.position[a][i];

@@ -62,14 +62,15 @@ TEST(BondState, BreaksBondsInAFamilyAndToItsGhosts) {
   Index ghosts = 0;
   for (Index i = 0; i < family.point_count; ++i) {
     double whole = 0.0, lost = 0.0;
-    for (Index bond = family.offset[i]; bond < family.offset[i + 1]; ++bond) {
-      const Index end = family.other[bond];
+    const PointBonds bonds = family.bonds(i);
+    for (Index k = 0; k < bonds.count(); ++k) {
+      const Index end = bonds.other(k);
       const bool ghost = end >= family.point_count;
       const Index j = ghost ? family.ghost_source[end - family.point_count] : end;
       const bool is_broken =
           std::ranges::count(broken, std::pair(std::min(i, j), std::max(i, j))) > 0;
       ghosts += is_broken && ghost;
-      EXPECT_EQ(silenced.weight[bond], is_broken ? 0.0 : family.weight[bond]);
+      EXPECT_EQ(silenced.weight(i, k), is_broken ? 0.0 : bonds.weight(k));
       whole += family.volume[end];
       if (is_broken) lost += family.volume[end];
     }

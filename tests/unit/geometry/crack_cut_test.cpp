@@ -21,8 +21,8 @@ TEST(CrackCut, ALongFacetCutsWhatLiesOnTwoSides) {
   };
   std::vector<std::pair<Index, Index>> expected;
   for (Index i = 0; i < family->point_count; ++i) {
-    for (Index bond = family->offset[i]; bond < family->offset[i + 1]; ++bond) {
-      const Index j = family->other[bond];
+    for (const auto& bond : family->bonds(i)) {
+      const Index j = bond.other;
       if (i < j && side(i) != side(j)) expected.emplace_back(i, j);
     }
   }

@@ -58,19 +58,17 @@ void expect_bonds_beside(const Body<2>& body, FaceSet mirrored,
   Index removed = 0;
   for (Index i = 0; i < family->point_count; ++i) {
     std::vector<std::pair<Index, double>> expected, found;
-    for (Index b = whole.offset[i]; b < whole.offset[i + 1]; ++b) {
+    for (const auto& bond : whole.bonds(i)) {
       const auto through = [&](const Region<2>& box) {
-        return is_seen_inside(box, node(whole, i), node(whole, whole.other[b]));
+        return is_seen_inside(box, node(whole, i), node(whole, bond.other));
       };
       if (std::ranges::any_of(boxes, through)) {
         ++removed;
       } else {
-        expected.emplace_back(whole.other[b], whole.weight[b]);
+        expected.emplace_back(bond.other, bond.weight);
       }
     }
-    for (Index b = family->offset[i]; b < family->offset[i + 1]; ++b) {
-      found.emplace_back(family->other[b], family->weight[b]);
-    }
+    for (const auto& bond : family->bonds(i)) found.emplace_back(bond.other, bond.weight);
     EXPECT_EQ(found, expected) << "point " << i;
   }
   EXPECT_GT(removed, 0);
@@ -95,11 +93,9 @@ TEST(Cutouts, AreMirroredAtFaces) {
 TEST(Cutouts, FamiliesStaySymmetric) {
   const auto family = cut_body({notch})->family(0);
   for (Index i = 0; i < family->point_count; ++i) {
-    for (Index b = family->offset[i]; b < family->offset[i + 1]; ++b) {
-      const Index j = family->other[b];
-      const auto back = std::span(family->other)
-                            .subspan(family->offset[j], family->offset[j + 1] - family->offset[j]);
-      EXPECT_EQ(std::ranges::count(back, i), 1);
+    for (const auto& bond : family->bonds(i)) {
+      const Index j = bond.other;
+      EXPECT_EQ(std::ranges::count(family->steps[j], i - j), 1);
     }
   }
 }

@@ -20,7 +20,8 @@ using test::distance;
 template <int D>
 void expect_unit_steps(int count) {
   const double spacing = 0.7;
-  const Points<D> points = box_lattice<D>(cube<D>(count), spacing);
+  Points<D> points = box_lattice<D>(cube<D>(count), spacing);
+  sort_along_curve(points, spacing);
   for (Index i = 1; i < points.size(); ++i) {
     ASSERT_NEAR(distance<D>(points.at(i - 1), points.at(i)), spacing, 1e-12) << "at point " << i;
   }

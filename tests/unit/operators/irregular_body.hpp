@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/geometry/jitter.hpp"
+#include "core/geometry/space_filling_curve.hpp"
 #include "core/geometry/voronoi.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
 
@@ -16,6 +17,7 @@ std::shared_ptr<const Body<D>> irregular_box(const std::array<int, D>& counts, d
                                              Weights weights = Weights::projected,
                                              double jitter = 0.2) {
   Points<D> points = box_lattice<D>(counts, spacing);
+  sort_along_curve(points, spacing);
   jitter_points<D>(points, jitter * spacing, seed);
   Vector<D> low{}, high;
   for (int a = 0; a < D; ++a) high[a] = counts[a] * spacing;

@@ -70,16 +70,13 @@ void expect_symmetric_factors(const std::array<int, D>& counts, FaceSet mirrored
   const auto body = test::irregular_box<D>(counts, 0.5, 5);
   const auto family = body->family(mirrored);
   for (Index i = 0; i < family->point_count; ++i) {
-    for (Index bond = family->offset[i]; bond < family->offset[i + 1]; ++bond) {
-      const Index j = family->other[bond];
-      ASSERT_GT(family->weight[bond], 0.0);
+    for (const auto& [j, weight] : family->bonds(i)) {
+      ASSERT_GT(weight, 0.0);
       if (j >= family->point_count) continue;
-      const auto begin = family->other.begin() + family->offset[j];
-      const auto end = family->other.begin() + family->offset[j + 1];
-      const Index back =
-          static_cast<Index>(std::lower_bound(begin, end, i) - family->other.begin());
-      const double forth = family->volume[i] * family->weight[bond];
-      ASSERT_NEAR(forth, family->volume[j] * family->weight[back], 1e-13 * forth);
+      double back = 0.0;
+      for (const auto& bond : family->bonds(j)) back += bond.other == i ? bond.weight : 0.0;
+      const double forth = family->volume[i] * weight;
+      ASSERT_NEAR(forth, family->volume[j] * back, 1e-13 * forth);
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "core/body/body.hpp"
 #include "core/body/bonded_layer.hpp"
 #include "core/geometry/lattice.hpp"
+#include "core/geometry/space_filling_curve.hpp"
 #include "core/operators/nonlocal_gradient.hpp"
 
 namespace perifrac::test {
@@ -24,6 +25,7 @@ template <int D>
 Points<D> box_points(const std::array<int, D>& counts, double spacing, Cloud cloud) {
   Points<D> points = box_lattice<D>(counts, spacing);
   if (cloud == Cloud::lattice) return points;
+  sort_along_curve(points, spacing);
   std::mt19937 bits(7);
   std::uniform_real_distribution<double> shift(-1.0, 1.0);
   for (Index i = 0; i < points.size(); ++i) {

@@ -109,8 +109,8 @@ void expect_bonds_solved() {
   std::vector<double> expected(points);
   for (Index i = 0; i < points; ++i) expected[i] = storage[i] * p[i];
   for (const HeldPoint& held : system.held_points()) expected[held.point] = r[held.point];
-  // Of r, up to 1, little is left.
-  for (Index i = 0; i < points; ++i) EXPECT_NEAR(solution[i], expected[i], 1e-7);
+  // Of r, up to 1, little is left: what rounding leaves in sums of terms 1e4 as large as they are.
+  for (Index i = 0; i < points; ++i) EXPECT_NEAR(solution[i], expected[i], 5e-7);
 }
 
 TEST(DarcyNewtonMatrix, SolvesTheBondsAsAPreconditioner) {

@@ -336,6 +336,38 @@ TEST(LpsElasticity, GivesTheStressThatWorksOnAGradient) {
   }
 }
 
+/// By packets of a lattice as by the bonds one by one; faces are mirrored and bonds broken.
+template <int D>
+void expect_same_stress(const std::array<int, D>& counts) {
+  Setting<D> setting{test::box_body<D>(counts, 0.5), 0b0110};
+  Vector<D> initial;
+  for (int a = 0; a < D; ++a) initial[a] = 0.3 * a - 0.4;
+  setting.initial_stress = initial;
+  const auto family = std::make_shared<Family<D>>(*setting.body->family(setting.mirrored));
+  LpsElasticity<D> solid(family, setting.odd.mirror_condition(*family), setting.law(), initial);
+  ASSERT_TRUE(solid.path().starts_with("packets")) << solid.path();
+  const Index n = setting.body->points().size();
+  const Index end = family->bonds(n / 2).other(1);
+  silence(*family, n / 2, end);
+  solid.update(std::array{std::min(n / 2, end), std::max(n / 2, end)});
+  const std::vector<double> u = test::random_values(solid.size());
+  std::vector<double> stress(D * D * n);
+  solid.stress(u, stress);
+  const DeformedMaterial<D> deformed = solid.deform(u);
+  for (Index i = 0; i < n; ++i) {
+    const Tensor<D, D> expected = deformed.stress(i, deformed.gradient(i));
+    for (int k = 0; k < D * D; ++k) {
+      const double at_rest = k / D == k % D ? initial[k / D] : 0.0;
+      ASSERT_NEAR(stress[k * n + i], expected[k] + at_rest, 1e-12 * test::largest(stress));
+    }
+  }
+}
+
+TEST(LpsElasticity, GivesTheSameStressByPackets) {
+  expect_same_stress<2>({9, 8});
+  expect_same_stress<3>({6, 5, 7});
+}
+
 template <int D>
 void expect_same_bits(const std::array<int, D>& counts) {
   Setting<D> setting{test::box_body<D>(counts, 1.0, Cloud::jittered), 0b0110};

@@ -71,8 +71,8 @@ struct Turning {
   template <class Beyond>
   void cut(Index i, Beyond&& beyond) {
     std::vector<Index> ends = {i};
-    for (Index b = family->offset[i]; b < family->offset[i + 1]; ++b) {
-      const Index j = family->other[b];
+    for (const auto& bond : family->bonds(i)) {
+      const Index j = bond.other;
       if (j < family->point_count && beyond(j)) ends.push_back(j);
     }
     for (std::size_t k = 1; k < ends.size(); ++k) silence(*family, i, ends[k]);
