@@ -83,8 +83,11 @@ bool takes_multigrid(const Section& scene, double points) {
   const int dimension = scene.integer("dimension");
   const double worth =
       has_cracks ? points_worth_iteration(dimension) : points_worth_multigrid(dimension);
+  const double bonds = 4.0 / 3.0 * M_PI * std::pow(scene.number("body.horizon_ratio"), 3);
+  const bool has_many_bonds =
+      dimension == 3 && points * 9.0 * bonds * bonds > numbers_worth_multigrid;
   return solver != "direct" && !scene.has("solid.crack_friction") &&
-         (solver == "multigrid" || points >= worth);
+         (solver == "multigrid" || points >= worth || has_many_bonds);
 }
 
 /// Of the solid, for a point, of a horizon of 2.5 spacings.

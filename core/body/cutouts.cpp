@@ -125,14 +125,14 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
   BondList<D> list;
   for (Index i = 0; i < family.point_count; ++i) {
     const Vector<D> x = vector_at(family.position, i);
-    list.begin(i);
+    list.begin_point(i);
     for (const auto& [j, weight] : family.bonds(i)) {
       const Vector<D> y = vector_at(family.position, j);
       if (std::ranges::any_of(boxes, [&](const auto& box) { return passes_through<D>(box, x, y); }))
         continue;
       list.add(j, weight);
     }
-    list.end();
+    list.end_point();
   }
   list.give_to(family);
 }

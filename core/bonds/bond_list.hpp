@@ -11,7 +11,7 @@ template <int D>
 class BondList {
  public:
   /// Goes on to the next point.
-  void begin(Index i) {
+  void begin_point(Index i) {
     point_ = i;
     steps_.clear();
     weights_.clear();
@@ -22,7 +22,7 @@ class BondList {
     weights_.push_back(weight);
   }
   /// That were all of the point.
-  void end() {
+  void end_point() {
     all_steps_.add(steps_);
     all_weights_.add(weights_);
   }

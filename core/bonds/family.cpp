@@ -94,11 +94,11 @@ Family<D> build_family(const Points<D>& points, std::span<const Face> faces, Fac
       }
     });
     for (Index k = 0; k < count; ++k) {
-      list.begin(first + k);
+      list.begin_point(first + k);
       for (Index n = near.offset[k]; n < near.offset[k + 1] && !bondless[first + k]; ++n) {
         if (!is_bondless(near.other[n])) list.add(near.other[n], weight[n]);
       }
-      list.end();
+      list.end_point();
     }
   }
   list.give_to(family);
@@ -124,11 +124,11 @@ Family<D> without_other_ghosts(const Family<D>& family, FaceSet mirrored) {
   part.curved = family.curved;
   BondList<D> list;
   for (Index i = 0; i < family.point_count; ++i) {
-    list.begin(i);
+    list.begin_point(i);
     for (const auto& [j, weight] : family.bonds(i)) {
       if (number[j] >= 0) list.add(number[j], weight);
     }
-    list.end();
+    list.end_point();
   }
   list.give_to(part);
   return part;

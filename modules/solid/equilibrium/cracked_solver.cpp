@@ -21,16 +21,16 @@ std::unique_ptr<CrackedBody<D>> make_cracked_body(
     throw BodyError("multigrid cannot solve for this body: " + obstacle,
                     "solid.linear_solver.type: direct or automatic");
   }
-  const bool is_large = body.points().size() >= points_worth_iteration(D);
+  const std::string worth = worth_of_multigrid(*family, points_worth_iteration(D));
   if (choice.kind == Kind::multigrid ||
-      (choice.kind == Kind::automatic && is_large && obstacle.empty())) {
+      (choice.kind == Kind::automatic && !worth.empty() && obstacle.empty())) {
     return std::make_unique<IteratedBody<D>>(
         body, boundary, std::move(family), std::move(elastic), std::move(free), bonds,
         std::move(initial_stress), seeds, choice.crack_tolerance,
-        choice.kind == Kind::multigrid ? "as the scene says" : "many points");
+        choice.kind == Kind::multigrid ? "as the scene says" : worth);
   }
   const std::string why = choice.kind == Kind::direct ? "as the scene says"
-                          : is_large                  ? obstacle
+                          : !worth.empty()            ? obstacle
                                                       : "few points";
   return std::make_unique<CondensedBody<D>>(std::move(family), body.spacing(), std::move(elastic),
                                             std::move(free), bonds, std::move(initial_stress),

@@ -21,7 +21,8 @@ KeyTable linear_solver_keys() {
        .meaning = "quasi_static: direct factors the stiffness once, in 3D at a price beyond some "
                   "two thousand points and in 2D beyond a hundred thousand; multigrid takes time "
                   "and memory in proportion to the points; automatic chooses by "
-                  "their number. Beside friction between faces: direct."},
+                  "their number, in 3D by that of their bonds too. Beside friction "
+                  "between faces: direct."},
       {.path = "linear_solver.tolerance",
        .range = "[1e-13, 1e-2]",
        .fallback = "1e-9",
@@ -31,6 +32,20 @@ KeyTable linear_solver_keys() {
        .fallback = "1e-4",
        .meaning = "The same of a body with cracks, beside what the coupling's iterations leave."}};
 }
+
+template <int D>
+std::string worth_of_multigrid(const Family<D>& family, double points_worth) {
+  if (family.point_count >= points_worth) return "many points";
+  double numbers = 0.0;
+  for (Index i = 0; i < family.point_count; ++i) {
+    const double rows = D * (family.bond_count(i) + 1.0);
+    numbers += rows * rows;
+  }
+  return D == 3 && numbers >= numbers_worth_multigrid ? "many bonds" : "";
+}
+
+template std::string worth_of_multigrid<2>(const Family<2>&, double);
+template std::string worth_of_multigrid<3>(const Family<3>&, double);
 
 SolverChoice read_solver_choice(const Section& section) {
   const std::string type = section.word("linear_solver.type");
@@ -128,7 +143,8 @@ std::unique_ptr<StiffnessSolver<D>> make_stiffness_solver(
     throw BodyError("multigrid cannot solve for this body: " + obstacle,
                     "solid.linear_solver.type: direct or automatic");
   }
-  const bool is_large = body.points().size() >= points_worth_multigrid(D);
+  const bool is_large =
+      !worth_of_multigrid(*body.family(boundary.mirrored()), points_worth_multigrid(D)).empty();
   if (choice.kind == Kind::multigrid ||
       (choice.kind == Kind::automatic && is_large && obstacle.empty())) {
     return std::make_unique<IteratedStiffness<D>>(body, std::move(elastic), boundary,

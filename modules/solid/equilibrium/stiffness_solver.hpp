@@ -26,6 +26,15 @@ struct SolverChoice {
 /// solve included, and stays so over some hundred windows.
 constexpr double points_worth_multigrid(int dimension) { return dimension == 2 ? 2e4 : 2e3; }
 
+/// In 3D it takes multigrid also where so many numbers are assembled, the squares of what each
+/// point's stiffness has as rows: where horizons are long few points make a factor of a stiffness
+/// that is full.
+constexpr double numbers_worth_multigrid = 6e8;
+
+/// Why a body is worth multigrid: many points, or many bonds; nothing where it is not.
+template <int D>
+std::string worth_of_multigrid(const Family<D>& family, double points_worth);
+
 /// The keys of `linear_solver`.
 KeyTable linear_solver_keys();
 SolverChoice read_solver_choice(const Section& section);

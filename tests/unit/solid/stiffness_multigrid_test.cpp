@@ -8,6 +8,7 @@
 #include "core/base/eigen_view.hpp"
 #include "core/bonds/crack_cut.hpp"
 #include "core/solvers/sparse_cholesky.hpp"
+#include "modules/solid/equilibrium/stiffness_solver.hpp"
 #include "tests/unit/fracture/rock.hpp"
 #include "tests/unit/operators/irregular_body.hpp"
 #include "tests/unit/operators/test_bodies.hpp"
@@ -97,6 +98,18 @@ TEST(StiffnessMultigrid, AgreesWithTheFactorOnRollers) {
 }
 
 /// Cells at the high faces hold fewer points then.
+TEST(StiffnessMultigrid, IsWorthManyPointsOrManyBonds) {
+  const auto worth = [](const std::array<int, 3>& counts, double ratio) {
+    const auto body = test::box_body<3>(counts, 0.5, test::Cloud::lattice, ratio);
+    return worth_of_multigrid(*body->family(0), 2e3);
+  };
+  EXPECT_EQ(worth({10, 10, 10}, 3.0), "");
+  EXPECT_EQ(worth({10, 10, 10}, 6.0), "many bonds");
+  EXPECT_EQ(worth({13, 13, 13}, 2.0), "many points");
+  const auto plane = test::box_body<2>({40, 40}, 0.5, test::Cloud::lattice, 12.0);
+  EXPECT_EQ(worth_of_multigrid(*plane->family(0), 2e4), "");
+}
+
 TEST(StiffnessMultigrid, TakesOddNumbersOfPoints) {
   Case<2> plane({51, 37}, 2.5);
   plane.on_rollers();
