@@ -195,7 +195,7 @@ std::optional<std::string> closed_front_warning(const Section& scene,
       scene.integer("dimension") == 2 ? 1.0 - open / wet : 1.0 - open * open / (wet * wet);
   if (!(part > far_ahead)) return {};
   return fmt::format(
-      "{:.0f} % of what fluid wets in the end are closed cracks, a facet or two before each front: "
+      "{:.0f} % of what fluid wets in the end are closed cracks, few facets before each front: "
       "what leaks off there depends on how long facets are; a finer body.spacing, or look at later "
       "times",
       100.0 * part);

@@ -13,7 +13,8 @@ namespace perifrac {
 std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation);
 
 /// Where a good part of what leaks off does so from closed cracks that fluid has just come to: it
-/// fills the facet before an open one at once, as there is hardly room in it.
+/// fills the facet before an open one at once, as there is hardly room in it. Where few are open,
+/// few before them count as well.
 std::optional<std::string> closed_front_warning(const Section& scene, const Simulation& simulation);
 
 /// Where all that is pumped leaks off at once, so that no pressure builds up.

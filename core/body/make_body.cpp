@@ -91,7 +91,7 @@ std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double
   cut_out<D>(section, cutouts, points);
   const double jitter = section.number("jitter");
   if (jitter > 0.0) {
-    sort_along_curve(points, spacing);
+    sort_along_curve(points, spacing);  // no packets follow a lattice's rows
     jitter_points(points, jitter * spacing, section.integer("seed"));
   }
   const bool voronoi = section.has("volumes") ? section.word("volumes") == "voronoi" : jitter > 0.0;

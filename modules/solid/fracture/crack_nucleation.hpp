@@ -24,7 +24,8 @@ inline constexpr int least_inner_facets = 5, least_edge_facets = 3;
 /// mechanics with the mean stress, Cornetti et al. 2006; Taylor's line method). It is as long as
 /// uniform tension pays for, normal to the largest principal stress at a point where that is
 /// largest; at a face it opens to outside. Of places that are as ready the shortest nucleus is cut,
-/// and of those the first along the body's order.
+/// and of those the first in the body's order. Of places under even stress a random few are looked
+/// at.
 class CrackNucleation {
  public:
   CrackNucleation(const Body<2>& body, CutBody<2>& cracked, FractureEnergy<2> fracture_energy,

@@ -113,6 +113,18 @@ TEST(Family, CountsLatticeBondsAtTheHorizonAlike) {
   }
 }
 
+// 87 bonds a point take no more than what tells rows apart; those of a cloud a number each, and one
+// for the weight.
+TEST(Family, SharesListsOfBondsOnALattice) {
+  const auto bytes_a_point = [](Cloud cloud) {
+    const auto family = test::box_body<3>({16, 16, 16}, 0.1, cloud, 3.0)->family(0);
+    EXPECT_GT(family->steps.total() / family->point_count, 80u);
+    return static_cast<double>(family->bytes()) / family->point_count;
+  };
+  EXPECT_LT(bytes_a_point(Cloud::lattice), 120.0);
+  EXPECT_GT(bytes_a_point(Cloud::jittered), 80 * 12.0);
+}
+
 // A part of a family is the one that would have been built.
 TEST(Family, IsTheSameAsAPartOfOneWithMoreGhosts) {
   const auto points = test::box_points<3>({5, 4, 5}, 1.0, Cloud::jittered);

@@ -46,6 +46,24 @@ TEST(BoxLattice, FillsTheBoxWithFacesHalfASpacingOutside) {
   expect_box<3>({3, 5, 4}, 0.25);
 }
 
+/// Row by row along the first axis, so that points of a row have neighbours that are as far on.
+template <int D>
+void expect_rows(const Points<D>& points) {
+  for (Index i = 1; i < points.size(); ++i) {
+    int last = D - 1;
+    while (last > 0 && points.position[last][i] == points.position[last][i - 1]) --last;
+    ASSERT_GT(points.position[last][i], points.position[last][i - 1]) << "point " << i;
+  }
+}
+
+TEST(Lattice, GoesRowByRow) {
+  expect_rows<2>(box_lattice<2>({7, 5}, 0.5));
+  expect_rows<3>(box_lattice<3>({4, 5, 3}, 0.5));
+  expect_rows<2>(ball_lattice<2>(4.0, 0.5));
+  expect_rows<3>(ball_lattice<3>(3.0, 0.5));
+  expect_rows<3>(ball_lattice<3>(3.0, 0.5, true));
+}
+
 template <int D>
 void expect_ball(double radius, double spacing, double volume) {
   const Points<D> points = ball_lattice<D>(radius, spacing);
