@@ -28,6 +28,10 @@ constexpr double unstable = 2.0;
 /// and turns at once.
 constexpr double aslant = 0.25;
 
+/// K_II by that shear over K_IC beyond which a crack, once fluid opens it, jumps: at 3 its length
+/// is a quarter off by points a sixteenth of it apart, at 1.6 a twelfth.
+constexpr double sheared = 2.5;
+
 double distance(const Vector<2>& place, const Vector<2>& from, const Vector<2>& to) {
   const Vector<2> along = to - from;
   const double s = std::clamp(dot(place - from, along) / squared_norm(along), 0.0, 1.0);
@@ -44,6 +48,68 @@ double half_length(const Section& scene, const std::vector<Vector<2>>& corners, 
   return is_wing ? length : 0.5 * length;
 }
 
+bool is_pumped(const Section& scene, const std::vector<Vector<2>>& corners, double spacing) {
+  return std::ranges::any_of(inlet_places(scene), [&](const std::vector<double>& inlet) {
+    for (std::size_t c = 1; c < corners.size(); ++c) {
+      if (distance({inlet[0], inlet[1]}, corners[c - 1], corners[c]) < spacing) return true;
+    }
+    return false;
+  });
+}
+
+/// Stresses on a crack, compression positive [Pa].
+struct CrackStress {
+  double lengthwise, across, shear;
+  double growing;  ///< what it grows at
+  bool is_pumped, has_friction;
+};
+
+CrackStress stress_on(const Section& scene, const std::vector<Vector<2>>& corners,
+                      const StatedStress& stated) {
+  const double spacing = scene.number("body.spacing");
+  const double toughness =
+      std::sqrt(read_elastic_rock(scene).plane_strain_modulus() * read_fracture_energy(scene));
+  const Vector<2> along =
+      (corners.back() - corners.front()) / norm(corners.back() - corners.front());
+  const double height = 0.5 * (corners.front()[1] + corners.back()[1]);
+  const Vector<2> stress = {stated.total_at(0, height), stated.total_at(1, height)};
+  return {.lengthwise = along[0] * along[0] * stress[0] + along[1] * along[1] * stress[1],
+          .across = along[1] * along[1] * stress[0] + along[0] * along[0] * stress[1],
+          .shear = std::abs(along[0] * along[1] * (stress[0] - stress[1])),
+          .growing = toughness / std::sqrt(M_PI * half_length(scene, corners, spacing)),
+          .is_pumped = is_pumped(scene, corners, spacing),
+          .has_friction =
+              scene.has("solid.crack_friction") && scene.number("solid.crack_friction") > 0.0};
+}
+
+std::optional<std::string> warning_of(const CrackStress& on) {
+  if (on.shear > sheared * on.growing) {
+    const std::string by = fmt::format("by {:.3g} MPa, {:.2g} times what it grows at",
+                                       1e-6 * on.shear, on.shear / on.growing);
+    if (on.is_pumped) {
+      return fmt::format(
+          "lies aslant to the stress of the rock, which shears it {}: it jumps where fluid opens "
+          "it, and how far depends on body.spacing; lay it along the larger stress, or take one "
+          "that is nearer to the lesser",
+          by);
+    }
+    if (!on.has_friction) {
+      return fmt::format(
+          "is sheared by the stress of the rock, {}, and its faces have no friction: it slides, "
+          "and may grow, before any fluid reaches it; give solid.crack_friction",
+          by);
+    }
+  }
+  const double more = on.across - on.lengthwise;
+  if (!on.is_pumped || on.shear > aslant * more || !(more > (1.0 + unstable) * on.growing)) {
+    return {};
+  }
+  return fmt::format(
+      "lies across the larger stress, {:.3g} MPa against {:.3g} MPa along it: in rock it would "
+      "turn, and here it goes on as long as nothing disturbs it; lay it along the larger stress",
+      1e-6 * on.across, 1e-6 * on.lengthwise);
+}
+
 }  // namespace
 
 std::optional<std::string> crack_across_stress_warning(const Section& scene) {
@@ -52,33 +118,9 @@ std::optional<std::string> crack_across_stress_warning(const Section& scene) {
   if (!writes(scene, "crack_fluid") || !scene.has("body.spacing")) return {};
   const auto stated = read_stated_stress(scene);
   if (!stated) return {};
-  const double spacing = scene.number("body.spacing");
-  const double toughness =
-      std::sqrt(read_elastic_rock(scene).plane_strain_modulus() * read_fracture_energy(scene));
   for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
-    const std::vector<Vector<2>> corners = read_crack_corners(scene, k);
-    const auto is_in_it = [&](const std::vector<double>& inlet) {
-      for (std::size_t c = 1; c < corners.size(); ++c) {
-        if (distance({inlet[0], inlet[1]}, corners[c - 1], corners[c]) < spacing) return true;
-      }
-      return false;
-    };
-    if (std::ranges::none_of(inlet_places(scene), is_in_it)) continue;
-    const Vector<2> along =
-        (corners.back() - corners.front()) / norm(corners.back() - corners.front());
-    const double height = 0.5 * (corners.front()[1] + corners.back()[1]);
-    const Vector<2> stress = {stated->total_at(0, height), stated->total_at(1, height)};
-    const double lengthwise = along[0] * along[0] * stress[0] + along[1] * along[1] * stress[1];
-    const double across = along[1] * along[1] * stress[0] + along[0] * along[0] * stress[1];
-    const double shear = std::abs(along[0] * along[1] * (stress[0] - stress[1]));
-    const double growing = toughness / std::sqrt(M_PI * half_length(scene, corners, spacing));
-    if (!(across - lengthwise > (1.0 + unstable) * growing)) continue;
-    if (shear > aslant * (across - lengthwise)) continue;
-    return fmt::format(
-        "cracks[{}] lies across the larger stress, {:.3g} MPa against {:.3g} MPa along it: in rock "
-        "it would turn, and here it goes on as long as nothing disturbs it; lay it along the "
-        "larger stress",
-        k, 1e-6 * across, 1e-6 * lengthwise);
+    const auto warning = warning_of(stress_on(scene, read_crack_corners(scene, k), *stated));
+    if (warning) return fmt::format("cracks[{}] {}", k, *warning);
   }
   return {};
 }

@@ -240,7 +240,10 @@ std::optional<std::string> wave_warning(const Section& scene, double time) {
       speed * time, time, spacings);
 }
 
-std::optional<std::string> seepage_warning(const Section& scene, double time) {
+namespace {
+
+/// `seeping`: how long, by `time` [s].
+std::optional<std::string> seepage_warning(const Section& scene, double time, double seeping) {
   const Seepage seepage = where_fluid_seeps(scene);
   if (seepage.through.empty() || !scene.has("body.spacing")) return {};
   // Points that see farther than 2.5 spacings tell depths as if they lay as much farther apart.
@@ -248,7 +251,7 @@ std::optional<std::string> seepage_warning(const Section& scene, double time) {
   const double resolved = blur * scene.number("body.spacing");
   const bool is_flat = scene.integer("dimension") == 2;
   const double c = is_flat ? diffusivity<2>(scene) : diffusivity<3>(scene);
-  const double depth = std::sqrt(c * time);
+  const double depth = std::sqrt(c * seeping);
   if (!(depth < seepage.least_depth * resolved)) return {};
   return fmt::format(
       "pressure goes {:.2g} m into the pores by t = {:.3g} s, less than {:.3g} body.spacing: what "
@@ -257,8 +260,23 @@ std::optional<std::string> seepage_warning(const Section& scene, double time) {
       depth, time, seepage.least_depth * blur, seepage.through);
 }
 
+/// By what has leaked off and what does: a crack may have grown late out of what is sealed [s].
+double time_of_leak_off(const Simulation& simulation) {
+  const double time = simulation.manager->time();
+  const double leaked = total_of(simulation, "leak_off_volume");
+  const double rate = total_of(simulation, "leak_off_rate");
+  return leaked > 0.0 && rate > 0.0 ? std::min(time, leaked / rate) : time;
+}
+
+}  // namespace
+
+std::optional<std::string> seepage_warning(const Section& scene, double time) {
+  return seepage_warning(scene, time, time);
+}
+
 std::optional<std::string> seepage_warning(const Section& scene, const Simulation& simulation) {
-  const auto warning = seepage_warning(scene, simulation.manager->time());
+  const auto warning =
+      seepage_warning(scene, simulation.manager->time(), time_of_leak_off(simulation));
   const auto pressure = find_field(*simulation.manager, "pore_pressure");
   if (!warning || !pressure || !where_fluid_seeps(scene).may_be_steady) return warning;
   const double step = std::visit(

@@ -21,6 +21,7 @@
 #include "app/warnings/short_leg_warning.hpp"
 #include "app/warnings/slanted_at_mirror_warning.hpp"
 #include "app/warnings/stress_beyond_stiffness_warning.hpp"
+#include "app/warnings/swinging_beam_warning.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -164,6 +165,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (const auto warning = border_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = probe_at_tip_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = sharp_wave_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = swinging_beam_warning(scene)) warnings.push_back(*warning);
   for (const std::string& warning : table_warnings(scene)) warnings.push_back(warning);
   return warnings;
 }

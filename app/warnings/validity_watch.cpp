@@ -27,7 +27,9 @@ constexpr double far_pressure = 0.18;   ///< over the bulk modulus: Tait's densi
 constexpr double large_fall = 0.05;     ///< of all energy that there is or was
 constexpr double large_swing = 0.05;    ///< of all that pressures range over; they are off by half
 constexpr double large_drag = 0.25;     ///< of artificial viscosity, of what drives the fluid
-constexpr double far_flow = 5.0;        ///< [spacings]; fluid at rest trembles
+constexpr double large_drag_in_fall = 0.35;  ///< where nothing but its weight does
+constexpr double far_flow = 5.0;             ///< [spacings]; fluid at rest trembles
+constexpr double fast_flow = 0.05;           ///< of what falls freely
 
 std::string place_of(const PointSet& points, std::size_t i) {
   std::vector<double> place;
@@ -252,7 +254,8 @@ void ValidityWatch::watch_leaks(const Section& scene, const Simulation& simulati
 }
 
 /// Fluid under pressure or weight hardly feels what a channel's flow is held back by. Pressure that
-/// swings through 0 drives as it did.
+/// swings through 0 drives as it did. What falls is driven by its weight alone, and held back as
+/// soon as sound has told all of it to.
 void ValidityWatch::watch_viscosity(const Section& scene, const Simulation& simulation) {
   const auto velocity = find_field(*simulation.manager, "fluid_velocity");
   const auto pressure = find_field(*simulation.manager, "fluid_pressure");
@@ -261,9 +264,10 @@ void ValidityWatch::watch_viscosity(const Section& scene, const Simulation& simu
   const double least = scene.number("fluid.artificial_viscosity") * fluid.spacing *
                        std::sqrt(fluid.density * fluid.bulk_modulus);
   if (least <= fluid.viscosity) return;
-  double weight = 0.0;
+  const double sound = std::sqrt(fluid.bulk_modulus / fluid.density);
+  double gravity = 0.0;
   if (scene.has("gravity")) {
-    for (const double g : scene.numbers("gravity")) weight = std::hypot(weight, fluid.density * g);
+    for (const double g : scene.numbers("gravity")) gravity = std::hypot(gravity, g);
   }
   limits_.push_back(
       {.find = [=, &manager = *simulation.manager,
@@ -272,7 +276,11 @@ void ValidityWatch::watch_viscosity(const Section& scene, const Simulation& simu
          for (const double p : pressure->values()) highest = std::max(highest, std::abs(p));
          if (points.count < 2) return {};
          const double speed = mean_size(velocity->values(), points);
-         if (!(manager.time() * speed > far_flow * fluid.spacing)) return {};
+         const double falling =
+             std::min(gravity * manager.time(), std::sqrt(2.0 * gravity * extent_of(points)));
+         const bool has_begun = sound * manager.time() > 2.0 * extent_of(points);
+         const bool falls = has_begun && falling > 0.0 && speed > fast_flow * falling;
+         if (!falls && !(manager.time() * speed > far_flow * fluid.spacing)) return {};
          const double reach = 2.0 * fluid.spacing;
          const double dissipation =
              points.dimension == 2
@@ -280,8 +288,9 @@ void ValidityWatch::watch_viscosity(const Section& scene, const Simulation& simu
                  : mean_dissipation<3>(places_of<3>(points), velocity->values(), reach);
          // Pressure falls by so much a length along a straight channel.
          const double fall = (least - fluid.viscosity) * dissipation / speed;
-         const double share = fall / (weight + highest / extent_of(points));
-         if (!(share > large_drag)) return {};
+         const double pushed = falls ? 0.0 : highest / extent_of(points);
+         const double share = fall / (fluid.density * gravity + pushed);
+         if (!(share > (falls ? large_drag_in_fall : large_drag))) return {};
          return fmt::format(
              "artificial viscosity takes up {:.0f} % of what drives the fluid: between its points "
              "it is {:.2g} Pa s, and fluid.viscosity {:.2g}; velocities are off by as much and "

@@ -159,6 +159,14 @@ class Validity(RunTest):
             warned = self.warnings(CONFIGS / scene, short | keys)
             self.assertEqual(any("through the faces of cracks" in warning for warning in warned), warns, warned)
 
+    def test_leak_off_that_has_just_begun(self):
+        """A crack grows out of what is sealed at 4 ms, and out of none at once."""
+        keys = {"body.spacing": "2.5 mm", "time.end": "5.5 ms", "output.interval": "5.5 ms"}
+        open_ = keys | {"crack_fluid.sealed": "[]"}
+        for notch, warns in ((keys, True), (open_, False)):
+            warned = self.warnings(CONFIGS / "hf_leakoff_pores.yaml", notch)
+            self.assertEqual(any("through the faces of cracks" in warning for warning in warned), warns, warned)
+
     def test_seepage_within_a_spacing(self):
         soon = {"time.end": "1 ms", "output.times": "[]", "output.probes": "[]"}
         self.assert_warns(CONFIGS / "aquifer.yaml", soon, "through face 'left' depends on the spacing")
@@ -245,6 +253,32 @@ class Validity(RunTest):
             keys = {"body.spacing": "10 mm", "solid.confining_stress": f"[3 MPa, {across}]"}
             warned = self.foreknown(CONFIGS / "kgd_toughness.yaml", keys)
             self.assertEqual(any("cracks[0] lies across the larger stress" in warning for warning in warned), warns, warned)
+
+    def test_a_crack_aslant_to_the_stress(self):
+        """Sheared by 1.7 and 3.3 times what it grows at."""
+        for other, warns in (("5 MPa", True), ("4 MPa", False), ("3 MPa", False)):
+            keys = {"damage.fracture_energy": "5 J/m^2", "solid.material.youngs_modulus": "0.7 GPa",
+                    "solid.confining_stress": f"[3 MPa, {other}]"}
+            warned = self.foreknown(CONFIGS / "kgd_oblique.yaml", keys)
+            self.assertEqual(any("lies aslant to the stress" in warning for warning in warned), warns, warned)
+
+    def test_a_crack_that_slides_before_fluid_is_there(self):
+        both = ("[{name: hf, path: [0.5 m, 0.48 m, 0.5 m, 0.52 m]}, "
+                "{name: natural, path: [0.25 m, 0.25 m, 0.29 m, 0.27 m]}]")
+        even = {"cracks": both, "damage.fracture_energy": "5 J/m^2", "solid.material.youngs_modulus": "0.7 GPa"}
+        uneven = even | {"solid.confining_stress": "[3 MPa, 6 MPa]"}
+        for keys, warns in ((uneven, True), (uneven | {"solid.crack_friction": "0.6"}, False), (even, False)):
+            warned = self.foreknown(CONFIGS / "kgd_oblique.yaml", keys)
+            self.assertEqual(any("before any fluid reaches it" in warning for warning in warned), warns, warned)
+
+    def test_a_beam_that_swings_out_of_step(self):
+        beam = self.without_reference("cantilever_dynamic.yaml")
+        late = {"time.end": "2 s"}
+        upright = late | {"solid.boundary": "{bottom: {type: fixed}}"}  # no cantilever any more
+        for keys, warns in (({}, False), (late, True), (late | {"body.spacing": "50 mm"}, False),
+                            (late | {"solid.body_force": "[-25 kN/m^3, 0 N/m^3]"}, False), (upright, False)):
+            warned = self.foreknown(beam, keys)
+            self.assertEqual(any("the body swings" in warning for warning in warned), warns, warned)
 
     def test_a_plate_that_is_light_beside_the_water_on_it(self):
         for density, warns in (("150 kg/m^3", True), ("200 kg/m^3", False)):
@@ -340,6 +374,11 @@ class Validity(RunTest):
         steadied = {"fluid.artificial_viscosity": "0.1", "time.end": "1 s"}
         self.assert_warns(channel, steadied)
         self.assert_warns(channel, steadied | {"fluid.viscosity": "20 cP"}, "artificial viscosity takes up")
+        # The dam break soon after its gate opened, and of water as stiff as to be treacle between points so far apart.
+        dam = self.without_reference("dam_break.yaml")
+        soon = {"fluid.spacing": "5.715 mm", "time.end": "60 ms", "output.interval": "60 ms"}
+        self.assert_warns(dam, soon)
+        self.assert_warns(dam, soon | {"fluid.bulk_modulus": "20 MPa"}, "artificial viscosity takes up")
 
 
 if __name__ == "__main__":
