@@ -215,16 +215,50 @@ void CondensedBody<D>::find_compliance() {
   compliance_ = compliance(0, 0);
 }
 
+template <int D>
+Eigen::MatrixXd CondensedBody<D>::whole_compliance() {
+  const auto count = std::ssize(modes_);
+  Eigen::MatrixXd whole(D * count, D * count);
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b < D; ++b) {
+      whole.block(a * count, b * count, count, count) = whole_compliance(a, b);
+    }
+  }
+  for (Eigen::Index f = 0; f < count; ++f) whole(f, f) += this->pressed_by(static_cast<Index>(f));
+  return whole;
+}
+
+template <int D>
+LowRankChange CondensedBody<D>::compliance_change() {
+  if (partial_.empty()) return {};
+  const auto count = std::ssize(modes_), cuts = static_cast<std::ptrdiff_t>(partial_.count());
+  std::vector<Eigen::Index> facets;
+  for (std::size_t k = 0; k < partial_.count(); ++k) facets.push_back(partial_.at(k).facet);
+  Eigen::MatrixXd by_own(D * count, D * cuts), at_own = by_own;
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b < D; ++b) {
+      by_own.block(a * count, b * cuts, count, cuts) = whole_compliance(a, b)(Eigen::all, facets);
+      at_own.block(a * count, b * cuts, count, cuts) =
+          whole_compliance(b, a)(facets, Eigen::all).transpose();
+    }
+  }
+  return partial_.change(by_own, at_own);
+}
+
 /// What openings put back apart.
 template <int D>
 const Eigen::MatrixXd& CondensedBody<D>::whole_compliance(int jump, int traction) {
   Eigen::MatrixXd& compliance = whole_compliance_[jump * D + traction];
   if (compliance.size() > 0) return compliance;
   const Eigen::Index count = static_cast<Eigen::Index>(modes_.size());
+  std::vector<Mode> modes = modes_;
+  for (std::size_t k = 0; k < partial_.count(); ++k) {
+    modes[partial_.at(k).facet] = mode_of(jumps_[partial_.at(k).facet]);
+  }
   Eigen::MatrixXd response(inverse_->block().rows(), count);
   for (Eigen::Index g = 0; g < count; ++g) {
     response.col(g).setZero();
-    for (const auto& [place, coefficient] : modes_[g][traction]) {
+    for (const auto& [place, coefficient] : modes[g][traction]) {
       response.col(g) += jumps_[g].area * coefficient * inverse_->block().col(place);
     }
   }
@@ -232,7 +266,7 @@ const Eigen::MatrixXd& CondensedBody<D>::whole_compliance(int jump, int traction
   for (Eigen::Index f = 0; f < count; ++f) {
     for (Eigen::Index g = 0; g < count; ++g) {
       double sum = 0.0;
-      for (const auto& [place, c] : modes_[f][jump]) sum += c * response(place, g);
+      for (const auto& [place, c] : modes[f][jump]) sum += c * response(place, g);
       compliance(f, g) = sum;
     }
   }

@@ -51,6 +51,8 @@ class CondensedBody final : public CrackedBody<D> {
   /// d(free_opening)/d(pressure) [m/Pa].
   const Eigen::MatrixXd& compliance() const { return compliance_; }
   Eigen::MatrixXd compliance(int jump, int traction) override;
+  Eigen::MatrixXd whole_compliance() override;
+  LowRankChange compliance_change() override;
   double intensity_at_fixed_volume(Index facet) override;
   std::optional<double> find_even_answers(std::span<const Index> faces,
                                           std::span<const Index> named,

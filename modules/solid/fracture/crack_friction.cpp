@@ -19,13 +19,19 @@ void CrackFriction::start(const CrackedBody<2>& body) {
   }
   dissipation_ = elastic_energy_ = 0.0;
   version_.reset();
+  partial_version_.reset();
 }
 
 /// Facets that came change how all answer.
 void CrackFriction::follow(CrackedBody<2>& body) {
-  const std::pair version{body.version(), body.partial_version()};
-  if (version_ == version) return;
-  version_ = version;
+  if (version_ == body.version() && partial_version_ == body.partial_version()) return;
+  if (version_ != body.version()) take(body);
+  version_ = body.version();
+  partial_version_ = body.partial_version();
+  contact_.change(body.compliance_change());
+}
+
+void CrackFriction::take(CrackedBody<2>& body) {
   const auto count = static_cast<Eigen::Index>(body.jumps().size());
   layer_.clear();
   for (const FaceJump<2>& jump : body.jumps()) {
@@ -35,10 +41,9 @@ void CrackFriction::follow(CrackedBody<2>& body) {
     }
     layer_.push_back(jump.reach * softness);
   }
-  compliance_.resize(2 * count, 2 * count);
-  compliance_ << body.compliance(0, 0), body.compliance(0, 1), body.compliance(1, 0),
-      body.compliance(1, 1);
-  for (Eigen::Index f = 0; f < count; ++f) compliance_(count + f, count + f) += layer_[f];
+  Eigen::MatrixXd compliance = body.whole_compliance();
+  for (Eigen::Index f = 0; f < count; ++f) compliance(count + f, count + f) += layer_[f];
+  contact_.take(std::move(compliance));
 }
 
 /// What the faces did when the last window ended; new ones are apart.
@@ -68,8 +73,8 @@ CrackedBody<2>::Faces CrackFriction::faces(CrackedBody<2>& body, const Eigen::Ve
   }
   FrictionalContact contact;
   try {
-    contact = solve_frictional_contact(compliance_, jump, coefficient_, 1e-14 * body.spacing(),
-                                       last_states(static_cast<std::size_t>(count)));
+    contact = contact_.solve(jump, coefficient_, 1e-14 * body.spacing(),
+                             last_states(static_cast<std::size_t>(count)));
   } catch (const std::runtime_error& error) {
     throw NumericalError("face_shear", "the faces of the cracks", t, error.what());
   }
@@ -87,8 +92,9 @@ CrackedBody<2>::Faces CrackFriction::faces(CrackedBody<2>& body, const Eigen::Ve
 Eigen::VectorXd CrackFriction::opening_by(CrackedBody<2>& body, std::span<const double> shear) {
   follow(body);
   const auto count = static_cast<Eigen::Index>(body.jumps().size());
-  const auto borne = static_cast<Eigen::Index>(shear.size());
-  return compliance_.block(0, count, count, borne) * view(shear);
+  Eigen::VectorXd traction = Eigen::VectorXd::Zero(2 * count);
+  traction.segment(count, std::ssize(shear)) = view(shear);
+  return contact_.times(traction).head(count);
 }
 
 /// While faces slide the shear is at its limit, which goes evenly from what it was to what it is;

@@ -55,12 +55,13 @@ class CrackFriction {
   double dissipation_ = 0.0, elastic_energy_ = 0.0;
 
   void follow(CrackedBody<2>& body);
+  void take(CrackedBody<2>& body);
   std::vector<PairState> last_states(std::size_t count) const;
 
-  Eigen::MatrixXd compliance_;  ///< openings, then slips, by pressures, then shears [m/Pa]
-  std::vector<double> layer_;   ///< by facet: jump by shear of the rock that it is over [m/Pa]
+  FrictionalContactSolver contact_;  ///< openings, then slips, by pressures, then shears [m/Pa]
+  std::vector<double> layer_;        ///< by facet: jump by shear of the rock that it is over [m/Pa]
   /// Of the body that it is of, and of its partial cuts.
-  std::optional<std::pair<std::uint64_t, std::uint64_t>> version_;
+  std::optional<std::uint64_t> version_, partial_version_;
 };
 
 }  // namespace perifrac

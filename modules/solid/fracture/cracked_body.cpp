@@ -35,6 +35,16 @@ Eigen::VectorXd CrackedBody<D>::areas() const {
 }
 
 template <int D>
+Eigen::MatrixXd CrackedBody<D>::whole_compliance() {
+  const auto count = std::ssize(jumps_);
+  Eigen::MatrixXd whole(D * count, D * count);
+  for (int a = 0; a < D; ++a) {
+    for (int b = 0; b < D; ++b) whole.block(a * count, b * count, count, count) = compliance(a, b);
+  }
+  return whole;
+}
+
+template <int D>
 std::vector<std::vector<Index>> CrackedBody<D>::loose_pieces() {
   return find_loose_pieces<D>(*elastic_, *family_, free_unknowns_);
 }

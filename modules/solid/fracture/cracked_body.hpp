@@ -95,6 +95,10 @@ class CrackedBody : public CutBody<D> {
   /// What faces do along one axis of the facets' frames (0: normal) by tractions along another
   /// [m/Pa]. Openings are mean normal jumps and what pressed_by() puts back.
   virtual Eigen::MatrixXd compliance(int jump, int traction) = 0;
+  /// The same of all axes, one beside and below the other, were partial cuts whole,
+  virtual Eigen::MatrixXd whole_compliance();
+  /// and what comes to it as they are.
+  virtual LowRankChange compliance_change() { return {}; }
 
   // Of a pressure on the faces and, unless it is empty, a shear along their (first) tangent:
 

@@ -193,6 +193,58 @@ void PartialCuts::hold(Eigen::MatrixXd& compliance, int jump, int traction) {
   }
 }
 
+std::vector<Eigen::Index> PartialCuts::own_places() const {
+  std::vector<Eigen::Index> own;
+  for (Eigen::Index a = 0; a < std::ssize(rows_); ++a) {
+    for (const Part& part : parts_) own.push_back(a * area_.size() + part.at.facet);
+  }
+  return own;
+}
+
+LowRankChange PartialCuts::change(const Eigen::MatrixXd& by_own, const Eigen::MatrixXd& at_own) {
+  const auto facets = area_.size(), axes = std::ssize(rows_), cuts = std::ssize(parts_);
+  const auto among = gram_.rows(), size = axes * facets;
+  Eigen::MatrixXd rows(size, among), of_cuts(among, axes * cuts), acting = of_cuts;
+  Eigen::VectorXd area(size);
+  for (Eigen::Index a = 0; a < axes; ++a) {
+    const Answer& along = answer(static_cast<int>(a));
+    rows.middleRows(a * facets, facets) = rows_[a];
+    area.segment(a * facets, facets) = area_;
+    of_cuts.middleCols(a * cuts, cuts) = along.of_cuts;
+    acting.middleCols(a * cuts, cuts) = along.acting;
+  }
+  // Of all faces by the cuts' own, and of those by the others.
+  const std::vector<Eigen::Index> own = own_places();
+  const Eigen::MatrixXd moved = rows * of_cuts;
+  Eigen::MatrixXd columns = moved * area(own).asDiagonal();
+  Eigen::MatrixXd turned = area.asDiagonal() * moved;
+  columns(own, Eigen::all) = acting.transpose() * (gram_ * of_cuts) * area(own).asDiagonal();
+  for (Eigen::Index k = 0; k < cuts; ++k) {
+    const Part& part = parts_[k];
+    for (Eigen::Index a = 0; a < axes; ++a) {
+      for (Eigen::Index b = 0; b < axes; ++b) {
+        columns(own[a * cuts + k], b * cuts + k) += part.area * part.own(a, b);
+      }
+    }
+    columns(own[k], k) += (part.at.opened - 1.0) * part.pressed;
+  }
+  // Of others by others; what that says of the own ones goes off again.
+  LowRankChange change;
+  change.of_basis = -taken(Eigen::MatrixXd::Identity(among, among));
+  const Eigen::MatrixXd right = area.asDiagonal() * rows;
+  columns -= by_own + rows * (change.of_basis * right(own, Eigen::all).transpose());
+  turned -= at_own + right * (rows(own, Eigen::all) * change.of_basis).transpose();
+  turned(own, Eigen::all).setZero();
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size, std::ssize(own));
+  for (Eigen::Index k = 0; k < std::ssize(own); ++k) unit(own[k], k) = 1.0;
+  change.left.resize(size, 2 * unit.cols());
+  change.left << columns, unit;
+  change.right.resize(size, among + 2 * unit.cols());
+  change.right << right, unit, turned;
+  change.basis = std::move(rows);
+  return change;
+}
+
 CutLoad PartialCuts::load(std::size_t k, const Eigen::VectorXd& block,
                           const Eigen::VectorXd& traction) const {
   const Part& part = parts_[k];

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "core/base/points.hpp"
+#include "core/solvers/frictional_contact.hpp"
 
 namespace perifrac {
 
@@ -75,6 +76,12 @@ class PartialCuts {
   /// Takes a compliance of the cut body, jumps along one axis by tractions along another, to that
   /// of the held one.
   void hold(Eigen::MatrixXd& compliance, int jump, int traction);
+  /// Places of the cuts' own faces where all axes are beside and below one another.
+  std::vector<Eigen::Index> own_places() const;
+  /// What comes to such a compliance, what openings put back in it. `by_own`, `at_own`: those of
+  /// the cut body by loads on own faces, and of them by all loads, without what openings put back;
+  /// a column an own place.
+  LowRankChange change(const Eigen::MatrixXd& by_own, const Eigen::MatrixXd& at_own);
   /// What moves of the block a force on each cut's unknowns does, in the order of an inner basis.
   const Eigen::MatrixXd& columns() const { return columns_; }
 

@@ -122,5 +122,33 @@ TEST(PartialCuts, DoNotDependOnTheirOrder) {
   EXPECT_NEAR(one(whole - 1, whole - 1), one(whole - 2, whole - 2), 1e-9 * one.maxCoeff());
 }
 
+/// What friction solves with: of all axes, told as a change of few columns.
+TEST(PartialCuts, ChangeWhatTheCutBodyAnswersByFewColumns) {
+  const auto all = CutPlate::first(whole, 0.3);
+  CrackedPlate plate(rows_of_plate, {all.begin() + 1, all.end() - 1}, 0.25);
+  CrackedBody<2>& body = *plate.cracked;
+  ASSERT_TRUE(body.cut(all.front()) && body.cut(all.back()));
+  const auto stacked = [&] {
+    Eigen::MatrixXd all_axes(2 * whole, 2 * whole);
+    for (const int a : {0, 1}) {
+      for (const int b : {0, 1}) {
+        all_axes.block(a * whole, b * whole, whole, whole) = body.compliance(a, b);
+      }
+    }
+    return all_axes;
+  };
+  const Eigen::MatrixXd cut = stacked();
+  EXPECT_EQ(body.compliance_change().right.size(), 0);
+  body.set_partial(std::array{PartialCut{whole - 2, 0.4}, PartialCut{whole - 1, 0.9}});
+  EXPECT_EQ(body.whole_compliance(), cut);
+  const LowRankChange change = body.compliance_change();
+  Eigen::MatrixXd left(2 * whole, change.right.cols());
+  left << change.basis * change.of_basis, change.left;
+  const Eigen::MatrixXd held = stacked();
+  EXPECT_GT((held - cut).cwiseAbs().maxCoeff(), 0.1 * cut.maxCoeff());
+  EXPECT_LE((cut + left * change.right.transpose() - held).cwiseAbs().maxCoeff(),
+            1e-12 * cut.maxCoeff());
+}
+
 }  // namespace
 }  // namespace perifrac::test
