@@ -52,9 +52,13 @@ inline Packet load(const double* values) {
 }
 
 /// values[index[0]], values[index[1]], ... One by one: that beats the machine's own gather.
-inline Packet gather(std::span<const double> values, const Index* index) {
+inline Packet gather(const double* values, const Index* index) {
   return [&]<int... l>(std::integer_sequence<int, l...>) { return Packet{values[index[l]]...}; }
   (std::make_integer_sequence<int, packet_size>{});
+}
+
+inline Packet gather(std::span<const double> values, const Index* index) {
+  return gather(values.data(), index);
 }
 
 /// Of every pair of rows that many apart, the parts that lie on the wrong side of the diagonal.

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/for_each_point.hpp"
 #include "core/base/packet.hpp"
 #include "core/base/points.hpp"
 
@@ -40,33 +41,45 @@ class NeighbourRows {
   using Packets = std::array<Packet, N>;
 
   void set(const std::array<std::span<const double>, N>& columns) {
-    const std::size_t count = columns[0].size();
-    assert(std::ranges::all_of(columns, [&](const auto& one) { return one.size() >= count; }));
-    rows_.resize(width * count);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (int k = 0; k < N; ++k) rows_[width * i + k] = columns[k][i];
-    }
+    resize(static_cast<Index>(columns[0].size()));
+    put<0>(columns);
   }
 
-  [[gnu::always_inline]] Packets gather(const Index* j) const {
-    Packets result;
-    gather_from<0>(j, result);
+  void resize(Index count) { rows_.resize(width * count); }
+  /// The numbers from `first` on.
+  template <int first, std::size_t count>
+  void put(const std::array<std::span<const double>, count>& columns) {
+    static_assert(first + count <= N);
+    const auto points = static_cast<Index>(rows_.size() / width);
+    assert(
+        std::ranges::all_of(columns, [&](const auto& one) { return std::ssize(one) >= points; }));
+    for_each_point(points, [&](Index i) {
+      double* const row = &rows_[width * i + first];
+      for (std::size_t k = 0; k < count; ++k) row[k] = columns[k][i];
+    });
+  }
+
+  /// Of points j[0], j[1], ..., the first `count`.
+  template <int count = N>
+  [[gnu::always_inline]] std::array<Packet, count> gather(const Index* j) const {
+    std::array<Packet, count> result;
+    gather_from<0, count>(j, result);
     return result;
   }
 
  private:
   static constexpr std::size_t width = (N + packet_size - 1) / packet_size * packet_size;
 
-  template <int first>
-  [[gnu::always_inline]] void gather_from(const Index* j, Packets& result) const {
-    constexpr int used = std::min(packet_size, N - first);
+  template <int first, int count>
+  [[gnu::always_inline]] void gather_from(const Index* j, std::array<Packet, count>& result) const {
+    constexpr int used = std::min(packet_size, count - first);
     std::array<Packet, packet_size> block;
 #pragma GCC unroll 8
     for (int l = 0; l < packet_size; ++l) block[l] = load(rows_.data() + width * j[l] + first);
     transpose(block);
 #pragma GCC unroll 8
     for (int k = 0; k < used; ++k) result[first + k] = block[k];
-    if constexpr (first + packet_size < N) gather_from<first + packet_size>(j, result);
+    if constexpr (first + packet_size < count) gather_from<first + packet_size, count>(j, result);
   }
 
   std::vector<double, Eigen::aligned_allocator<double>> rows_;

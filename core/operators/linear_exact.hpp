@@ -215,7 +215,7 @@ class LinearExactOperator {
              std::span<double> written = {}) {
     assert(static_cast<Index>(u.size()) == size() && u.size() == result.size());
     if (matrix_) throw std::logic_error("an added stress beside curved ghosts");
-    mirror_.spread(u, field_);
+    look_at(u);
     if constexpr (PacketLaw<Law, D> &&
                   std::invocable<AddStress, PointPacket, const Packets&, Packets&>) {
       if (lattice_) {
@@ -230,6 +230,7 @@ class LinearExactOperator {
     for (int k = 0; k < R * D; ++k) ranks::gather_shares({state(k), state(k) + points}, points);
     ranks::gather_shares(written, points);
     mirror_.fill_conjugate(state_);
+    put_state();
     for_each_shared_point(points, [&](Index i) {
       const std::array<double, R> force = bond_forces(i);
       for (int r = 0; r < R; ++r) result[static_cast<std::size_t>(r) * points + i] = -force[r];
@@ -241,22 +242,35 @@ class LinearExactOperator {
   /// How apply() goes over the bonds, and why.
   std::string path() const {
     if (matrix_) return "a sparse matrix: " + why_no_packets_;
+    if (reads_rows()) return packets_of_bonds() + why_no_packets_;
     if (!lattice_) return "bond by bond: " + why_no_packets_;
     if constexpr (PacketLaw<Law, D>) return lattice_->bonds().path();
     return {};
   }
 
   /// Takes the field that gradient_at() and energy() are of; apply() and gradient() do so too.
-  void look_at(std::span<const double> u) { mirror_.spread(u, field_); }
+  void look_at(std::span<const double> u) {
+    mirror_.spread(u, field_);
+    if (!reads_rows()) return;
+    rows_.resize(family_->node_count());
+    std::array<std::span<const double>, D + R> columns;
+    for (int a = 0; a < D; ++a) columns[a] = family_->position[a];
+    for (int r = 0; r < R; ++r) columns[D + r] = {field(r), family_->volume.size()};
+    rows_.template put<0>(columns);
+  }
 
   /// Gradient of the field at a point.
   Tensor<R, D> gradient_at(Index i) const {
-    return perifrac::gradient_at<R, D>(*family_, moments_.inverse_shape_at(i), field_.data(), i);
+    std::array<double, R> own;
+    for (int r = 0; r < R; ++r) own[r] = field(r)[i];
+    return with_values([&](const auto& values) {
+      return perifrac::gradient_at<R, D>(*family_, moments_.inverse_shape_at(i), values, own, i);
+    });
   }
 
   /// Gradient of the field at every point: R * D blocks of point_count, block r * D + b.
   void gradient(std::span<const double> u, std::span<double> result) {
-    mirror_.spread(u, field_);
+    look_at(u);
     if constexpr (PacketLaw<Law, D>) {
       if (lattice_) return lattice_->gradient(field_, result);
     }
@@ -287,6 +301,31 @@ class LinearExactOperator {
  private:
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   using Packets = std::array<Packet, static_cast<std::size_t>(R* D)>;
+
+  /// Position, field, bond stiffness, state.
+  static constexpr int value_count = D + R + 1 + R * D;
+
+  /// In 2D bonds are so few that columns are as fast.
+  bool reads_rows() const { return D == 3 && !lattice_ && !matrix_; }
+  template <class Use>
+  auto with_values(Use&& use) const {
+    if constexpr (D == 3) {
+      if (reads_rows()) return use(rows_);
+    }
+    NodeColumns<value_count> columns;
+    for (int a = 0; a < D; ++a) columns.column[a] = family_->position[a].data();
+    for (int r = 0; r < R; ++r) columns.column[D + r] = field(r);
+    columns.column[D + R] = bond_stiffness_.data();
+    for (int k = 0; k < R * D; ++k) columns.column[D + R + 1 + k] = state(k);
+    return use(columns);
+  }
+  void put_state() {
+    if (!reads_rows()) return;
+    std::array<std::span<const double>, 1 + R * D> columns;
+    columns[0] = bond_stiffness_;
+    for (int k = 0; k < R * D; ++k) columns[1 + k] = {state(k), bond_stiffness_.size()};
+    rows_.template put<D + R>(columns);
+  }
 
   void take_in_lattice() {
     if constexpr (PacketLaw<Law, D>) {
@@ -325,6 +364,9 @@ class LinearExactOperator {
   double* state(int k) {
     return state_.data() + static_cast<std::size_t>(k) * family_->node_count();
   }
+  const double* state(int k) const {
+    return state_.data() + static_cast<std::size_t>(k) * family_->node_count();
+  }
 
   /// What a point contributes to the force of its bonds: (C : F K^-1 - s F) xi + s (u_j - u_i).
   template <class AddStress>
@@ -337,29 +379,27 @@ class LinearExactOperator {
   }
 
   std::array<double, R> bond_forces(Index i) const {
-    const Index nodes = family_->node_count();
-    const double* const a = state_.data();
-    const double* const u = field_.data();
-    const double* const s = bond_stiffness_.data();
-    const double own_stiffness = s[i];
+    const double own_stiffness = bond_stiffness_[i];
     Tensor<R, D> own_state;
     std::array<double, R> own;
-    for (int k = 0; k < R * D; ++k) own_state[k] = a[static_cast<std::size_t>(k) * nodes + i];
-    for (int r = 0; r < R; ++r) own[r] = u[static_cast<std::size_t>(r) * nodes + i];
-    std::array<double, R> force =
-        sum_over_bonds<R>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
-          std::array<double, R> t;
-          const double stiffness = own_stiffness + s[j];
-          for (int r = 0; r < R; ++r) {
-            t[r] = stiffness * (u[static_cast<std::size_t>(r) * nodes + j] - own[r]);
-            for (int b = 0; b < D; ++b) {
-              const std::size_t k = r * D + b;
-              t[r] += (own_state[k] + a[k * nodes + j]) * xi[b];
+    for (int k = 0; k < R * D; ++k) own_state[k] = state(k)[i];
+    for (int r = 0; r < R; ++r) own[r] = field(r)[i];
+    std::array<double, R> force = with_values([&](const auto& values) {
+      return sum_over_bonds<R, value_count>(
+          *family_, i, values, [&](auto, const auto& other, const auto& xi, const auto& w) {
+            std::array<std::decay_t<decltype(w)>, R> t;
+            const auto stiffness = own_stiffness + other[D + R];
+            for (int r = 0; r < R; ++r) {
+              t[r] = stiffness * (other[D + r] - own[r]);
+              for (int b = 0; b < D; ++b) {
+                const int k = r * D + b;
+                t[r] += (own_state[k] + other[D + R + 1 + k]) * xi[b];
+              }
+              t[r] *= w;
             }
-            t[r] *= w;
-          }
-          return t;
-        });
+            return t;
+          });
+    });
     for (double& component : force) component *= family_->volume[i];
     return force;
   }
@@ -406,6 +446,7 @@ class LinearExactOperator {
   Law law_;
   std::vector<double> field_;           ///< u on real points and ghosts
   std::vector<double> state_;           ///< store_state() on real points and ghosts
+  NeighbourRows<value_count> rows_;     ///< of all that, where reads_rows()
   std::vector<double> bond_stiffness_;  ///< s_i on real points and ghosts
   using Lattice = std::conditional_t<PacketLaw<Law, D>, LinearExactLattice<D, R>, std::monostate>;
   std::optional<Lattice> lattice_;  ///< where bonds lie on one

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <type_traits>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -28,21 +29,15 @@ Tensor<R, D> times_inverse_shape(const Tensor<R, D>& t, const Tensor<D, D>& inve
 }
 
 /// The nonlocal gradient (paper Eq 8) of a field at point i, sum_j w_ij (u_j - u_i) (x) K_i^-1 xi;
-/// `field`: R blocks of nodes.
-template <int R, int D>
+/// `own`: the field at i; `values`: of nodes, for sum_over_bonds(), the field's from D on.
+template <int R, int D, class Values>
 Tensor<R, D> gradient_at(const Family<D>& family, const Tensor<D, D>& inverse_shape,
-                         const double* field, Index i) {
-  std::array<const double*, R> u;
-  std::array<double, R> own;
-  for (int r = 0; r < R; ++r) {
-    u[r] = field + static_cast<std::size_t>(r) * family.node_count();
-    own[r] = u[r][i];
-  }
-  const Tensor<R, D> moment =
-      sum_over_bonds<R * D>(family, i, [&](Index j, const Vector<D>& xi, double w) {
-        Tensor<R, D> t;
+                         const Values& values, const std::array<double, R>& own, Index i) {
+  const Tensor<R, D> moment = sum_over_bonds<R * D, D + R>(
+      family, i, values, [&](auto, const auto& other, const auto& xi, const auto& w) {
+        std::array<std::decay_t<decltype(w)>, R * D> t;
         for (int r = 0; r < R; ++r) {
-          const double difference = w * (u[r][j] - own[r]);
+          const auto difference = w * (other[D + r] - own[r]);
           for (int b = 0; b < D; ++b) t[r * D + b] = difference * xi[b];
         }
         return t;

@@ -18,6 +18,10 @@ namespace {
 template <int D>
 constexpr double bonds_per_shear_modulus = D == 2 ? 8.0 : 15.0;  // c / mu
 
+/// Of one node, or of a packet.
+double number_of(const double* values, Index j) { return values[j]; }
+Packet number_of(const double* values, const Index* j) { return gather(values, j); }
+
 }  // namespace
 
 template <int D>
@@ -107,7 +111,7 @@ template <int D>
 void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
                              std::span<double> force, std::span<double> dilatation) {
   assert(static_cast<Index>(u.size()) == size() && u.size() == force.size());
-  mirror_.spread(u, field_);
+  take(u);
   with_pore_stress(pore, [&](auto pore_stress) {
     if (initial_stress_) {
       find_forces<true>(force, dilatation, pore_stress);
@@ -120,7 +124,7 @@ void LpsElasticity<D>::apply(std::span<const double> u, const PoreStress& pore,
 template <int D>
 void LpsElasticity<D>::apply_stiffness(std::span<const double> u, std::span<double> force,
                                        std::span<double> dilatation) {
-  mirror_.spread(u, field_);
+  take(u);
   with_pore_stress({}, [&](auto none) { find_forces<false>(force, dilatation, none); });
 }
 
@@ -129,10 +133,41 @@ void LpsElasticity<D>::add_pore_force(std::span<const double> pore_stress,
                                       std::span<double> force) {
   const std::vector<double> rest(size(), 0.0);
   std::vector<double> inner(size());
-  mirror_.spread(rest, field_);
+  take(rest);
   with_pore_stress({.value = pore_stress},
                    [&](auto pore_stress_at) { find_forces<false>(inner, {}, pore_stress_at); });
   for (std::size_t k = 0; k < inner.size(); ++k) force[k] -= inner[k];
+}
+
+template <int D>
+void LpsElasticity<D>::take(std::span<const double> u) {
+  mirror_.spread(u, field_);
+  if (!reads_rows()) return;
+  const auto nodes = static_cast<std::size_t>(family_->node_count());
+  rows_.resize(family_->node_count());
+  std::array<std::span<const double>, 2 * D> columns;
+  for (int a = 0; a < D; ++a) {
+    columns[a] = family_->position[a];
+    columns[D + a] = std::span(field_).subspan(a * nodes, nodes);
+  }
+  rows_.template put<0>(columns);
+}
+
+/// use(values) of all nodes: position, displacement, volume state, bond stiffness.
+template <int D>
+template <class Use>
+auto LpsElasticity<D>::with_values(Use&& use) const {
+  if constexpr (D == 3) {
+    if (reads_rows()) return use(rows_);
+  }
+  NodeColumns<value_count> columns;
+  for (int a = 0; a < D; ++a) {
+    columns.column[a] = family_->position[a].data();
+    columns.column[D + a] = field_.data() + static_cast<std::size_t>(a) * family_->node_count();
+  }
+  columns.column[2 * D] = volume_state_.data();
+  columns.column[2 * D + 1] = bond_stiffness_.data();
+  return use(columns);
 }
 
 /// Of the displacement in `field_`.
@@ -147,6 +182,10 @@ void LpsElasticity<D>::find_forces(std::span<double> force, std::span<double> di
         dilatation, volume_state_, force.first(static_cast<std::size_t>(D) * points));
   } else {
     store_state(dilatation, pore_stress);
+    if (reads_rows()) {
+      rows_.template put<2 * D>(
+          std::array<std::span<const double>, 2>{volume_state_, bond_stiffness_});
+    }
     for_each_shared_point(points, [&](Index i) {
       const Vector<D> f = bond_forces<initially_stressed>(i);
       set_at(force, points, i, -f);
@@ -176,16 +215,15 @@ void LpsElasticity<D>::store_state(std::span<double> dilatation, PoreStressAt&& 
 
 template <int D>
 double LpsElasticity<D>::dilatation_at(Index i) const {
-  const Index nodes = family_->node_count();
-  const double* const u = field_.data();
-  Vector<D> own;
-  for (int r = 0; r < D; ++r) own[r] = u[static_cast<std::size_t>(r) * nodes + i];
-  const auto sum = sum_over_bonds<1>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
-    double along = 0.0;
-    for (int r = 0; r < D; ++r) {
-      along += xi[r] * (u[static_cast<std::size_t>(r) * nodes + j] - own[r]);
-    }
-    return std::array<double, 1>{w * along};
+  const Vector<D> own = vector_at<D>(field_, family_->node_count(), i);
+  const auto sum = with_values([&](const auto& values) {
+    return sum_over_bonds<1, 2 * D>(*family_, i, values,
+                                    [&](auto, const auto& other, const auto& xi, const auto& w) {
+                                      std::decay_t<decltype(w)> along{};
+                                      for (int r = 0; r < D; ++r)
+                                        along += xi[r] * (other[D + r] - own[r]);
+                                      return std::array{w * along};
+                                    });
   });
   return dilatation_scale_[i] * sum[0];
 }
@@ -195,35 +233,35 @@ template <int D>
 template <bool initially_stressed>
 Vector<D> LpsElasticity<D>::bond_forces(Index i) const {
   const std::size_t nodes = family_->node_count();
-  const double* const u = field_.data();
-  const double* const volume_state = volume_state_.data();
-  const double* const stiffness = bond_stiffness_.data();
   const double* const initial = initial_state_.data();
-  const double own_state = volume_state[i];
-  const double own_stiffness = stiffness[i];
-  Vector<D> own;
-  for (int r = 0; r < D; ++r) own[r] = u[r * nodes + i];
+  const double own_state = volume_state_[i], own_stiffness = bond_stiffness_[i];
+  const Vector<D> own = vector_at<D>(field_, nodes, i);
   std::array<double, initially_stressed ? D * D : 0> own_initial;
   for (std::size_t k = 0; k < own_initial.size(); ++k) own_initial[k] = initial[k * nodes + i];
-  Vector<D> force = sum_over_bonds<D>(*family_, i, [&](Index j, const Vector<D>& xi, double w) {
-    double along = 0.0, square = 0.0;
-    for (int r = 0; r < D; ++r) {
-      along += xi[r] * (u[r * nodes + j] - own[r]);
-      square += xi[r] * xi[r];
-    }
-    const double pull =
-        own_state + volume_state[j] + (own_stiffness + stiffness[j]) * along / square;
-    std::array<double, D> t;
-    for (int r = 0; r < D; ++r) {
-      t[r] = pull * xi[r];
-      if constexpr (initially_stressed) {
-        for (int b = 0; b < D; ++b) {
-          t[r] += (own_initial[r * D + b] + initial[(r * D + b) * nodes + j]) * xi[b];
-        }
-      }
-      t[r] *= w;
-    }
-    return t;
+  Vector<D> force = with_values([&](const auto& values) {
+    return sum_over_bonds<D, value_count>(
+        *family_, i, values, [&](auto j, const auto& other, const auto& xi, const auto& w) {
+          using Number = std::decay_t<decltype(w)>;
+          Number along{}, square{};
+          for (int r = 0; r < D; ++r) {
+            along += xi[r] * (other[D + r] - own[r]);
+            square += xi[r] * xi[r];
+          }
+          const Number pull =
+              own_state + other[2 * D] + (own_stiffness + other[2 * D + 1]) * along / square;
+          std::array<Number, D> t;
+          for (int r = 0; r < D; ++r) {
+            t[r] = pull * xi[r];
+            if constexpr (initially_stressed) {
+              for (int b = 0; b < D; ++b) {
+                const int k = r * D + b;
+                t[r] += (own_initial[k] + number_of(initial + k * nodes, j)) * xi[b];
+              }
+            }
+            t[r] *= w;
+          }
+          return t;
+        });
   });
   for (double& component : force) component *= family_->volume[i];
   return force;
@@ -316,7 +354,7 @@ Tensor<D, D> LpsElasticity<D>::stress_at(Index i, const Tensor<D, D>&) const {
 
 template <int D>
 void LpsElasticity<D>::stress(std::span<const double> u, std::span<double> stress) {
-  mirror_.spread(u, field_);
+  take(u);
   const Index points = family_->point_count;
   if (lattice_) {
     lattice_->find_stress(field_, stress);
@@ -336,7 +374,10 @@ void LpsElasticity<D>::stress(std::span<const double> u, std::span<double> stres
 
 template <int D>
 Tensor<D, D> LpsElasticity<D>::gradient_at(Index i) const {
-  return perifrac::gradient_at<D, D>(*family_, inverse_shape_at(i), field_.data(), i);
+  const Vector<D> own = vector_at<D>(field_, family_->node_count(), i);
+  return with_values([&](const auto& values) {
+    return perifrac::gradient_at<D, D>(*family_, inverse_shape_at(i), values, own, i);
+  });
 }
 
 template <int D>
@@ -378,7 +419,8 @@ Eigen::VectorXd LpsElasticity<D>::force_of_stress(const Eigen::VectorXd& stress)
 
 template <int D>
 std::string LpsElasticity<D>::path() const {
-  return lattice_ ? lattice_->bonds().path() : "bond by bond: " + why_no_packets_;
+  if (lattice_) return lattice_->bonds().path();
+  return (reads_rows() ? packets_of_bonds() : "bond by bond: ") + why_no_packets_;
 }
 
 template class LpsElasticity<2>;

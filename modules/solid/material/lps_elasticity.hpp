@@ -49,7 +49,13 @@ class LpsElasticity final : public BreakableElasticity<D> {
   const IsotropicElasticity<D>& law(Index i) const override { return law_.at(i); }
 
  private:
-  void take(std::span<const double> u) override { mirror_.spread(u, field_); }
+  static constexpr int value_count = 2 * D + 2;
+
+  void take(std::span<const double> u) override;
+  /// In 2D bonds are so few that columns are as fast.
+  bool reads_rows() const { return D == 3 && !lattice_; }
+  template <class Use>
+  auto with_values(Use&& use) const;
   Tensor<D, D> gradient_at(Index i) const override;
   Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const override;
   double point_energy(Index i, std::span<const double> u) const override;
@@ -85,6 +91,7 @@ class LpsElasticity final : public BreakableElasticity<D> {
   std::vector<double> dilatation_scale_;  ///< d / m_i
   std::vector<double> bond_stiffness_;    ///< c / m_i on real points; 0 on ghosts
   std::vector<double> volume_state_;      ///< d s_i / m_i, s = dW/dtheta; 0 on ghosts
+  NeighbourRows<value_count> rows_;       ///< of with_values(), where reads_rows()
   std::vector<double> initial_state_;     ///< initial stress K_i^-1 on real points and ghosts
   std::vector<Vector<D>> image_sign_;     ///< of ghosts: see image_forces()
   std::vector<Index> face_points_;        ///< points with a bond to a ghost
