@@ -67,8 +67,9 @@ inline Packet load_weights(const BondWeights::Packed& weight, Index k) {
   (std::make_integer_sequence<int, packet_size>{});
 }
 
-/// The packet of bonds of point i from the k-th on, `first` of them from another packet on: those
-/// have no weight. Fewer bonds than a packet has are filled up with the last.
+/// Of a packet of the bonds of point i, from the k-th on, the other ends `j` and the weights: 0 for
+/// the first that an earlier packet had, `taken` of them. k < 0: there are fewer than a packet
+/// holds; the last is repeated, without weight.
 template <class Weight>
 [[gnu::always_inline]] inline Packet take_bonds(Index i, std::span<const Index> steps,
                                                 const Weight& weight, Index k, Index taken,
