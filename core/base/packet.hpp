@@ -118,4 +118,13 @@ inline double total(const Packet& packet) {
   return part[0];
 }
 
+/// Of several packets. Unrolled, so that they stay in registers.
+template <std::size_t K>
+[[gnu::always_inline]] inline std::array<double, K> totals(const std::array<Packet, K>& packets) {
+  std::array<double, K> result;
+#pragma GCC unroll 64
+  for (std::size_t k = 0; k < K; ++k) result[k] = total(packets[k]);
+  return result;
+}
+
 }  // namespace perifrac

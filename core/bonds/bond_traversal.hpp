@@ -113,10 +113,7 @@ template <int K, int used, int D, class Weight, int N, class Term>
 #pragma GCC unroll 64
     for (int k = 0; k < K; ++k) sum[k] += t[k];
   }
-  std::array<double, K> result;
-#pragma GCC unroll 64
-  for (int k = 0; k < K; ++k) result[k] = total(sum[k]);
-  return result;
+  return totals(sum);
 }
 
 /// What path() of an operator says of that.

@@ -47,10 +47,7 @@ inline std::array<double, K> sum_over_packets(const Neighbours& neighbours, Inde
 #pragma GCC unroll 64
     for (int k = 0; k < K; ++k) sum[k] += t[k];
   }
-  std::array<double, K> result;
-#pragma GCC unroll 64
-  for (int k = 0; k < K; ++k) result[k] = total(sum[k]);
-  return result;
+  return totals(sum);
 }
 
 /// As sum_over_neighbours(), of NeighbourValues: sums term(brought, y, omega).

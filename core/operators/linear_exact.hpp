@@ -18,6 +18,7 @@
 #include "core/base/small_vector.hpp"
 #include "core/bonds/bond_traversal.hpp"
 #include "core/bonds/mirror_condition.hpp"
+#include "core/bonds/node_values.hpp"
 #include "core/bonds/shape_tensor.hpp"
 #include "core/operators/linear_exact_lattice.hpp"
 #include "core/operators/nonlocal_gradient.hpp"
@@ -70,6 +71,7 @@ class LinearExactOperator {
     } else {
       why_no_packets_ = "the law knows no packets";
     }
+    if (!lattice_ && !matrix_) values_.read_by_rows();
   }
 
   const Family<D>& family() const { return *family_; }
@@ -242,7 +244,7 @@ class LinearExactOperator {
   /// How apply() goes over the bonds, and why.
   std::string path() const {
     if (matrix_) return "a sparse matrix: " + why_no_packets_;
-    if (reads_rows()) return packets_of_bonds() + why_no_packets_;
+    if (values_.reads_rows()) return packets_of_bonds() + why_no_packets_;
     if (!lattice_) return "bond by bond: " + why_no_packets_;
     if constexpr (PacketLaw<Law, D>) return lattice_->bonds().path();
     return {};
@@ -251,19 +253,17 @@ class LinearExactOperator {
   /// Takes the field that gradient_at() and energy() are of; apply() and gradient() do so too.
   void look_at(std::span<const double> u) {
     mirror_.spread(u, field_);
-    if (!reads_rows()) return;
-    rows_.resize(family_->node_count());
     std::array<std::span<const double>, D + R> columns;
     for (int a = 0; a < D; ++a) columns[a] = family_->position[a];
-    for (int r = 0; r < R; ++r) columns[D + r] = {field(r), family_->volume.size()};
-    rows_.template put<0>(columns);
+    for (int r = 0; r < R; ++r) columns[D + r] = {field(r), bond_stiffness_.size()};
+    values_.template put<0>(columns);
   }
 
   /// Gradient of the field at a point.
   Tensor<R, D> gradient_at(Index i) const {
     std::array<double, R> own;
     for (int r = 0; r < R; ++r) own[r] = field(r)[i];
-    return with_values([&](const auto& values) {
+    return values_.with([&](const auto& values) {
       return perifrac::gradient_at<R, D>(*family_, moments_.inverse_shape_at(i), values, own, i);
     });
   }
@@ -305,26 +305,11 @@ class LinearExactOperator {
   /// Position, field, bond stiffness, state.
   static constexpr int value_count = D + R + 1 + R * D;
 
-  /// In 2D bonds are so few that columns are as fast.
-  bool reads_rows() const { return D == 3 && !lattice_ && !matrix_; }
-  template <class Use>
-  auto with_values(Use&& use) const {
-    if constexpr (D == 3) {
-      if (reads_rows()) return use(rows_);
-    }
-    NodeColumns<value_count> columns;
-    for (int a = 0; a < D; ++a) columns.column[a] = family_->position[a].data();
-    for (int r = 0; r < R; ++r) columns.column[D + r] = field(r);
-    columns.column[D + R] = bond_stiffness_.data();
-    for (int k = 0; k < R * D; ++k) columns.column[D + R + 1 + k] = state(k);
-    return use(columns);
-  }
   void put_state() {
-    if (!reads_rows()) return;
     std::array<std::span<const double>, 1 + R * D> columns;
     columns[0] = bond_stiffness_;
     for (int k = 0; k < R * D; ++k) columns[1 + k] = {state(k), bond_stiffness_.size()};
-    rows_.template put<D + R>(columns);
+    values_.template put<D + R>(columns);
   }
 
   void take_in_lattice() {
@@ -384,7 +369,7 @@ class LinearExactOperator {
     std::array<double, R> own;
     for (int k = 0; k < R * D; ++k) own_state[k] = state(k)[i];
     for (int r = 0; r < R; ++r) own[r] = field(r)[i];
-    std::array<double, R> force = with_values([&](const auto& values) {
+    std::array<double, R> force = values_.with([&](const auto& values) {
       return sum_over_bonds<R, value_count>(
           *family_, i, values, [&](auto, const auto& other, const auto& xi, const auto& w) {
             std::array<std::decay_t<decltype(w)>, R> t;
@@ -446,7 +431,7 @@ class LinearExactOperator {
   Law law_;
   std::vector<double> field_;           ///< u on real points and ghosts
   std::vector<double> state_;           ///< store_state() on real points and ghosts
-  NeighbourRows<value_count> rows_;     ///< of all that, where reads_rows()
+  NodeValues<D, value_count> values_;   ///< all that
   std::vector<double> bond_stiffness_;  ///< s_i on real points and ghosts
   using Lattice = std::conditional_t<PacketLaw<Law, D>, LinearExactLattice<D, R>, std::monostate>;
   std::optional<Lattice> lattice_;  ///< where bonds lie on one

@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/solvers/low_rank_change.hpp"
+
 namespace perifrac {
 
 /// Pairs of faces in 2D that may touch, stick and slide: Signorini's conditions with Coulomb's
@@ -17,11 +19,6 @@ struct FrictionalContact {
 
 /// What a pair does; it slides forward where y_t > 0.
 enum class PairState { open, stick, forward, backward };
-
-/// A change of few columns, [basis of_basis, left] right^T. The basis is the same again and again.
-struct LowRankChange {
-  Eigen::MatrixXd basis, of_basis, left, right;
-};
 
 /// Finds x and y = q + M x such that in every pair the normal components are x >= 0, y >= 0, one of
 /// the two 0, and of the tangential ones |x_t| <= coefficient * x_n, where y_t is 0 (the faces

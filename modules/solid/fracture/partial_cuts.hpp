@@ -8,7 +8,7 @@
 #include <Eigen/LU>
 
 #include "core/base/points.hpp"
-#include "core/solvers/frictional_contact.hpp"
+#include "core/solvers/low_rank_change.hpp"
 
 namespace perifrac {
 

@@ -58,6 +58,7 @@ LpsElasticity<D>::LpsElasticity(std::shared_ptr<const Family<D>> family,
   }
   if (initial_stress_) mirror_.fill_conjugate(initial_state_);
   lattice_ = LpsLattice<D>::find(*family_, why_no_packets_);
+  if (!lattice_) values_.read_by_rows();
   std::vector<Index> all(points);
   std::iota(all.begin(), all.end(), 0);
   give_to_lattice([&](const auto& rock) { lattice_->take(rock, all); });
@@ -142,32 +143,13 @@ void LpsElasticity<D>::add_pore_force(std::span<const double> pore_stress,
 template <int D>
 void LpsElasticity<D>::take(std::span<const double> u) {
   mirror_.spread(u, field_);
-  if (!reads_rows()) return;
   const auto nodes = static_cast<std::size_t>(family_->node_count());
-  rows_.resize(family_->node_count());
   std::array<std::span<const double>, 2 * D> columns;
   for (int a = 0; a < D; ++a) {
     columns[a] = family_->position[a];
     columns[D + a] = std::span(field_).subspan(a * nodes, nodes);
   }
-  rows_.template put<0>(columns);
-}
-
-/// use(values) of all nodes: position, displacement, volume state, bond stiffness.
-template <int D>
-template <class Use>
-auto LpsElasticity<D>::with_values(Use&& use) const {
-  if constexpr (D == 3) {
-    if (reads_rows()) return use(rows_);
-  }
-  NodeColumns<value_count> columns;
-  for (int a = 0; a < D; ++a) {
-    columns.column[a] = family_->position[a].data();
-    columns.column[D + a] = field_.data() + static_cast<std::size_t>(a) * family_->node_count();
-  }
-  columns.column[2 * D] = volume_state_.data();
-  columns.column[2 * D + 1] = bond_stiffness_.data();
-  return use(columns);
+  values_.template put<0>(columns);
 }
 
 /// Of the displacement in `field_`.
@@ -182,10 +164,8 @@ void LpsElasticity<D>::find_forces(std::span<double> force, std::span<double> di
         dilatation, volume_state_, force.first(static_cast<std::size_t>(D) * points));
   } else {
     store_state(dilatation, pore_stress);
-    if (reads_rows()) {
-      rows_.template put<2 * D>(
-          std::array<std::span<const double>, 2>{volume_state_, bond_stiffness_});
-    }
+    values_.template put<2 * D>(
+        std::array<std::span<const double>, 2>{volume_state_, bond_stiffness_});
     for_each_shared_point(points, [&](Index i) {
       const Vector<D> f = bond_forces<initially_stressed>(i);
       set_at(force, points, i, -f);
@@ -216,7 +196,7 @@ void LpsElasticity<D>::store_state(std::span<double> dilatation, PoreStressAt&& 
 template <int D>
 double LpsElasticity<D>::dilatation_at(Index i) const {
   const Vector<D> own = vector_at<D>(field_, family_->node_count(), i);
-  const auto sum = with_values([&](const auto& values) {
+  const auto sum = values_.with([&](const auto& values) {
     return sum_over_bonds<1, 2 * D>(*family_, i, values,
                                     [&](auto, const auto& other, const auto& xi, const auto& w) {
                                       std::decay_t<decltype(w)> along{};
@@ -238,7 +218,7 @@ Vector<D> LpsElasticity<D>::bond_forces(Index i) const {
   const Vector<D> own = vector_at<D>(field_, nodes, i);
   std::array<double, initially_stressed ? D * D : 0> own_initial;
   for (std::size_t k = 0; k < own_initial.size(); ++k) own_initial[k] = initial[k * nodes + i];
-  Vector<D> force = with_values([&](const auto& values) {
+  Vector<D> force = values_.with([&](const auto& values) {
     return sum_over_bonds<D, value_count>(
         *family_, i, values, [&](auto j, const auto& other, const auto& xi, const auto& w) {
           using Number = std::decay_t<decltype(w)>;
@@ -375,7 +355,7 @@ void LpsElasticity<D>::stress(std::span<const double> u, std::span<double> stres
 template <int D>
 Tensor<D, D> LpsElasticity<D>::gradient_at(Index i) const {
   const Vector<D> own = vector_at<D>(field_, family_->node_count(), i);
-  return with_values([&](const auto& values) {
+  return values_.with([&](const auto& values) {
     return perifrac::gradient_at<D, D>(*family_, inverse_shape_at(i), values, own, i);
   });
 }
@@ -420,7 +400,7 @@ Eigen::VectorXd LpsElasticity<D>::force_of_stress(const Eigen::VectorXd& stress)
 template <int D>
 std::string LpsElasticity<D>::path() const {
   if (lattice_) return lattice_->bonds().path();
-  return (reads_rows() ? packets_of_bonds() : "bond by bond: ") + why_no_packets_;
+  return (values_.reads_rows() ? packets_of_bonds() : "bond by bond: ") + why_no_packets_;
 }
 
 template class LpsElasticity<2>;

@@ -7,6 +7,7 @@
 
 #include "core/base/law_by_region.hpp"
 #include "core/bonds/mirror_condition.hpp"
+#include "core/bonds/node_values.hpp"
 #include "core/bonds/shape_tensor.hpp"
 #include "modules/solid/material/breakable_elasticity.hpp"
 #include "modules/solid/material/lps_lattice.hpp"
@@ -49,13 +50,10 @@ class LpsElasticity final : public BreakableElasticity<D> {
   const IsotropicElasticity<D>& law(Index i) const override { return law_.at(i); }
 
  private:
+  /// Position, displacement, volume state, bond stiffness.
   static constexpr int value_count = 2 * D + 2;
 
   void take(std::span<const double> u) override;
-  /// In 2D bonds are so few that columns are as fast.
-  bool reads_rows() const { return D == 3 && !lattice_; }
-  template <class Use>
-  auto with_values(Use&& use) const;
   Tensor<D, D> gradient_at(Index i) const override;
   Tensor<D, D> stress_at(Index i, const Tensor<D, D>& gradient) const override;
   double point_energy(Index i, std::span<const double> u) const override;
@@ -91,7 +89,7 @@ class LpsElasticity final : public BreakableElasticity<D> {
   std::vector<double> dilatation_scale_;  ///< d / m_i
   std::vector<double> bond_stiffness_;    ///< c / m_i on real points; 0 on ghosts
   std::vector<double> volume_state_;      ///< d s_i / m_i, s = dW/dtheta; 0 on ghosts
-  NeighbourRows<value_count> rows_;       ///< of with_values(), where reads_rows()
+  NodeValues<D, value_count> values_;     ///< of all nodes
   std::vector<double> initial_state_;     ///< initial stress K_i^-1 on real points and ghosts
   std::vector<Vector<D>> image_sign_;     ///< of ghosts: see image_forces()
   std::vector<Index> face_points_;        ///< points with a bond to a ghost
