@@ -86,24 +86,39 @@ void FluidDynamics<D>::set_pores(const PoreInput& pores) {
 
 template <int D>
 double FluidDynamics<D>::longest_step(double t) const {
-  double fastest = 0.0;
-  for (Index i = 0; i < points_.count; ++i) {
-    const double square = squared_norm(vector_at(points_.velocity, i));
-    if (!std::isfinite(square)) {
-      throw NumericalError("fluid_velocity", describe_point(i, points_.at(i)), t,
-                           "is not a finite number");
-    }
-    fastest = std::max(fastest, square);
-  }
-  const double speed = fluid_.sound_speed() + std::sqrt(fastest);
+  const Index fastest = fastest_point();
+  const double square = fastest < 0 ? 0.0 : squared_norm(vector_at(points_.velocity, fastest));
+  if (!std::isfinite(square)) stop_at(fastest, t);
+  const double speed = fluid_.sound_speed() + std::sqrt(square);
   const double kinematic =
       std::max(fluid_.viscosity / fluid_.density,
                scheme_.artificial_viscosity * fluid_.sound_speed() * scheme_.spacing);
   const double diffusion =
       std::max(kinematic, scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing);
-  const double square = scheme_.spacing * scheme_.spacing;
-  return std::min({scheme_.courant * scheme_.spacing / speed, exchange_.longest_step,
-                   diffusion > 0.0 ? 0.25 / D * square / diffusion : 1e300});
+  const double spacing = scheme_.spacing;
+  return std::min({scheme_.courant * spacing / speed, exchange_.longest_step,
+                   diffusion > 0.0 ? 0.25 / D * spacing * spacing / diffusion : 1e300});
+}
+
+/// The first of those that are not a number; -1 where there is none at all.
+template <int D>
+Index FluidDynamics<D>::fastest_point() const {
+  Index fastest = -1;
+  double most = -1.0;
+  for (Index i = 0; i < points_.count; ++i) {
+    const double square = squared_norm(vector_at(points_.velocity, i));
+    if (std::isnan(square)) return i;
+    if (square <= most) continue;
+    most = square;
+    fastest = i;
+  }
+  return fastest;
+}
+
+template <int D>
+void FluidDynamics<D>::stop_at(Index i, double t) const {
+  throw NumericalError("fluid_velocity", describe_point(i, points_.at(i)), t,
+                       "is not a finite number");
 }
 
 template <int D>
@@ -153,9 +168,16 @@ void FluidDynamics<D>::drift(double length) {
 template <int D>
 void FluidDynamics<D>::find_neighbours(double t) {
   const ProfileScope profiled("neighbours");
-  if (openings_.outlets) openings_.outlets->remove(points_);
-  openings_.domain.remove(points_, t);
-  neighbours_.find(points_, wall_motion_.positions(t), walls_);
+  const auto search = [&] {
+    if (openings_.outlets) openings_.outlets->remove(points_);
+    openings_.domain.remove(points_, t);
+    neighbours_.find(points_, wall_motion_.positions(t), walls_);
+  };
+  if (openings_.may_lose() || neighbours_.wraps_along(gravity_)) {
+    energy_.gain_by(points_, search);
+  } else {
+    search();
+  }
   wall_motion_.copy_volumes(walls_);
   wall_motion_.place(t, neighbours_.wall_images(), walls_);
   ++version_;
@@ -199,7 +221,6 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
                            "more flows into the pores in a step than there is");
     }
   }
-  if (exchange_.law->keeps_mass()) even_masses_.step(step_view(), length, points_);
   const WallCloud<D>& cloud = wall_motion_.cloud();
   for (Index k = 0; k < walls_.count; ++k) {
     const Index w = walls_.wall[k];
@@ -215,11 +236,19 @@ void FluidDynamics<D>::exchange_mass(double t, double length) {
   exchange_.made += length * made;
 }
 
-/// As what passes into pores, it comes from few points, which the others make up for.
+/// What passes into pores and cracks comes from few points, which the others make up for.
 template <int D>
-void FluidDynamics<D>::feed_cracks(double length) {
-  openings_.mouths->give(points_, length, impulse_);
-  if (!exchange_.law) even_masses_.step(step_view(), length, points_);
+void FluidDynamics<D>::change_masses(double t, double length) {
+  if (!exchange_.law && !openings_.mouths && !openings_.inlets) return;
+  energy_.remember_masses(points_);
+  if (exchange_.law) exchange_mass(t, length);
+  if (openings_.mouths) openings_.mouths->give(points_, length, impulse_);
+  if (openings_.inlets) {
+    openings_.inlets->feed(points_, t, length, [&](Index i) { return is_beside_wall(i); });
+  }
+  energy_.gain_with_mass(points_);
+  const bool evens = exchange_.law ? exchange_.law->keeps_mass() : openings_.mouths != nullptr;
+  if (evens) even_masses_.step(step_view(), length, points_);
 }
 
 template <int D>
@@ -238,11 +267,7 @@ void FluidDynamics<D>::find_densities(double t, double length) {
   const PeriodicImages<D>& images = neighbours_.images();
   images.copy(moments_.trace, points_.count);
   const double diffusivity = scheme_.density_diffusion * fluid_.sound_speed() * scheme_.spacing;
-  if (exchange_.law) exchange_mass(t, length);
-  if (openings_.mouths) feed_cracks(length);
-  if (openings_.inlets) {
-    openings_.inlets->feed(points_, t, length, [&](Index i) { return is_beside_wall(i); });
-  }
+  change_masses(t, length);
   const double unpacking = unpacking_rate * fluid_.sound_speed() / scheme_.spacing;
   for (auto& values : stress_) values.resize(points_.count);
   for_each_point(points_.count, [&](Index i) {
@@ -257,6 +282,11 @@ void FluidDynamics<D>::find_densities(double t, double length) {
       stress_[k][i] = -points_.pressure[i] * moments_.inverse_shape[k][i];
     }
   });
+  double power = 0.0;
+  for (Index i = 0; i < points_.count; ++i) {
+    power += points_.pressure[i] * points_.volume[i] * moments_.divergence[i];
+  }
+  energy_.set_lag(power, length);
   images.copy(points_.density, points_.count);
   images.copy(points_.volume, points_.count);
   images.copy(points_.pressure, points_.count);
@@ -266,18 +296,22 @@ void FluidDynamics<D>::find_densities(double t, double length) {
 template <int D>
 void FluidDynamics<D>::kick(double t, double length) {
   const FluidStep<D> view = step_view();
-  method_->find_forces(view, force_);
+  method_->find_forces(view, forces_);
   {
     const ProfileScope profiled("walls");
-    wall_force_->add(view, walls_, force_);
+    wall_force_->add(view, walls_, forces_);
   }
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < points_.count; ++i) {
-      points_.velocity[a][i] += length * (force_[a][i] / points_.mass[i] + gravity_[a]);
+      points_.velocity[a][i] += length * (forces_.force[a][i] / points_.mass[i] + gravity_[a]);
     }
   }
-  stop_at_walls<D>(view, length, points_, walls_);
-  wall_motion_.kick(t, length, gravity_, walls_, impulse_);
+  double heat = 0.0;
+  for (const double of_point : forces_.heat) heat += length * of_point;
+  energy_.heat_up(heat + stop_at_walls<D>(view, length, points_, walls_));
+  energy_.gain(wall_motion_.kick(t, length, gravity_, walls_, impulse_));
+  // Squares are beyond what numbers hold before velocities are, which say where.
+  if (points_.count > 0 && !energy_.is_finite()) stop_at(fastest_point(), t);
 }
 
 template <int D>
@@ -285,9 +319,11 @@ void FluidDynamics<D>::insert_points(double t) {
   const double heaviest = 1.5 * fluid_.density * std::pow(scheme_.spacing, D);
   Index added = split_points<D>(points_, walls_, neighbours_, heaviest);
   if (openings_.inlets) {
+    const Index first = points_.count;
     added += openings_.inlets->make_points(points_, [&](const Vector<D>& x) {
       return wall_motion_.leaves_room(x, t, scheme_.spacing);
     });
+    energy_.gain_points(points_, first);
   }
   if (added == 0) return;
   neighbours_.forget();
@@ -310,6 +346,9 @@ void FluidDynamics<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("next_id", points_.next_id);
   points_.count = static_cast<Index>(points_.mass.size());
   if (!exchange_keeps_mass()) visitor.visit("made_mass", exchange_.made);
+  visitor.enter("energy");
+  energy_.visit_state(visitor);
+  visitor.leave();
   openings_.visit_state(visitor);
   wall_motion_.visit_state(visitor);
 }

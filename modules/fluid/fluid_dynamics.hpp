@@ -9,6 +9,7 @@
 #include "modules/fluid/as_published/damaged_walls.hpp"
 #include "modules/fluid/even_masses.hpp"
 #include "modules/fluid/exchange/exchange.hpp"
+#include "modules/fluid/fluid_energy.hpp"
 #include "modules/fluid/method/fluid_method.hpp"
 #include "modules/fluid/openings/fluid_openings.hpp"
 #include "modules/fluid/points/fluid_neighbours.hpp"
@@ -49,6 +50,7 @@ class FluidDynamics {
   bool exchange_keeps_mass() const { return !exchange_.law || exchange_.law->keeps_mass(); }
   /// What the exchange made since the start [kg].
   double made_mass() const { return exchange_.made; }
+  const FluidEnergy<D>& energy() const { return energy_; }
 
   /// The longest stable step now [s]. Throws NumericalError where a velocity is not finite.
   double longest_step(double t) const;
@@ -77,7 +79,9 @@ class FluidDynamics {
   void find_neighbours(double t);
   void copy_to_images();
   void exchange_mass(double t, double length);
-  void feed_cracks(double length);
+  void change_masses(double t, double length);
+  Index fastest_point() const;
+  [[noreturn]] void stop_at(Index i, double t) const;
   bool is_beside_wall(Index i) const;
   void find_densities(double t, double length);
   void kick(double t, double length);
@@ -107,8 +111,9 @@ class FluidDynamics {
   NearWalls<D> walls_;
   FluidMoments<D> moments_;
   std::array<std::vector<double>, symmetric_size<D>> stress_;
-  std::array<std::vector<double>, D> force_;
+  FluidForces<D> forces_;
   EvenMasses<D> even_masses_;
+  FluidEnergy<D> energy_{fluid_, gravity_, points_};
   std::vector<double> impulse_;
   std::int64_t merged_ = 0;
   std::uint64_t version_ = 1;

@@ -22,6 +22,7 @@ template <int D>
 void FreeFluid<D>::make_ports(bool exchanges) {
   make_point_ports();
   make_total_ports();
+  make_energy_ports();
   if (body_) make_body_ports();
   if (exchanges) make_pore_ports();
   if (dynamics_->openings().mouths) make_mouth_ports();
@@ -86,6 +87,26 @@ void FreeFluid<D>::make_total_ports() {
                [this] { return static_cast<double>(steps_); });
   ports_.total(work_port("neighbour_searches"), whole_fluid,
                [this] { return static_cast<double>(dynamics_->searches()); });
+}
+
+/// The fluid's own balance of energy. It is no part of the ledger's: points make and lose volume,
+/// which under pressure is much beside what all else stores.
+template <int D>
+void FreeFluid<D>::make_energy_ports() {
+  const auto shown = [this](const char* name, auto find) {
+    ports_.found({.name = name, .unit = unit_of_total("J", D), .kind = PortKind::extensive},
+                 whole_fluid, [this, find](std::vector<double>& value) {
+                   value.assign(1, find(dynamics_->energy(), dynamics_->points()));
+                 });
+  };
+  using Energy = FluidEnergy<D>;
+  using Points = FluidPoints<D>;
+  shown("free_fluid_energy",
+        [](const Energy& energy, const Points& points) { return energy.stored(points); });
+  shown("free_fluid_work", [](const Energy& energy, const Points&) { return energy.gained(); });
+  shown("free_fluid_heat", [](const Energy& energy, const Points&) { return energy.heat(); });
+  shown("free_fluid_energy_made",
+        [](const Energy& energy, const Points& points) { return energy.made(points); });
 }
 
 template <int D>

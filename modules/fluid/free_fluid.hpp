@@ -44,6 +44,7 @@ class FreeFluid final : public PhysicsModule {
   void make_ports(bool exchanges);
   void make_point_ports();
   void make_total_ports();
+  void make_energy_ports();
   void make_body_ports();
   void make_pore_ports();
   void make_mouth_ports();

@@ -19,21 +19,22 @@ double spline(double eta) {
 
 template <int D>
 void OneSidedWallForce<D>::add(const FluidStep<D>& step, NearWalls<D>& walls,
-                               std::array<std::vector<double>, D>& force) {
+                               FluidForces<D>& forces) {
   const FluidPoints<D>& points = step.points;
   const double spacing = step.scheme.spacing;
   const double strength = repulsion_ * step.fluid.sound_speed() * step.fluid.sound_speed();
   const WallDrag<D> drag(step, walls);
-  add_pair_forces<D>(step, walls, force, [&](Index i, Index w, const Vector<D>& y, double omega) {
+  add_pair_forces<D>(step, walls, forces, [&](Index i, Index w, const Vector<D>& y, double omega) {
     const double volumes = omega * points.volume[i] * walls.volume[w];
-    const Vector<D> pair = volumes * (stress_along<D>(step, i, y) + drag(i, w, y));
+    WallPair<D> pair = drag.beside(stress_along<D>(step, i, y), i, w, y, volumes);
     const double square = squared_norm(y);
     const double r = std::sqrt(square);
     if (r >= spacing || step.cloud.depth[walls.wall[w]] > spacing) return pair;
     const double acceleration =
         strength * spline(r / (0.375 * step.scheme.horizon)) * (1.0 - r / spacing) / square;
     const double push = points.density[i] * points.volume[i] * acceleration;
-    return pair - push * y;
+    for (int a = 0; a < D; ++a) pair[a] -= push * y[a];
+    return pair;
   });
 }
 

@@ -17,8 +17,7 @@ class OneSidedWallForce final : public WallForce<D> {
  public:
   explicit OneSidedWallForce(double repulsion) : repulsion_(repulsion) {}
 
-  void add(const FluidStep<D>& step, NearWalls<D>& walls,
-           std::array<std::vector<double>, D>& force) override;
+  void add(const FluidStep<D>& step, NearWalls<D>& walls, FluidForces<D>& forces) override;
 
  private:
   double repulsion_;  ///< C

@@ -26,8 +26,8 @@ class FluidMethod {
   virtual void find_moments(const FluidPoints<D>& points, const NearWalls<D>& walls,
                             const FluidNeighbours<D>& neighbours, FluidMoments<D>& moments) = 0;
 
-  /// Sets the force on each fluid point by the others [N].
-  virtual void find_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) = 0;
+  /// Sets the force on each fluid point by the others, and the heat of their friction.
+  virtual void find_forces(const FluidStep<D>& step, FluidForces<D>& forces) = 0;
 };
 
 /// A method as scenes name it, `fluid: {type: ...}`.

@@ -108,6 +108,14 @@ void FluidNeighbours<D>::find_near_walls(const FluidPoints<D>& points,
   for (const Index k : wall_images_.source) walls.wall.push_back(walls.wall[k]);
 }
 
+template <int D>
+bool FluidNeighbours<D>::wraps_along(const Vector<D>& along) const {
+  for (int a = 0; a < D; ++a) {
+    if (period_.ends[a] && along[a] != 0.0) return true;
+  }
+  return false;
+}
+
 /// Brings points that left through an end of a period back in at the other.
 template <int D>
 void FluidNeighbours<D>::wrap(FluidPoints<D>& points) const {

@@ -27,6 +27,9 @@ class FluidNeighbours {
   /// Some point has moved so far that a neighbour may be missing.
   bool outdated(const FluidPoints<D>& points, const NearWalls<D>& walls) const;
 
+  /// Whoever follows `along` for long comes back by the other end of a period.
+  bool wraps_along(const Vector<D>& along) const;
+
   const PeriodicImages<D>& images() const { return images_; }
   const PeriodicImages<D>& wall_images() const { return wall_images_; }
   const Neighbours& fluid_of_fluid() const { return fluid_of_fluid_; }

@@ -17,6 +17,14 @@ struct FluidProperties {
     if (tait_exponent == 0.0) return bulk_modulus * (ratio - 1.0);
     return bulk_modulus / tait_exponent * std::expm1(tait_exponent * std::log(ratio));
   }
+  /// Work that compressed it from zero pressure, the integral of p / rho^2 over density [J/kg].
+  double elastic_energy(double rho) const {
+    const double excess = rho / density - 1.0, gained = excess / (1.0 + excess);
+    const double of_unit = bulk_modulus / density, power = tait_exponent - 1.0;
+    if (tait_exponent == 0.0) return of_unit * (std::log1p(excess) - gained);
+    const double raised = std::expm1(power * std::log1p(excess)) / power;
+    return of_unit / tait_exponent * (raised - gained);
+  }
   double density_at(double p) const {
     if (tait_exponent == 0.0) return density * (1.0 + p / bulk_modulus);
     return density * std::exp(std::log1p(tait_exponent * p / bulk_modulus) / tait_exponent);

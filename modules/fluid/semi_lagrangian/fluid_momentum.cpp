@@ -26,26 +26,31 @@ void set_values(const FluidStep<D>& step, ForceValues<D>& values) {
 
 template <int D>
 void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
-                      ForceValues<D>& values, std::array<std::vector<double>, D>& force) {
+                      ForceValues<D>& values, FluidForces<D>& forces) {
   const FluidPoints<D>& points = step.points;
   const FluidMoments<D>& moments = step.moments;
   const double least = step.fluid.density * step.scheme.artificial_viscosity *
                        step.fluid.sound_speed() * step.scheme.spacing;
   const double viscosity = 4.0 * D * std::max(step.fluid.viscosity, least);
-  for (auto& along : force) along.resize(points.count);
+  forces.resize(points.count);
   set_values<D>(step, values);
   for_each_shared_point(points.count, [&](Index i) {
     std::array<double, symmetric_size<D>> own;
     for (int k = 0; k < symmetric_size<D>; ++k) own[k] = step.stress[k][i];
     const Vector<D> v = vector_at(points.velocity, i);
     const double trace = moments.trace[i];
-    const auto sum = sum_over_values<D, D>(
+    const auto sum = sum_over_values<D + 1, D>(
         step.neighbours.fluid_of_fluid(), i, points.at(i), values, influence,
         [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
           const Packet weight = omega * other[2 * D];
           const Packet drag = viscosity / (trace + other[2 * D + 1]);
-          PacketVector<D> term;
-          for (int a = 0; a < D; ++a) term[a] = drag * (other[D + a] - v[a]);
+          std::array<Packet, D + 1> term;
+          term[D] = Packet{};
+          for (int a = 0; a < D; ++a) {
+            const Packet relative = other[D + a] - v[a];
+            term[a] = drag * relative;
+            term[D] += term[a] * relative;
+          }
           for (int a = 0; a < D; ++a) {
             for (int b = a; b < D; ++b) {
               const int k = symmetric_index<D>(a, b);
@@ -57,14 +62,15 @@ void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influen
           for (Packet& component : term) component *= weight;
           return term;
         });
-    set_at(force, i, points.volume[i] * sum);
+    for (int a = 0; a < D; ++a) forces.force[a][i] = points.volume[i] * sum[a];
+    forces.heat[i] = 0.5 * points.volume[i] * sum[D];
   });
-  for (auto& along : force) ranks::gather_shares(along, points.count);
+  forces.gather();
 }
 
 template void find_pair_forces<2>(const FluidStep<2>&, const GaussianInfluence&, ForceValues<2>&,
-                                  std::array<std::vector<double>, 2>&);
+                                  FluidForces<2>&);
 template void find_pair_forces<3>(const FluidStep<3>&, const GaussianInfluence&, ForceValues<3>&,
-                                  std::array<std::vector<double>, 3>&);
+                                  FluidForces<3>&);
 
 }  // namespace perifrac

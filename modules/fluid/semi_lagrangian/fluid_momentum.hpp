@@ -9,11 +9,11 @@ namespace perifrac {
 template <int D>
 using ForceValues = NeighbourValues<D, 2 * D + 2 + symmetric_size<D>>;
 
-/// Sets the force on each fluid point by the others [N]: pressure in the antisymmetric pair form
-/// (paper Eq 21) and viscosity, physical and artificial, as a pair Laplacian. `values` are to work
-/// with.
+/// Sets the force on each fluid point by the others: pressure in the antisymmetric pair form (paper
+/// Eq 21) and viscosity, physical and artificial, as a pair Laplacian; and its heat, half that of
+/// each pair. `values` are to work with.
 template <int D>
 void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
-                      ForceValues<D>& values, std::array<std::vector<double>, D>& force);
+                      ForceValues<D>& values, FluidForces<D>& forces);
 
 }  // namespace perifrac

@@ -18,8 +18,8 @@ class SemiLagrangianMethod final : public FluidMethod<D> {
                     const FluidNeighbours<D>& neighbours, FluidMoments<D>& moments) override {
     perifrac::find_moments<D>(points, walls, neighbours, gaussian_, moment_values_, moments);
   }
-  void find_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) override {
-    find_pair_forces<D>(step, gaussian_, force_values_, force);
+  void find_forces(const FluidStep<D>& step, FluidForces<D>& forces) override {
+    find_pair_forces<D>(step, gaussian_, force_values_, forces);
   }
 
  private:

@@ -18,8 +18,8 @@ class SphMethod final : public FluidMethod<D> {
                     const FluidNeighbours<D>& neighbours, FluidMoments<D>& moments) override {
     moments_.find(points, walls, neighbours, wendland_, values_, moments);
   }
-  void find_forces(const FluidStep<D>& step, std::array<std::vector<double>, D>& force) override {
-    find_sph_forces<D>(step, wendland_, values_, force);
+  void find_forces(const FluidStep<D>& step, FluidForces<D>& forces) override {
+    find_sph_forces<D>(step, wendland_, values_, forces);
   }
 
  private:

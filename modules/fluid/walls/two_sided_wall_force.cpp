@@ -9,15 +9,14 @@ namespace perifrac {
 
 namespace {
 
-/// The force of wall point w on fluid point i, y from i to w, `drag` of the two.
+/// The force by pressure of wall point w on fluid point i, y from i to w, over omega V_i V_w.
 template <int D>
-Vector<D> pair_force(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index w,
-                     const Vector<D>& y, double omega, const Vector<D>& drag) {
-  const FluidPoints<D>& points = step.points;
+Vector<D> pressed(const FluidStep<D>& step, const NearWalls<D>& walls, Index i, Index w,
+                  const Vector<D>& y) {
   const double bulk = step.moments.bulk_trace / D;
-  const double volumes = omega * points.volume[i] * walls.volume[w];
-  const Vector<D> stress = points.pressure[i] > 0.0 ? stress_along<D>(step, i, y) : Vector<D>{};
-  return volumes * (drag + (stress - walls.pressure[w] / bulk * y));
+  const Vector<D> stress =
+      step.points.pressure[i] > 0.0 ? stress_along<D>(step, i, y) : Vector<D>{};
+  return stress - walls.pressure[w] / bulk * y;
 }
 
 }  // namespace
@@ -42,11 +41,12 @@ void TwoSidedWallForce<D>::extrapolate_pressure(const FluidStep<D>& step,
 
 template <int D>
 void TwoSidedWallForce<D>::add(const FluidStep<D>& step, NearWalls<D>& walls,
-                               std::array<std::vector<double>, D>& force) {
+                               FluidForces<D>& forces) {
   extrapolate_pressure(step, walls);
   const WallDrag<D> drag(step, walls);
-  add_pair_forces<D>(step, walls, force, [&](Index i, Index w, const Vector<D>& y, double omega) {
-    return pair_force<D>(step, walls, i, w, y, omega, drag(i, w, y));
+  add_pair_forces<D>(step, walls, forces, [&](Index i, Index w, const Vector<D>& y, double omega) {
+    const double volumes = omega * step.points.volume[i] * walls.volume[w];
+    return drag.beside(pressed<D>(step, walls, i, w, y), i, w, y, volumes);
   });
 }
 

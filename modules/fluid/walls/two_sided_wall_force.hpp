@@ -11,8 +11,7 @@ namespace perifrac {
 template <int D>
 class TwoSidedWallForce final : public WallForce<D> {
  public:
-  void add(const FluidStep<D>& step, NearWalls<D>& walls,
-           std::array<std::vector<double>, D>& force) override;
+  void add(const FluidStep<D>& step, NearWalls<D>& walls, FluidForces<D>& forces) override;
 
  private:
   void extrapolate_pressure(const FluidStep<D>& step, NearWalls<D>& walls) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/fluid/points/fluid_forces.hpp"
 #include "modules/fluid/points/fluid_moments.hpp"
 #include "modules/fluid/points/fluid_neighbours.hpp"
 #include "modules/fluid/points/fluid_properties.hpp"
@@ -28,10 +29,9 @@ class WallForce {
  public:
   virtual ~WallForce() = default;
 
-  /// Adds the walls' force to that on each fluid point [N], and sets the opposite one on every near
-  /// wall point.
-  virtual void add(const FluidStep<D>& step, NearWalls<D>& walls,
-                   std::array<std::vector<double>, D>& force) = 0;
+  /// Adds the walls' force to that on each fluid point, and the heat of friction along them; sets
+  /// the opposite force on every near wall point.
+  virtual void add(const FluidStep<D>& step, NearWalls<D>& walls, FluidForces<D>& forces) = 0;
 };
 
 }  // namespace perifrac

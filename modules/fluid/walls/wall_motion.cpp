@@ -17,8 +17,9 @@ void WallMotion<D>::drift(double length) {
 }
 
 template <int D>
-void WallMotion<D>::kick(double t, double length, const Vector<D>& gravity,
-                         const NearWalls<D>& near, std::vector<double>& impulse) {
+double WallMotion<D>::kick(double t, double length, const Vector<D>& gravity,
+                           const NearWalls<D>& near, std::vector<double>& impulse) {
+  double work = 0.0;
   on_rigid_.assign(rigid_.size(), Vector<D>{});
   for (Index k = 0; k < near.count; ++k) {
     const Index w = near.wall[k];
@@ -27,11 +28,15 @@ void WallMotion<D>::kick(double t, double length, const Vector<D>& gravity,
       on_rigid_[cloud_.owner[w]] += force;
     } else {
       add_at(impulse, body_points_, cloud_.owner[w], length * force);
+      work -= length * dot(force, velocity(w));
     }
   }
   for (std::size_t r = 0; r < rigid_.size(); ++r) {
+    const Vector<D> before = rigid_[r].velocity;
     rigid_[r].kick(t, length, on_rigid_[r], gravity);
+    work -= 0.5 * length * dot(on_rigid_[r], before + rigid_[r].velocity);
   }
+  return work;
 }
 
 template <int D>

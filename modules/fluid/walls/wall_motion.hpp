@@ -39,9 +39,9 @@ class WallMotion {
   /// They move on for `length` [s].
   void drift(double length);
   /// The fluid's forces on near points push pistons; the body's points get their impulse, D blocks
-  /// [N s].
-  void kick(double t, double length, const Vector<D>& gravity, const NearWalls<D>& near,
-            std::vector<double>& impulse);
+  /// [N s]. Returns the work of all walls on the fluid [J].
+  double kick(double t, double length, const Vector<D>& gravity, const NearWalls<D>& near,
+              std::vector<double>& impulse);
 
   /// Positions of the whole cloud at time t [s], brought back between the ends of periods; valid
   /// until the next call.

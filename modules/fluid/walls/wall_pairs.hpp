@@ -34,15 +34,25 @@ void sum_wall_pairs(const FluidStep<D>& step, const NearWalls<D>& walls, Pair&& 
   });
 }
 
-/// Adds pair(i, w, y, omega), the force of wall point w on fluid point i [N], to that on every
-/// fluid point, and sets the opposite one on every near wall point.
+/// Of a wall point on a fluid point, beside one another: force [N] and heat of friction [W].
+template <int D>
+using WallPair = std::array<double, D + 1>;
+
+/// Adds pair(i, w, y, omega), a WallPair, to what every fluid point has, and sets the opposite
+/// force on every near wall point.
 template <int D, class Pair>
-void add_pair_forces(const FluidStep<D>& step, NearWalls<D>& walls,
-                     std::array<std::vector<double>, D>& force, Pair&& pair) {
+void add_pair_forces(const FluidStep<D>& step, NearWalls<D>& walls, FluidForces<D>& forces,
+                     Pair&& pair) {
   for (auto& values : walls.force) values.resize(walls.count);
-  sum_wall_pairs<D, D>(
-      step, walls, pair, [&](Index i, const Vector<D>& sum) { add_at(force, i, sum); },
-      [&](Index w, const Vector<D>& sum) { set_at(walls.force, w, -sum); });
+  sum_wall_pairs<D + 1, D>(
+      step, walls, pair,
+      [&](Index i, const WallPair<D>& sum) {
+        for (int a = 0; a < D; ++a) forces.force[a][i] += sum[a];
+        forces.heat[i] += sum[D];
+      },
+      [&](Index w, const WallPair<D>& sum) {
+        for (int a = 0; a < D; ++a) walls.force[a][w] = -sum[a];
+      });
 }
 
 /// The stress -p M^-1 of fluid point i times y.
@@ -85,6 +95,18 @@ class WallDrag {
     const double factor = viscosity_ * (height + depth) /
                           (height * (step_.moments.trace[i] + step_.moments.bulk_trace));
     return -factor * (relative - dot(normal, relative) * normal);
+  }
+
+  /// `pressed`, the force by pressure of wall point w on fluid point i over omega V_i V_w, with the
+  /// drag and its heat.
+  WallPair<D> beside(const Vector<D>& pressed, Index i, Index w, const Vector<D>& y,
+                     double volumes) const {
+    const Vector<D> drag = (*this)(i, w, y);
+    const Vector<D> relative = vector_at(step_.points.velocity, i) - vector_at(walls_.velocity, w);
+    WallPair<D> pair;
+    for (int a = 0; a < D; ++a) pair[a] = volumes * (pressed[a] + drag[a]);
+    pair[D] = -volumes * dot(drag, relative);
+    return pair;
   }
 
  private:

@@ -141,24 +141,28 @@ void expect_forces(int count) {
     }
   }
   for (auto& values : stress) water.neighbours.images().copy(values, water.points.count);
-  std::array<std::vector<double>, D> force;
+  FluidForces<D> forces;
   ForceValues<D> values;
   find_pair_forces<D>({water.points, WallCloud<D>{}, water.neighbours, water.moments, fluid, scheme,
                        water.influence, Vector<D>{}, stress},
-                      water.influence, values, force);
+                      water.influence, values, forces);
   Bond all = Bond::Zero();
   double largest = 0.0;
   for (Index i = 0; i < water.points.count; ++i) {
     Bond expected = Bond::Zero(), found;
+    double heat = 0.0;
     water.for_all_others(i, [&](Index j, const Bond& y, double w) {
       const double drag =
           fluid.viscosity * 4.0 * D / (water.shape(i).trace() + water.shape(j).trace());
       expected +=
           water.points.volume[i] * w *
           ((stress_of[i] + stress_of[j]) * y + drag * (water.velocity(j) - water.velocity(i)));
+      heat += 0.5 * water.points.volume[i] * w * drag *
+              (water.velocity(j) - water.velocity(i)).squaredNorm();
     });
-    for (int a = 0; a < D; ++a) found[a] = force[a][i];
+    for (int a = 0; a < D; ++a) found[a] = forces.force[a][i];
     EXPECT_LT((found - expected).norm(), 1e-11 * expected.norm()) << "at point " << i;
+    EXPECT_NEAR(forces.heat[i], heat, 1e-12 * heat) << "at point " << i;
     all += found;
     largest = std::max(largest, found.norm());
   }

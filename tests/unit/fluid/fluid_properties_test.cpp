@@ -42,6 +42,24 @@ TEST(FluidProperties, SoundSpeedIsTheSlopeOfPressure) {
   }
 }
 
+/// The work that compresses a kilogram, p d(-1/rho).
+TEST(FluidProperties, ElasticEnergyIsTheIntegralOfPressure) {
+  for (const FluidProperties& fluid : {linear, tait}) {
+    EXPECT_EQ(fluid.elastic_energy(fluid.density), 0.0);
+    for (const double rho : {980.0, 1000.1, 1150.0}) {
+      const double step = 1e-3;
+      const double slope =
+          (fluid.elastic_energy(rho + step) - fluid.elastic_energy(rho - step)) / (2 * step);
+      const double exact = fluid.pressure(rho) / (rho * rho);
+      EXPECT_NEAR(slope, exact, 1e-6 * std::abs(exact)) << rho;
+    }
+    // Just above its density at rest, p^2 / 2K of a unit volume.
+    const double p = 22.0;
+    EXPECT_NEAR(fluid.elastic_energy(fluid.density_at(p)) * 1000.0, p * p / (2 * 22e6),
+                1e-5 * p * p / (2 * 22e6));
+  }
+}
+
 /// Against dp/dphi = rho(p) integrated in many small steps (fourth order).
 TEST(FluidProperties, DensityBelowIsThatOfFluidAtRest) {
   for (const FluidProperties& fluid : {linear, tait}) {

@@ -66,8 +66,14 @@ class FluidRun {
   }
 
   bool has(const std::string& port) const { return id_of(port) < module_->ports().size(); }
+  PortView view(const std::string& port) { return module_->port(static_cast<PortId>(id_of(port))); }
+  /// To write, before every window.
+  PortView input(const std::string& port) {
+    module_->connect(static_cast<PortId>(id_of(port)));
+    return view(port);
+  }
   std::vector<double> values(const std::string& port) {
-    const PortView view = module_->port(static_cast<PortId>(id_of(port)));
+    const PortView view = this->view(port);
     return {view.value.begin(), view.value.end()};
   }
   double value(const std::string& port) { return values(port).at(0); }

@@ -63,7 +63,7 @@ struct Cloud {
     ForceValues<D> force_values;
     find_pair_forces<D>(
         {points, cloud, neighbours, moments, fluid, scheme, influence, gravity, stress}, influence,
-        force_values, force);
+        force_values, forces);
   }
 
   /// Calls use(i, x) for the points so many horizons from the outermost ones.
@@ -92,7 +92,7 @@ struct Cloud {
   FluidMoments<D> moments;
   Vector<D> gravity{};
   std::array<std::vector<double>, symmetric_size<D>> stress;
-  std::array<std::vector<double>, D> force;
+  FluidForces<D> forces;
 };
 
 constexpr int across(int dimension) { return dimension == 2 ? 26 : 15; }
@@ -109,7 +109,7 @@ void expect_exact_force_of_linear_pressure() {
   cloud.for_inner(2, [&](Index i, const Vector<D>&) {
     for (int a = 0; a < D; ++a) {
       const double expected = -(1e4 + 3e3 * a) * cloud.points.volume[i];
-      EXPECT_NEAR(cloud.force[a][i], expected, 1e-11 * std::abs(expected));
+      EXPECT_NEAR(cloud.forces.force[a][i], expected, 1e-11 * std::abs(expected));
     }
   });
 }
@@ -130,8 +130,8 @@ void expect_exact_drag_of_quadratic_velocity() {
   cloud.find();
   cloud.for_inner(2, [&](Index i, const Vector<D>&) {
     const double expected = -4.0 * fluid.viscosity * cloud.points.volume[i];
-    EXPECT_NEAR(cloud.force[0][i], expected, 1e-10 * std::abs(expected));
-    EXPECT_NEAR(cloud.force[1][i], 0.0, 1e-12 * std::abs(expected));
+    EXPECT_NEAR(cloud.forces.force[0][i], expected, 1e-10 * std::abs(expected));
+    EXPECT_NEAR(cloud.forces.force[1][i], 0.0, 1e-12 * std::abs(expected));
   });
 }
 
@@ -209,8 +209,8 @@ Errors errors(double spacing) {
   cloud.for_inner(2, [&](Index i, const Vector<2>& x) {
     if (!near_centre(x)) return;
     const double exact = -2e4 * std::cos(2.0 * x[0]) * std::cos(x[1]);
-    errors.pressure =
-        std::max(errors.pressure, std::abs(cloud.force[0][i] / cloud.points.volume[i] - exact));
+    errors.pressure = std::max(errors.pressure,
+                               std::abs(cloud.forces.force[0][i] / cloud.points.volume[i] - exact));
   });
   cloud.set(cloud.points.velocity[0],
             [](const Vector<2>& x) { return std::sin(2.0 * x[0]) * std::cos(x[1]); });

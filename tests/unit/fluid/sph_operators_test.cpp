@@ -72,7 +72,7 @@ struct SphWater {
     sums.find(points, no_walls, neighbours, influence, values, moments);
     const FluidStep<D> step{points, cloud,  neighbours, moments, fluid,
                             scheme, weight, gravity,    stress};
-    find_sph_forces<D>(step, influence, values, force);
+    find_sph_forces<D>(step, influence, values, forces);
   }
 
   /// Uses every point that has all its neighbours.
@@ -105,7 +105,7 @@ struct SphWater {
   SphMoments<D> sums;
   Vector<D> gravity{};
   std::array<std::vector<double>, symmetric_size<D>> stress;
-  std::array<std::vector<double>, D> force;
+  FluidForces<D> forces;
 };
 
 constexpr int count_of(int dimension) { return dimension == 2 ? 20 : 10; }
@@ -119,7 +119,7 @@ void expect_sums_over_all_pairs() {
   const double bulk = water.moments.bulk_trace / D;
   const FluidPoints<D>& points = water.points;
   for (Index i = 0; i < points.count; ++i) {
-    double divergence = 0.0;
+    double divergence = 0.0, heat = 0.0;
     Vector<D> force{};
     for (Index j = 0; j < points.count; ++j) {
       Vector<D> y = points.at(j) - points.at(i);
@@ -131,10 +131,12 @@ void expect_sums_over_all_pairs() {
       divergence += omega * dot(apart, y);
       force += points.volume[i] * omega *
                (2.0 * 40.0 * apart - (points.pressure[i] + points.pressure[j]) * y);
+      heat += points.volume[i] * omega * 40.0 * squared_norm(apart);
     }
     EXPECT_NEAR(water.moments.divergence[i], divergence, 1e-11 * std::abs(divergence) + 1e-12);
+    EXPECT_NEAR(water.forces.heat[i], heat, 1e-12 * heat);
     for (int a = 0; a < D; ++a) {
-      EXPECT_NEAR(water.force[a][i], force[a], 1e-11 * norm(force)) << i;
+      EXPECT_NEAR(water.forces.force[a][i], force[a], 1e-11 * norm(force)) << i;
     }
   }
 }
@@ -154,7 +156,7 @@ void expect_momentum_and_energy_kept() {
   Vector<D> all{};
   double size = 0.0, work = 0.0, done = 0.0;
   for (Index i = 0; i < points.count; ++i) {
-    const Vector<D> force = vector_at(water.force, i);
+    const Vector<D> force = vector_at(water.forces.force, i);
     all += force;
     size += norm(force);
     const double power = dot(force, vector_at(points.velocity, i));
@@ -186,8 +188,10 @@ void expect_exact_on_a_lattice() {
   water.for_inner([&](Index i, const Vector<D>&) {
     EXPECT_NEAR(water.moments.trace[i], water.moments.bulk_trace, 1e-13);
     EXPECT_NEAR(water.moments.divergence[i], divergence, 1e-12);
-    EXPECT_NEAR(water.force[0][i], -1e4 * water.points.volume[i], 1e-8 * water.points.volume[i]);
-    EXPECT_NEAR(water.force[1][i], 4e3 * water.points.volume[i], 1e-8 * water.points.volume[i]);
+    EXPECT_NEAR(water.forces.force[0][i], -1e4 * water.points.volume[i],
+                1e-8 * water.points.volume[i]);
+    EXPECT_NEAR(water.forces.force[1][i], 4e3 * water.points.volume[i],
+                1e-8 * water.points.volume[i]);
     for (int a = 0; a < D; ++a) EXPECT_NEAR(water.moments.crowding[a][i], 0.0, 1e-12 / spacing);
   });
 }

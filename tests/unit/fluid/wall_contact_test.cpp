@@ -26,7 +26,11 @@ std::array<double, 2> thrown_at_crack(double opening) {
   scene.points.velocity[1][i] = -thrown;
   for (double& wall : scene.walls.position[0]) wall += (wall < crack ? -0.5 : 0.5) * opening;
   for (auto& values : scene.walls.force) values.assign(scene.walls.count, 0.0);
-  stop_at_walls<2>(scene.step(), length, scene.points, scene.walls);
+  const double before = scene.points.velocity[1][i];
+  const double heat = stop_at_walls<2>(scene.step(), length, scene.points, scene.walls);
+  const double after = scene.points.velocity[1][i];
+  const double lost = 0.5 * scene.points.mass[i] * (before * before - after * after);
+  EXPECT_NEAR(heat, lost, 1e-9 * lost);
   const auto& force = scene.walls.force[1];
   return {-scene.points.velocity[1][i],
           -length * std::accumulate(force.begin(), force.end(), 0.0) / scene.points.mass[i]};
