@@ -7,7 +7,6 @@
 
 #include "app/run/scene_echo.hpp"
 #include "app/warnings/energy_warnings.hpp"
-#include "app/warnings/resolution_warnings.hpp"
 #include "app/warnings/spread_fluid.hpp"
 #include "core/base/errors.hpp"
 #include "core/io/log.hpp"
@@ -51,7 +50,8 @@ SceneRun::SceneRun(const Section& scene, std::string text, Simulation& simulatio
       simulation_(simulation),
       outputs_(std::move(outputs)),
       recorder_(scene, text_, simulation),
-      watch_(scene, simulation) {}
+      watch_(scene, simulation),
+      filling_(scene, simulation) {}
 
 void SceneRun::start(const std::filesystem::path& folder,
                      const std::optional<Checkpoint>& restart) {
@@ -85,6 +85,7 @@ void SceneRun::advance(double stop) {
       (is_output ? windows_before_an_output : windows_between_restart_points);
   if (is_output || is_restart_point || ValidityWatch::is_due(manager.step())) {
     log_all(watch_.look(is_output));
+    filling_.look();
   }
   if (is_output) {
     recorder_.record_output();
@@ -103,7 +104,8 @@ void SceneRun::settle() {
 void SceneRun::finish(bool stopped) {
   log_all(watch_.look(true));
   log_if_any(balance_warning(scene_, simulation_));
-  log_if_any(filling_warning(scene_, simulation_));
+  filling_.look();
+  log_if_any(filling_.warning());
   log_if_any(closed_front_warning(scene_, simulation_));
   log_if_any(leaked_away_warning(scene_, simulation_));
   log_if_any(residual_aperture_warning(scene_, simulation_));

@@ -10,6 +10,7 @@
 #include "app/run/recorder.hpp"
 #include "app/run/summary.hpp"
 #include "app/simulation/simulation.hpp"
+#include "app/warnings/resolution_warnings.hpp"
 #include "app/warnings/validity_watch.hpp"
 #include "core/config/section.hpp"
 
@@ -58,6 +59,7 @@ class SceneRun {
   std::vector<double> outputs_;
   Recorder recorder_;
   ValidityWatch watch_;
+  FillingWatch filling_;
 };
 
 }  // namespace perifrac

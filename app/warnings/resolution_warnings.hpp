@@ -8,9 +8,24 @@
 
 namespace perifrac {
 
-/// Where a run ends while fluid has hardly begun to enter a crack: what fills a facet or two has no
-/// pressure and no opening yet that would not depend on how long facets are.
-std::optional<std::string> filling_warning(const Section& scene, const Simulation& simulation);
+/// Finds where fluid has hardly entered a crack when a run ends, or when what was pumped begins to
+/// flow back or leak off: what fills a facet or two has no pressure and no opening yet that would
+/// not depend on how long facets are.
+class FillingWatch {
+ public:
+  FillingWatch(const Section& scene, const Simulation& simulation)
+      : scene_(scene), simulation_(simulation) {}
+
+  void look();
+  std::optional<std::string> warning() const;
+
+ private:
+  Section scene_;
+  const Simulation& simulation_;
+  double time_ = 0.0;    ///< of the last look that counts [s]
+  double filled_ = 0.0;  ///< a length, in 3D the radius of a disc; each wing's [m]
+  double dry_ = 0.0;     ///< likewise, of what lags behind the tips
+};
 
 /// Where a good part of what leaks off does so from closed cracks that fluid has just come to: it
 /// fills the facet before an open one at once, as there is hardly room in it. Where few are open,

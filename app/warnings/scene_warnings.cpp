@@ -12,6 +12,7 @@
 #include "app/references/table_reference.hpp"
 #include "app/simulation/place_reader.hpp"
 #include "app/warnings/crack_across_stress_warning.hpp"
+#include "app/warnings/crack_along_face_warning.hpp"
 #include "app/warnings/inlet_room_warning.hpp"
 #include "app/warnings/light_solid_warning.hpp"
 #include "app/warnings/meeting_tips_warning.hpp"
@@ -159,6 +160,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (const auto warning = stress_beyond_stiffness_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = slanted_at_mirror_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = crack_across_stress_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = crack_along_face_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = light_solid_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = narrow_fluid_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = inlet_room_warning(scene)) warnings.push_back(*warning);

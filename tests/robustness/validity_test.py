@@ -240,6 +240,10 @@ class Validity(RunTest):
         # Nor does one say so that has closed on what leaked off.
         warned = self.warnings(CONFIGS / "shut_in.yaml", {"body.spacing": "2.5 mm"})
         self.assertFalse(any("fluid fills" in warning for warning in warned), warned)
+        # One that flows back without having got far does.
+        little = {"body.spacing": "2.5 mm", "crack_fluid.inlets[0].rate": "3.4e-6 m^2/s"}
+        warned = self.warnings(CONFIGS / "shut_in.yaml", little)
+        self.assertTrue(any("fluid fills" in warning and "by t = " in warning for warning in warned), warned)
 
     def test_each_of_several_wings_is_to_be_filled(self):
         """Fluid that fills enough for one of four."""
@@ -313,6 +317,25 @@ class Validity(RunTest):
                 "crack_fluid.inlets[0].at": "[0 mm, 0 mm, 8 mm]", "crack_fluid.residual_aperture": "0.3 um",
                 "time.end": "0.03 ms", "output.interval": "0.03 ms"}
         self.assert_warns(self.without_reference("radial.yaml"), soon, "fluid fills")
+
+    def test_a_crack_along_a_face(self):
+        """Rock of three points between a crack and a free face, not beside a mirror, and not of six."""
+        block = self.without_reference("rubin_1983.yaml")
+        narrow = {"body.spacing": "2 mm", "solid.pins[0].at": "[144 mm, 48 mm]"}
+        for height, warns in (("0.054 m", True), ("0.060 m", False)):
+            warned = self.foreknown(block, narrow | {"body.size": f"[0.144 m, {height}]"})
+            self.assertEqual(any("runs along the top face" in warning for warning in warned), warns, warned)
+        mirrored = {"body.spacing": "2 mm", "solid.pins": "[]", "body.size": "[0.144 m, 0.054 m]",
+                    "solid.boundary.top": "{type: roller}"}
+        self.assertFalse(any("runs along" in warning for warning in self.foreknown(block, mirrored)))
+
+    def test_a_disc_of_few_spacings(self):
+        scene = self.without_reference("radial.yaml")
+        for radius, warns in (("2.5 mm", True), ("4 mm", False)):
+            disc = {"body.size": "[10 mm, 10 mm, 16 mm]", "cracks[0].centre": "[0 mm, 0 mm, 8 mm]", "cracks[0].radius": radius,
+                    "crack_fluid.inlets[0].at": "[0 mm, 0 mm, 8 mm]", "time.end": "3 ms", "output.interval": "3 ms"}
+            warned = self.warnings(scene, disc)
+            self.assertEqual(any("fluid fills" in warning for warning in warned), warns, warned)
 
     def test_a_residual_aperture_as_wide_as_what_is_opened(self):
         wing = {"body.spacing": "5 mm", "body.size": "[100 mm, 200 mm]", "cracks[0].path": "[0 mm, 100 mm, 10 mm, 100 mm]",
