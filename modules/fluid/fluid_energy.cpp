@@ -27,7 +27,7 @@ double FluidEnergy<D>::of_point(const FluidPoints<D>& points, Index i, double ma
 
 template <int D>
 double FluidEnergy<D>::of_points(const FluidPoints<D>& points, Index first) const {
-  RunningTotal sum;
+  CompensatedSum sum;
   for (Index i = first; i < points.count; ++i) {
     sum.add(of_point(points, i, points.mass[i], points.density[i]));
   }

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
+#include "core/state/compensated_sum.hpp"
 #include "core/state/state_visitor.hpp"
 #include "modules/fluid/points/fluid_points.hpp"
 #include "modules/fluid/points/fluid_properties.hpp"
-#include "modules/fluid/points/running_total.hpp"
 
 namespace perifrac {
 
@@ -61,7 +61,7 @@ class FluidEnergy {
   const Vector<D>& gravity_;
   Vector<D> centre_{};  ///< of mass, at the start [m]
   double at_start_ = 0.0;
-  RunningTotal gained_, heat_;
+  CompensatedSum gained_, heat_;
   double lag_ = 0.0;
   std::vector<double> mass_;  // workspace
 };

@@ -6,11 +6,11 @@
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/geometry/region.hpp"
+#include "core/state/compensated_sum.hpp"
 #include "core/time/schedule.hpp"
 #include "modules/fluid/points/fluid_points.hpp"
 #include "modules/fluid/points/fluid_properties.hpp"
 #include "modules/fluid/points/periodic_images.hpp"
-#include "modules/fluid/points/running_total.hpp"
 
 namespace perifrac {
 
@@ -57,7 +57,7 @@ class Inlets {
   double density_;
   double point_mass_;
   Period<D> period_;
-  RunningTotal injected_;
+  CompensatedSum injected_;
   std::vector<Index> inside_;  // workspace
 };
 

@@ -5,9 +5,9 @@
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/geometry/region.hpp"
+#include "core/state/compensated_sum.hpp"
 #include "modules/fluid/points/fluid_points.hpp"
 #include "modules/fluid/points/periodic_images.hpp"
-#include "modules/fluid/points/running_total.hpp"
 
 namespace perifrac {
 
@@ -29,7 +29,7 @@ class Outlets {
  private:
   std::vector<Region<D>> boxes_;
   Period<D> period_;
-  RunningTotal removed_;
+  CompensatedSum removed_;
 };
 
 /// The keys of `outlets` in the section of the fluid.

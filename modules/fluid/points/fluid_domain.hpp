@@ -3,9 +3,9 @@
 #include "core/config/key.hpp"
 #include "core/config/section.hpp"
 #include "core/geometry/region.hpp"
+#include "core/state/compensated_sum.hpp"
 #include "modules/fluid/points/fluid_points.hpp"
 #include "modules/fluid/points/periodic_images.hpp"
-#include "modules/fluid/points/running_total.hpp"
 
 namespace perifrac {
 
@@ -32,7 +32,7 @@ class FluidDomain {
   Region<D> box_;
   std::int64_t most_lost_;
   std::int64_t left_ = 0;
-  RunningTotal removed_;
+  CompensatedSum removed_;
 };
 
 /// The keys of `domain` in the section of the fluid.
