@@ -90,18 +90,26 @@ bool takes_multigrid(const Section& scene, double points) {
          (solver == "multigrid" || points >= worth || has_many_bonds);
 }
 
-/// Of the solid, for a point, of a horizon of 2.5 spacings.
+/// More than with a horizon of 2.5 spacings.
+double bonds_over_usual(const Section& scene) {
+  return std::pow(scene.number("body.horizon_ratio") / 2.5, scene.integer("dimension"));
+}
+
+/// Of the solid, for a point. On a lattice points share their bonds: what iterates there or steps
+/// takes as much whatever the horizon is.
 double solid_bytes(const Section& scene, double points) {
   const bool plane = scene.integer("dimension") == 2;
   const std::string type = scene.word("solid.type");
   if (type == "rigid") return 0.0;
   if (type == "quasi_static" && takes_multigrid(scene, points)) {
-    return (plane ? 1.2 : 3.0) * kilobyte;
+    const bool has_cracks = scene.has("damage") || scene.count("cracks") > 0;
+    return (plane ? 1.2 : has_cracks ? 3.0 : 2.0) * kilobyte;
   }
+  const double bonds = bonds_over_usual(scene);
   if (type == "dynamic" && scene.has("body.jitter") && scene.number("body.jitter") > 0.0)
-    return (plane ? 1.0 : 2.6) * kilobyte;
-  if (type == "dynamic") return (plane ? 0.7 : 1.1) * kilobyte;
-  return (plane ? 20.0 : 230.0 * fill(points)) * kilobyte;
+    return (plane ? 1.0 : 2.6) * bonds * kilobyte;
+  if (type == "dynamic") return (plane ? 0.7 : 0.9) * kilobyte;
+  return (plane ? 20.0 : 230.0 * fill(points)) * bonds * kilobyte;
 }
 
 double pore_flow_bytes(const Section& scene, double points) {
@@ -144,12 +152,10 @@ std::optional<MemoryEstimate> estimate_memory(const Section& scene) {
   constexpr double refused_anyway = 1e8;
   const double points = lattice_points(scene);
   if (points == 0.0 || points > refused_anyway) return {};
-  const double bonds =
-      std::pow(scene.number("body.horizon_ratio") / 2.5, scene.integer("dimension"));
   double bytes = 0.0;
   if (writes(scene, "solid")) bytes += solid_bytes(scene, points);
-  if (writes(scene, "pore_flow")) bytes += pore_flow_bytes(scene, points);
-  return MemoryEstimate{points, bonds * bytes * points};
+  if (writes(scene, "pore_flow")) bytes += bonds_over_usual(scene) * pore_flow_bytes(scene, points);
+  return MemoryEstimate{points, bytes * points};
 }
 
 void require_memory(const Section& scene) {

@@ -7,6 +7,7 @@ import unittest
 
 from perifrac_runs import CONFIGS, MANDEL, RunTest, perifrac, settings
 
+BLOCKS = CONFIGS.parent / "bench" / "benchmarks"
 MEGABYTE = 1 << 20
 SHORT = {"body.spacing": "4 m", "time.end": "1 s", "output.times": "[]"}
 FINE = {"body.spacing": "0.2 mm", "solid.linear_solver.type": "direct"}  # 750,000 points: more than 10 GB
@@ -90,8 +91,10 @@ class Memory(RunTest):
         own = json.loads(perifrac("check", MANDEL, "--json", *settings(SHORT)).stdout)["forecast"]["peak_memory"]
         for scene, keys in ((MANDEL, {"body.spacing": "0.5 m"}), (CONFIGS / "plate_3d.yaml", {}),
                             (CONFIGS / "mandel_dynamic.yaml", {"body.spacing": "0.1 m"}),
-                            (CONFIGS / "drained_plate.yaml", {"body.spacing": "0.04 m"})):
-            with self.subTest(scene=scene.name):
+                            (CONFIGS / "drained_plate.yaml", {"body.spacing": "0.04 m"}),
+                            *((BLOCKS / name, {"body.size": "[40 m, 40 m, 40 m]", "body.horizon_ratio": ratio})
+                              for name in ("explicit.yaml", "equilibrium.yaml") for ratio in (2, 3))):
+            with self.subTest(scene=scene.name, keys=keys):
                 said = json.loads(perifrac("check", scene, "--json", "--trial", "0.01", *settings(keys)).stdout)
                 taken = said["forecast"]["peak_memory"] - own
                 self.assertLess(said["memory"]["estimate"], 1.6 * taken)
