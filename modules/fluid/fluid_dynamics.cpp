@@ -296,6 +296,7 @@ void FluidDynamics<D>::find_densities(double t, double length) {
 template <int D>
 void FluidDynamics<D>::kick(double t, double length) {
   const FluidStep<D> view = step_view();
+  forces_.finds_heat = energy_.begins_friction();
   method_->find_forces(view, forces_);
   {
     const ProfileScope profiled("walls");
@@ -306,9 +307,12 @@ void FluidDynamics<D>::kick(double t, double length) {
       points_.velocity[a][i] += length * (forces_.force[a][i] / points_.mass[i] + gravity_[a]);
     }
   }
-  double heat = 0.0;
-  for (const double of_point : forces_.heat) heat += length * of_point;
-  energy_.heat_up(heat + stop_at_walls<D>(view, length, points_, walls_));
+  if (forces_.finds_heat) {
+    double friction = 0.0;
+    for (const double of_point : forces_.heat) friction += of_point;
+    energy_.set_friction(friction);
+  }
+  energy_.heat_up(length, stop_at_walls<D>(view, length, points_, walls_));
   energy_.gain(wall_motion_.kick(t, length, gravity_, walls_, impulse_));
   // Squares are beyond what numbers hold before velocities are, which say where.
   if (points_.count > 0 && !energy_.is_finite()) stop_at(fastest_point(), t);

@@ -57,6 +57,9 @@ void FluidEnergy<D>::visit_state(StateVisitor& visitor) {
   visitor.visit("at_start", at_start_);
   gained_.visit_state(visitor, "gained");
   heat_.visit_state(visitor, "heat");
+  visitor.visit("steps", steps_);
+  visitor.visit("friction", friction_);
+  visitor.visit("since_friction", since_);
   visitor.visit("lag", lag_);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "core/state/compensated_sum.hpp"
@@ -31,7 +32,19 @@ class FluidEnergy {
   }
 
   void gain(double energy) { gained_.add(energy); }
-  void heat_up(double heat) { heat_.add(heat); }
+  /// Friction is found anew in this step, every eighth: it costs a tenth and more of one.
+  bool begins_friction() { return steps_++ % 8 == 0; }
+  /// Its power [W]: linear since it was last found.
+  void set_friction(double power) {
+    heat_.add(0.5 * (power - friction_) * since_);
+    friction_ = power;
+    since_ = 0.0;
+  }
+  /// Of a step of `length` [s]: by friction and `other` heat [J].
+  void heat_up(double length, double other) {
+    heat_.add(length * friction_ + other);
+    since_ += length;
+  }
 
   /// Masses are about to change, at the velocities and volumes that there are.
   void remember_masses(const FluidPoints<D>& points) { mass_ = points.mass; }
@@ -62,6 +75,9 @@ class FluidEnergy {
   Vector<D> centre_{};  ///< of mass, at the start [m]
   double at_start_ = 0.0;
   CompensatedSum gained_, heat_;
+  std::int64_t steps_ = 0;
+  double friction_ = 0.0;  ///< [W]
+  double since_ = 0.0;     ///< that was found [s]
   double lag_ = 0.0;
   std::vector<double> mass_;  // workspace
 };

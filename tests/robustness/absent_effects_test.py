@@ -59,7 +59,8 @@ PORES_LAST = {**PORES, **link("pore_flow.pore_stress.solid", POINTS, slope=True,
 FLUID_POINTS = {f"fluid/{name}": FLUID
                 for name in ("position_x", "position_y", "velocity_x", "velocity_y", "density", "mass", "id")}
 FLUID_BOOKS = {f"fluid/energy/{name}": 1
-               for name in ("centre_x", "centre_y", "at_start", "gained", "gained_lost", "heat", "heat_lost", "lag")}
+               for name in ("centre_x", "centre_y", "at_start", "gained", "gained_lost", "heat", "heat_lost", "steps",
+                            "friction", "since_friction", "lag")}
 FILM = {**FLUID_POINTS, "fluid/next_id": 1, **FLUID_BOOKS, **link("solid.displacement.fluid", 2 * POINTS, lagged=True),
         **link("fluid.interface_impulse.solid", 2 * POINTS)}
 

@@ -12,6 +12,7 @@ namespace perifrac {
 template <int D>
 struct FluidForces {
   std::array<std::vector<double>, D> force;  ///< [N]
+  bool finds_heat = true;                    ///< it is wanted now, and is nothing otherwise
   std::vector<double> heat;                  ///< what friction takes of the motion [W]
 
   void resize(Index count) {
@@ -22,7 +23,7 @@ struct FluidForces {
   /// Every process has found its share.
   void gather() {
     for (auto& along : force) ranks::gather_shares(along, static_cast<Index>(heat.size()));
-    ranks::gather_shares(heat, static_cast<Index>(heat.size()));
+    if (finds_heat) ranks::gather_shares(heat, static_cast<Index>(heat.size()));
   }
 };
 

@@ -22,11 +22,9 @@ void set_values(const FluidStep<D>& step, ForceValues<D>& values) {
   values.set(columns);
 }
 
-}  // namespace
-
-template <int D>
-void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
-                      ForceValues<D>& values, FluidForces<D>& forces) {
+template <bool heats, int D>
+void find_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
+                 ForceValues<D>& values, FluidForces<D>& forces) {
   const FluidPoints<D>& points = step.points;
   const FluidMoments<D>& moments = step.moments;
   const double least = step.fluid.density * step.scheme.artificial_viscosity *
@@ -39,17 +37,17 @@ void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influen
     for (int k = 0; k < symmetric_size<D>; ++k) own[k] = step.stress[k][i];
     const Vector<D> v = vector_at(points.velocity, i);
     const double trace = moments.trace[i];
-    const auto sum = sum_over_values<D + 1, D>(
+    const auto sum = sum_over_values<D + heats, D>(
         step.neighbours.fluid_of_fluid(), i, points.at(i), values, influence,
         [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
           const Packet weight = omega * other[2 * D];
           const Packet drag = viscosity / (trace + other[2 * D + 1]);
-          std::array<Packet, D + 1> term;
-          term[D] = Packet{};
+          std::array<Packet, D + heats> term;
+          if constexpr (heats) term[D] = Packet{};
           for (int a = 0; a < D; ++a) {
             const Packet relative = other[D + a] - v[a];
             term[a] = drag * relative;
-            term[D] += term[a] * relative;
+            if constexpr (heats) term[D] += term[a] * relative;
           }
           for (int a = 0; a < D; ++a) {
             for (int b = a; b < D; ++b) {
@@ -63,9 +61,21 @@ void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influen
           return term;
         });
     for (int a = 0; a < D; ++a) forces.force[a][i] = points.volume[i] * sum[a];
-    forces.heat[i] = 0.5 * points.volume[i] * sum[D];
+    if constexpr (heats) forces.heat[i] = 0.5 * points.volume[i] * sum[D];
   });
   forces.gather();
+}
+
+}  // namespace
+
+template <int D>
+void find_pair_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
+                      ForceValues<D>& values, FluidForces<D>& forces) {
+  if (forces.finds_heat) {
+    find_forces<true>(step, influence, values, forces);
+  } else {
+    find_forces<false>(step, influence, values, forces);
+  }
 }
 
 template void find_pair_forces<2>(const FluidStep<2>&, const GaussianInfluence&, ForceValues<2>&,

@@ -48,7 +48,7 @@ void add_pair_forces(const FluidStep<D>& step, NearWalls<D>& walls, FluidForces<
       step, walls, pair,
       [&](Index i, const WallPair<D>& sum) {
         for (int a = 0; a < D; ++a) forces.force[a][i] += sum[a];
-        forces.heat[i] += sum[D];
+        if (forces.finds_heat) forces.heat[i] += sum[D];
       },
       [&](Index w, const WallPair<D>& sum) {
         for (int a = 0; a < D; ++a) walls.force[a][w] = -sum[a];
