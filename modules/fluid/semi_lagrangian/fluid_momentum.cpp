@@ -22,6 +22,36 @@ void set_values(const FluidStep<D>& step, ForceValues<D>& values) {
   values.set(columns);
 }
 
+/// Of neighbours on a point of velocity v, and behind it the heat, if asked for.
+template <bool heats, int D>
+[[gnu::always_inline]] inline std::array<Packet, D + heats> drag_of(const auto& other,
+                                                                    const Vector<D>& v,
+                                                                    const Packet& drag) {
+  std::array<Packet, D + heats> term;
+  if constexpr (heats) term[D] = Packet{};
+  for (int a = 0; a < D; ++a) {
+    const Packet relative = other[D + a] - v[a];
+    term[a] = drag * relative;
+    if constexpr (heats) term[D] += term[a] * relative;
+  }
+  return term;
+}
+
+/// Of a point whose stress is `own` and its neighbours on each other.
+template <int D>
+[[gnu::always_inline]] inline void add_pressures(const auto& other,
+                                                 const std::array<double, symmetric_size<D>>& own,
+                                                 const PacketVector<D>& y, auto& term) {
+  for (int a = 0; a < D; ++a) {
+    for (int b = a; b < D; ++b) {
+      const int k = symmetric_index<D>(a, b);
+      const Packet stress = own[k] + other[2 * D + 2 + k];
+      term[a] += stress * y[b];
+      if (b > a) term[b] += stress * y[a];
+    }
+  }
+}
+
 template <bool heats, int D>
 void find_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
                  ForceValues<D>& values, FluidForces<D>& forces) {
@@ -42,21 +72,8 @@ void find_forces(const FluidStep<D>& step, const GaussianInfluence& influence,
         [&](const auto& other, const PacketVector<D>& y, const Packet& omega) {
           const Packet weight = omega * other[2 * D];
           const Packet drag = viscosity / (trace + other[2 * D + 1]);
-          std::array<Packet, D + heats> term;
-          if constexpr (heats) term[D] = Packet{};
-          for (int a = 0; a < D; ++a) {
-            const Packet relative = other[D + a] - v[a];
-            term[a] = drag * relative;
-            if constexpr (heats) term[D] += term[a] * relative;
-          }
-          for (int a = 0; a < D; ++a) {
-            for (int b = a; b < D; ++b) {
-              const int k = symmetric_index<D>(a, b);
-              const Packet stress = own[k] + other[2 * D + 2 + k];
-              term[a] += stress * y[b];
-              if (b > a) term[b] += stress * y[a];
-            }
-          }
+          auto term = drag_of<heats, D>(other, v, drag);
+          add_pressures<D>(other, own, y, term);
           for (Packet& component : term) component *= weight;
           return term;
         });
