@@ -10,6 +10,7 @@
 
 #include "app/references/comparison.hpp"
 #include "core/base/ranks.hpp"
+#include "core/body/crack_seeds.hpp"
 #include "modules/pore_flow/flow_in_scene.hpp"
 #include "modules/solid/equilibrium/cracked_solver.hpp"
 #include "modules/solid/equilibrium/stiffness_solver.hpp"
@@ -79,10 +80,9 @@ double fill(double points) { return std::cbrt(std::max(1.0, points / 1e4)); }
 /// scene says so.
 bool takes_multigrid(const Section& scene, double points) {
   const std::string solver = scene.word("solid.linear_solver.type");
-  const bool has_cracks = scene.has("damage") || scene.count("cracks") > 0;
   const int dimension = scene.integer("dimension");
   const double worth =
-      has_cracks ? points_worth_iteration(dimension) : points_worth_multigrid(dimension);
+      has_cracks(scene) ? points_worth_iteration(dimension) : points_worth_multigrid(dimension);
   const double bonds = 4.0 / 3.0 * M_PI * std::pow(scene.number("body.horizon_ratio"), 3);
   const bool has_many_bonds =
       dimension == 3 && points * 9.0 * bonds * bonds > numbers_worth_multigrid;
@@ -102,13 +102,12 @@ double solid_bytes(const Section& scene, double points) {
   const std::string type = scene.word("solid.type");
   if (type == "rigid") return 0.0;
   if (type == "quasi_static" && takes_multigrid(scene, points)) {
-    const bool has_cracks = scene.has("damage") || scene.count("cracks") > 0;
-    return (plane ? 1.2 : has_cracks ? 3.0 : 2.0) * kilobyte;
+    return (plane ? 1.2 : has_cracks(scene) ? 3.0 : 2.0) * kilobyte;
   }
   const double bonds = bonds_over_usual(scene);
   if (type == "dynamic" && scene.has("body.jitter") && scene.number("body.jitter") > 0.0)
     return (plane ? 1.0 : 2.6) * bonds * kilobyte;
-  if (type == "dynamic") return (plane ? 0.7 : 0.9) * kilobyte;
+  if (type == "dynamic") return (plane ? 0.7 : 0.8) * kilobyte;
   return (plane ? 20.0 : 230.0 * fill(points)) * bonds * kilobyte;
 }
 

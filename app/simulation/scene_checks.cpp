@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/body/crack_seeds.hpp"
 #include "core/config/mistakes.hpp"
 
 namespace perifrac {
@@ -27,8 +28,6 @@ constexpr const char* critical_stretch = "critical_stretch";
 bool is(const Section& scene, const char* key, const char* word) {
   return scene.has(key) && scene.word(key) == word;
 }
-
-bool has_cracks(const Section& scene) { return scene.has("damage") || scene.count("cracks") > 0; }
 
 bool is_flat(const Section& scene) { return scene.integer("dimension") == 2; }
 

@@ -21,29 +21,23 @@ namespace {
 constexpr double least_thick = 3.5;
 /// Of its thickness: what is shorter does not bend.
 constexpr double least_long = 2.0;
-/// How fast a crack may come nearer to the face that it runs along.
-constexpr double least_along = 0.8;
+/// Cosine of the angle between a crack and a face that it runs along: of 14 degrees.
+constexpr double least_along = 0.97;
 
 /// Of the leg of a crack: what lies less than `near` from a face [m].
 struct Stretch {
   double length = 0.0;
-  double thickness = 0.0;  ///< in the mean
+  double thickness = 0.0;  ///< of the rock between, in the mean
 };
 
 Stretch near_face(const Vector<2>& from, const Vector<2>& to, int face, double at, double near) {
   const int axis = face / 2;
   const double length = norm(to - from);
   if (std::abs((to - from)[1 - axis]) < least_along * length) return {};
-  constexpr int parts = 100;
-  Stretch stretch;
-  for (int k = 0; k < parts; ++k) {
-    const double place = from[axis] + (k + 0.5) / parts * (to - from)[axis];
-    if (std::abs(place - at) >= near) continue;
-    stretch.length += length / parts;
-    stretch.thickness += std::abs(place - at) * length / parts;
-  }
-  if (stretch.length > 0.0) stretch.thickness /= stretch.length;
-  return stretch;
+  const auto [least, most] = std::minmax({std::abs(from[axis] - at), std::abs(to[axis] - at)});
+  if (least >= near) return {};
+  const double part = most <= near ? 1.0 : (near - least) / (most - least);
+  return {.length = part * length, .thickness = 0.5 * (least + std::min(most, near))};
 }
 
 }  // namespace

@@ -189,8 +189,7 @@ std::optional<std::string> FillingWatch::warning() const {
   const bool is_end = time_ == simulation_.manager->time();
   return fmt::format(
       "fluid fills {:.2g} m of the cracks {}{}, {:.1f} spacings: its pressure and what it opens "
-      "are "
-      "those of facets as long as body.spacing, not of a crack; a later time.end or a finer "
+      "are those of facets as long as body.spacing, not of a crack; a later time.end or a finer "
       "body.spacing",
       filled_, is_end ? "in the end" : fmt::format("by t = {:.3g} s, and then less", time_),
       wings_from_inlets(scene_) > 1.0 ? " for each wing" : "", filled_ / spacing);

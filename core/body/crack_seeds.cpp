@@ -44,6 +44,8 @@ KeyTable crack_seed_keys() {
                   "itself how wide its cracks are."}};
 }
 
+bool has_cracks(const Section& scene) { return scene.has("damage") || scene.count("cracks") > 0; }
+
 std::vector<Vector<2>> read_crack_corners(const Section& scene, std::size_t k) {
   const std::string crack = fmt::format("cracks[{}]", k);
   for (const char* key : {".centre", ".normal", ".radius", ".sides"}) {

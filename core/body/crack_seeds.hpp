@@ -11,6 +11,9 @@ namespace perifrac {
 /// The keys of `cracks`, which a body has from the start.
 KeyTable crack_seed_keys();
 
+/// Some bonds are cut from the start, or may break.
+bool has_cracks(const Section& scene);
+
 /// The corners of the scene's crack number k, two or more. Throws InputError.
 std::vector<Vector<2>> read_crack_corners(const Section& scene, std::size_t k);
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/body/crack_seeds.hpp"
 #include "core/geometry/face_conditions.hpp"
 #include "modules/pore_flow/boundary/pore_boundary.hpp"
 #include "modules/pore_flow/flow_in_scene.hpp"
@@ -113,7 +114,7 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
   Discretisation<D> space = discretise<D>(section, *body, scene);
   const PoreBoundary<D>& boundary = scene.boundary;
   const auto family = body->family(boundary.mirrored(), boundary.sealed_layers());
-  if (family->curved && (section.scene().has("damage") || section.scene().count("cracks") > 0)) {
+  if (family->curved && has_cracks(section.scene())) {
     section.fail("boundary", "bonds that break beside a mirrored sphere",
                  "a sphere that it does not name");
   }

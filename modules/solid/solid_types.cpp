@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/body/crack_list.hpp"
+#include "core/body/crack_seeds.hpp"
 #include "core/config/mistakes.hpp"
 #include "modules/solid/boundary/solid_boundary_keys.hpp"
 #include "modules/solid/dynamic_fracture.hpp"
@@ -23,10 +24,6 @@
 namespace perifrac {
 
 namespace {
-
-bool has_cracks(const Section& section) {
-  return section.scene().has("damage") || section.scene().count("cracks") > 0;
-}
 
 /// Throws InputError where cracks that are to grow are too short to.
 template <int D>
@@ -151,7 +148,7 @@ std::unique_ptr<PhysicsModule> make_dynamic_fracture(const Section& section,
 template <int D>
 std::unique_ptr<PhysicsModule> make_quasi_static(const Section& section,
                                                  std::shared_ptr<const Body<D>> body) {
-  if (has_cracks(section)) return make_fracturing(section, body);
+  if (has_cracks(section.scene())) return make_fracturing(section, body);
   const SolidBoundary<D> boundary = read_solid_boundary<D>(section, *body);
   std::shared_ptr<ElasticOperator<D>> elastic = read_material<D>(section, *body, boundary);
   auto solid = std::make_unique<QuasiStaticSolid<D>>(body, std::move(elastic), boundary,
@@ -200,7 +197,8 @@ std::unique_ptr<PhysicsModule> make_dynamic(const Section& section,
         body, std::move(elastic), boundary, section.number("density"), section.number("damping"),
         section.number("integrator.safety"), std::move(breaking));
   };
-  if (!has_cracks(section)) return make(read_material<D>(section, *body, boundary), nullptr);
+  if (!has_cracks(section.scene()))
+    return make(read_material<D>(section, *body, boundary), nullptr);
   if (!names_critical_stretch(section.scene())) {
     if (section.word("material.type") != "linear_exact") {
       section.fail(
