@@ -212,7 +212,7 @@ class Validity(RunTest):
 
     def test_leak_off_that_takes_all(self):
         # A crack that is closed by 19 MPa loses more at the first facet than is pumped.
-        lossy = {"solid.confining_stress": "[19 MPa, 1 MPa]", "body.spacing": "2.5 mm"}
+        lossy = {"solid.confining_stress": "[19 MPa, 1 MPa]", "body.spacing": "4 mm"}
         for coefficient, warns in (("1.4e-3 m/s*sqrt(s)", True), ("1e-4 m/s*sqrt(s)", False)):
             warned = self.warnings(CONFIGS / "shut_in.yaml", lossy | {"crack_fluid.leak_off_coefficient": coefficient})
             self.assertEqual(any("leaked off where it came in" in warning for warning in warned), warns, warned)
@@ -238,10 +238,10 @@ class Validity(RunTest):
         self.assert_warns(FLUID, soon, "fluid fills")
         self.assert_warns(FLUID, soon | {"time.end": "3 ms"})
         # Nor does one say so that has closed on what leaked off.
-        warned = self.warnings(CONFIGS / "shut_in.yaml", {"body.spacing": "2.5 mm"})
+        warned = self.warnings(CONFIGS / "shut_in.yaml", {"body.spacing": "4 mm"})
         self.assertFalse(any("fluid fills" in warning for warning in warned), warned)
         # One that flows back without having got far does.
-        little = {"body.spacing": "2.5 mm", "crack_fluid.inlets[0].rate": "3.4e-6 m^2/s"}
+        little = {"body.spacing": "4 mm", "crack_fluid.inlets[0].rate": "3.4e-6 m^2/s"}
         warned = self.warnings(CONFIGS / "shut_in.yaml", little)
         self.assertTrue(any("fluid fills" in warning and "by t = " in warning for warning in warned), warned)
 
@@ -261,15 +261,14 @@ class Validity(RunTest):
     def test_a_crack_aslant_to_the_stress(self):
         """Sheared by 1.7 and 3.3 times what it grows at."""
         for other, warns in (("5 MPa", True), ("4 MPa", False), ("3 MPa", False)):
-            keys = {"damage.fracture_energy": "5 J/m^2", "solid.material.youngs_modulus": "0.7 GPa",
-                    "solid.confining_stress": f"[3 MPa, {other}]"}
+            keys = {"body.spacing": "10 mm", "solid.confining_stress": f"[3 MPa, {other}]"}
             warned = self.foreknown(CONFIGS / "kgd_oblique.yaml", keys)
             self.assertEqual(any("lies aslant to the stress" in warning for warning in warned), warns, warned)
 
     def test_a_crack_that_slides_before_fluid_is_there(self):
         both = ("[{name: hf, path: [0.5 m, 0.48 m, 0.5 m, 0.52 m]}, "
                 "{name: natural, path: [0.25 m, 0.25 m, 0.29 m, 0.27 m]}]")
-        even = {"cracks": both, "damage.fracture_energy": "5 J/m^2", "solid.material.youngs_modulus": "0.7 GPa"}
+        even = {"body.spacing": "10 mm", "cracks": both}
         uneven = even | {"solid.confining_stress": "[3 MPa, 6 MPa]"}
         for keys, warns in ((uneven, True), (uneven | {"solid.crack_friction": "0.6"}, False), (even, False)):
             warned = self.foreknown(CONFIGS / "kgd_oblique.yaml", keys)
