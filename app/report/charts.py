@@ -235,7 +235,11 @@ def history_charts(run: Run) -> list[Chart]:
         charts.append(
             Chart(sentence(title), x, y, series, "history", log_x=spans_decades(time), groups=names)
         )
-    return charts
+    return sorted(charts, key=is_level)  # what goes on comes first
+
+
+def is_level(chart: Chart) -> bool:
+    return all(np.nanmin(s.y) == np.nanmax(s.y) for s in chart.series)
 
 
 def all_charts(run: Run) -> list[Chart]:

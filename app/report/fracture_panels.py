@@ -56,6 +56,17 @@ class Fracture:
         return self.crack.fields.get("crack_pressure")
 
     @property
+    def slip(self) -> np.ndarray | None:
+        """How far the faces of each facet have slid, either way; None without friction."""
+        return np.abs(self.crack.fields["crack_slip"]) if "crack_slip" in self.crack.fields else None
+
+    @property
+    def is_wet(self) -> np.ndarray:
+        """Facets whose pressure says something: those that hold fluid, though they be closed."""
+        wetted = self.crack.fields.get("crack_wetted_fraction")
+        return self.is_open if wetted is None else wetted > 0.0
+
+    @property
     def length(self) -> Display:
         """How places are shown: the window's largest coordinate decides."""
         return display_for("m", float(np.abs(window(self)).max()))
@@ -166,9 +177,11 @@ def pore_panel(fracture: Fracture) -> Panel:
     def draw(axes: Axes) -> None:
         pores = fracture.rock.fields["pore_pressure"]
         pore = display_for("Pa", float(np.abs(pores).max()))
-        limits = (pore.factor * min(0.0, float(np.quantile(pores, 0.01))), pore.factor * float(np.quantile(pores, 0.995)))
-        rock = draw_rock(axes, fracture, pores, pore.factor, PORES, limits)
-        inside = [fracture.pressure[fracture.is_open]] if fracture.pressure is not None else []
+        least, most = (float(np.quantile(pores, part)) for part in (0.01, 0.995))
+        if most - least < 1e-3 * abs(most):  # the same everywhere
+            least = min(0.0, least)
+        rock = draw_rock(axes, fracture, pores, pore.factor, PORES, (pore.factor * least, pore.factor * most))
+        inside = [fracture.pressure[fracture.is_wet]] if fracture.pressure is not None else []
         free = fracture.fluid.fields.get("fluid_pressure") if fracture.fluid is not None else None
         highest = max((float(v.max(initial=0.0)) for v in [*inside, *([free] if free is not None else [])]), default=0.0)
         fluid = display_for("Pa", highest)
@@ -183,7 +196,8 @@ def pore_panel(fracture: Fracture) -> Panel:
                          edgecolors="white", linewidths=0.3, zorder=6)  # fmt: skip
         axes.set_title(f"Pressure in pores{', notch' if free is not None else ''} and crack at {time_of(fracture)}")
         draw_bar(axes, rock, 1.02, f"in the pores [{pore.unit}]")
-        draw_bar(axes, matplotlib.cm.ScalarMappable(norm, FLUID), 1.26, f"notch and crack [{fluid.unit}]")
+        if free is not None or fracture.is_open.any():  # what is closed is dotted
+            draw_bar(axes, matplotlib.cm.ScalarMappable(norm, FLUID), 1.26, f"notch and crack [{fluid.unit}]")
 
     return draw
 
@@ -204,34 +218,38 @@ def stress_panel(fracture: Fracture) -> Panel:
         draw_cracks(axes, fracture)
         axes.set_title(f"Largest principal effective stress at {time_of(fracture)}")
         draw_bar(axes, rock, 1.02, f"tension positive [{shown.unit}]")
-        widest = quantity(float(fracture.opening.max()), "m", 3)
-        handles = [Line2D([], [], color=INK, linewidth=WIDEST, label=f"open crack, at most {widest}"),
-                   Line2D([], [], color=INK, linewidth=THINNEST, linestyle=(0, (1, 1)), label="closed")]  # fmt: skip
+        handles = [Line2D([], [], color=INK, linewidth=THINNEST, linestyle=(0, (1, 1)), label="closed")]
+        if fracture.is_open.any():
+            widest = quantity(float(fracture.opening.max()), "m", 3)
+            handles.insert(0, Line2D([], [], color=INK, linewidth=WIDEST, label=f"open crack, at most {widest}"))
         axes.legend(handles=handles, loc="lower left", frameon=True, framealpha=0.85, edgecolor="none", handlelength=1.4)
 
     return draw
 
 
-def draw_along(axes: Axes, fracture: Fracture, paths: Paths, x: np.ndarray, y: np.ndarray, **style) -> None:
-    """A line for every branch, of its open facets."""
+def draw_along(axes: Axes, paths: Paths, shown: np.ndarray, x: np.ndarray, y: np.ndarray, **style) -> None:
+    """A line for every branch, of those of its facets that are shown."""
     for branch in range(int(paths.branch.max()) + 1):
-        members = np.flatnonzero((paths.branch == branch) & fracture.is_open)
+        members = np.flatnonzero((paths.branch == branch) & shown)
         members = members[np.argsort(x[members])]
         axes.plot(x[members], y[members], linestyle=DASHES[branch % len(DASHES)], markersize=3, linewidth=1.2, **style)
 
 
 def along_panel(fracture: Fracture, paths: Paths) -> Panel:
-    """Opening and pressure along the cracks, each counted from its oldest facet."""
+    """Opening, or where all is closed and faces slid their slip, and pressure along the cracks, each counted from its
+    oldest facet."""
 
     def draw(axes: Axes) -> None:
-        seen = paths.along[fracture.is_open]
+        slides = fracture.slip is not None and not fracture.is_open.any()
+        apart, shown = (fracture.slip, np.ones(len(fracture.opening), bool)) if slides else (fracture.opening, fracture.is_open)
+        seen = paths.along[shown]
         length = display_for("m", float(np.abs(seen).max(initial=0.0)))
-        width = display_for("m", float(fracture.opening.max()))
-        draw_along(axes, fracture, paths, length.factor * paths.along, width.factor * fracture.opening, color="#0072B2", marker="o")
+        width = display_for("m", float(apart.max()))
+        draw_along(axes, paths, shown, length.factor * paths.along, width.factor * apart, color="#0072B2", marker="o")
         cracks, wings = int(paths.branch.max()) + 1, seen.min(initial=0.0) < 0
         begun = "where it began" if wings else "its mouth"
         axes.set(title=f"Along the crack{'s' if cracks > 1 else ''} at {time_of(fracture)}", xlabel=f"from {begun} [{length.unit}]")
-        axes.set_ylabel(f"opening [{width.unit}]", color="#0072B2")
+        axes.set_ylabel(f"{'slip' if slides else 'opening'} [{width.unit}]", color="#0072B2")
         axes.set_ylim(bottom=0)
         if 1 < cracks <= len(DASHES):
             axes.legend(handles=[Line2D([], [], color=INK, linestyle=dash, label=f"crack {n + 1}")
@@ -239,9 +257,10 @@ def along_panel(fracture: Fracture, paths: Paths) -> Panel:
         if fracture.pressure is None:
             return
         beside = axes.twinx()
-        shown = display_for("Pa", float(np.abs(fracture.pressure).max()))
-        draw_along(beside, fracture, paths, length.factor * paths.along, shown.factor * fracture.pressure, color="#D55E00", marker="s")
-        beside.set_ylabel(f"pressure [{shown.unit}]", color="#D55E00")
+        pressure = display_for("Pa", float(np.abs(fracture.pressure).max()))
+        borne = shown & fracture.is_wet if slides else shown
+        draw_along(beside, paths, borne, length.factor * paths.along, pressure.factor * fracture.pressure, color="#D55E00", marker="s")
+        beside.set_ylabel(f"pressure [{pressure.unit}]", color="#D55E00")
         beside.grid(False)
         beside.spines["right"].set_visible(True)
         beside.set_ylim(bottom=min(0.0, beside.get_ylim()[0]))

@@ -52,9 +52,11 @@ const std::vector<Rule>& rules() {
        [](const Section& scene) { return has_friction(scene) && !is_flat(scene); }, "in 3D",
        "dimension: 2, or a solid without crack_friction"},
       {"solid.crack_friction",
-       [](const Section& scene) { return has_friction(scene) && scene.has("pore_flow"); },
-       "beside pore flow, whose pressure faces do not feel",
-       "dry rock, or a solid without crack_friction"},
+       [](const Section& scene) {
+         return has_friction(scene) && scene.has("pore_flow") && !scene.has("crack_fluid");
+       },
+       "beside pore flow and dry cracks, whose faces do not feel the pressure of pores",
+       "crack_fluid, such as one with leak_off: pores, or a solid without crack_friction"},
       {"solid.kinematics",
        [](const Section& scene) { return turns_far(scene) && !is_dynamic(scene); },
        "'corotational' of a solid in equilibrium", "type: dynamic, or small"},

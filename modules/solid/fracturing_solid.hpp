@@ -35,13 +35,14 @@ namespace perifrac {
 /// Beside fluid what viscosity takes ahead of the last whole facet, where tips move within them:
 /// then the property `crack_part` is how much of a facet is crack. Where a crack begins by itself
 /// or ends, at a face or another crack, that is what the balance of energy says. With friction
-/// between faces `friction_dissipation` [J/m], and `crack_slip_area` [m^2], the slip of all facets,
-/// counted positive, times their length.
+/// between faces `friction_dissipation` [J/m], `crack_slip` [m] of the facets, how far the face on
+/// the left of a crack's path has gone along it beyond the other, and `crack_slip_area` [m^2], that
+/// of all facets, counted positive, times their length.
 template <int D>
 class FracturingSolid final : public PhysicsModule {
  public:
   /// `fracture_energy` infinite: no crack grows. `tensile_strength`, in 2D: cracks begin at it.
-  /// `friction`: between faces, in 2D without fluid in the cracks; null: none.
+  /// `friction`: between faces, in 2D; null: none.
   FracturingSolid(std::shared_ptr<const Body<D>> body, std::shared_ptr<Family<D>> family,
                   std::shared_ptr<BreakableElasticity<D>> elastic, const SolidBoundary<D>& boundary,
                   std::optional<InitialStress<D>> initial_stress, std::vector<CrackFacet<D>> seeds,

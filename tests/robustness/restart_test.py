@@ -74,6 +74,7 @@ class Restart(RunTest):
     def test_a_growing_crack_in_parts(self):
         dry = {"body.spacing": "2.5 mm", "time.end": "20 ms"}
         pores = {"body.spacing": "5 mm", "time.end": "10 ms"}
+        fault = {"body.spacing": "8 m", "time.end": "50000 s"}
         cvode = pores | {"pore_flow.integrator.type": "cvode", "coupling.window.largest": "1 ms"}
         stabilised = pores | {"pore_flow.undrained_stabilisation": "0.25"}
         front = {"body.size": "[8 mm, 8 mm, 32 mm]", "time.end": "12 ms"}
@@ -91,7 +92,8 @@ class Restart(RunTest):
                                          ("as published", "paper/hf_storage", "0.25 ms", published),
                                          ("explicit pores", "hf_storage_pores", "5 ms", pores),
                                          ("stabilised pores", "hf_storage_pores", "5 ms", stabilised),
-                                         ("cvode pores", "hf_storage_pores", "5 ms", cvode)):
+                                         ("cvode pores", "hf_storage_pores", "5 ms", cvode),
+                                         ("a fault beside pores", "fault_slip", "25000 s", fault)):
             with self.subTest(name):
                 path, keys = CONFIGS / f"{scene}.yaml", keys | {"output.checkpoint_interval": "0 s"}
                 whole = self.run_scene(keys, f"{name}/whole", scene=path)

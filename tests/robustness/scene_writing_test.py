@@ -18,7 +18,7 @@ import yaml
 from catalogue_cases import ROOT, SCHEMA_LINE, schema_of, shipped_scenes, wrong_by_the_catalogue
 
 PERIFRAC = os.path.abspath(sys.argv.pop(1))
-KINDS = ("consolidation", "constant_head", "fractures_in_layers", "impact", "kgd", "mandel", "natural_fracture",
+KINDS = ("consolidation", "constant_head", "fault", "fractures_in_layers", "impact", "kgd", "mandel", "natural_fracture",
          "own_points", "radial")  # fmt: skip
 
 

@@ -117,7 +117,7 @@ class ElasticDynamics final : public SecondOrderSystem {
   /// Of every unknown, at the time of a force: what is prescribed, empty where nothing is, and the
   /// load; displacements tried.
   struct Now {
-    Eigen::VectorXd prescribed, load;
+    Eigen::VectorXd prescribed{}, load;
     std::vector<double> trial;
   };
 

@@ -373,6 +373,28 @@ class Fractures(ReportTest):
         titles = [chart.title for chart in charts.history_charts(read_run(folder))]
         self.assertEqual(titles, ["Crack length, fluid lag", "Inlet notch opening"])
 
+    def test_what_goes_on_comes_before_what_stays(self) -> None:
+        folder = self.folder / "history"
+        fractured_run.write_run(folder, spacing=5e-4)
+        (folder / "history.csv").write_text(
+            "time [s],crack_length [m],crack_slip_area [m^2]\n0,0.01,0\n1,0.01,2e-6\n", encoding="utf-8")
+        titles = [chart.title for chart in charts.history_charts(read_run(folder))]
+        self.assertEqual(titles, ["Crack slip area", "Crack length"])
+
+    def test_slip_is_drawn_along_cracks_that_are_closed(self) -> None:
+        """Of all facets, and the pressure of those that hold fluid."""
+        points = np.array([[x, 0.0] for x in range(5)])
+        fields = {"crack_opening": np.zeros(5), "crack_slip": -1e-3 * np.arange(5.0), "crack_pressure": 2e6 + np.arange(5.0),
+                  "crack_wetted_fraction": np.array([1.0, 1.0, 0.5, 0.0, 0.0])}  # fmt: skip
+        crack = fracture_panels.PointSet(points, fields)
+        fracture = fracture_panels.Fracture(1.0, crack, crack, None, neighbours(points))
+        figure, axes = plt.subplots()
+        fracture_panels.along_panel(fracture, crack_paths(points))(axes)
+        self.assertEqual(axes.get_ylabel(), "slip [mm]")
+        np.testing.assert_allclose(axes.get_lines()[0].get_ydata(), [0, 1, 2, 3, 4])
+        self.assertEqual(len(figure.axes[1].get_lines()[0].get_ydata()), 3)
+        plt.close(figure)
+
     def test_two_cracks_with_two_wings_each_are_two_lines(self) -> None:
         """Their facets grow by turns, one wing longer than the other."""
         points = np.array([[x, y] for x in (0.5, -0.5, 1.5, -1.5, 2.5) for y in (0.0, 9.0)])
