@@ -21,6 +21,7 @@
 #include "app/warnings/sharp_wave_warning.hpp"
 #include "app/warnings/short_leg_warning.hpp"
 #include "app/warnings/slanted_at_mirror_warning.hpp"
+#include "app/warnings/slip_at_rest_warning.hpp"
 #include "app/warnings/stress_beyond_stiffness_warning.hpp"
 #include "app/warnings/swinging_beam_warning.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
@@ -159,6 +160,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (const auto warning = short_leg_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = stress_beyond_stiffness_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = slanted_at_mirror_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = slip_at_rest_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = crack_across_stress_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = crack_along_face_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = light_solid_warning(scene)) warnings.push_back(*warning);

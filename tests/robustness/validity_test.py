@@ -265,6 +265,14 @@ class Validity(RunTest):
             warned = self.foreknown(CONFIGS / "kgd_oblique.yaml", keys)
             self.assertEqual(any("lies aslant to the stress" in warning for warning in warned), warns, warned)
 
+    def test_a_fault_beyond_what_friction_holds_at_rest(self):
+        """10 MPa of shear under 35 MPa, less the 15 MPa of the water in it; and a crack that is dry, under 15 and 5."""
+        for scene, keys, warns in (("fault_slip", {"solid.crack_friction": "0.49"}, True), ("fault_slip", {}, False),
+                                   ("sliding_crack", {"solid.confining_stress": "[20 MPa, 10 MPa]"}, True),
+                                   ("sliding_crack", {"solid.confining_stress": "[12 MPa, 8 MPa]"}, False)):
+            warned = self.foreknown(CONFIGS / f"{scene}.yaml", keys)
+            self.assertEqual(any("of shear at rest" in warning for warning in warned), warns, warned)
+
     def test_a_crack_that_slides_before_fluid_is_there(self):
         both = ("[{name: hf, path: [0.5 m, 0.48 m, 0.5 m, 0.52 m]}, "
                 "{name: natural, path: [0.25 m, 0.25 m, 0.29 m, 0.27 m]}]")
