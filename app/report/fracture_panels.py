@@ -181,7 +181,7 @@ def pore_panel(fracture: Fracture) -> Panel:
         if most - least < 1e-3 * abs(most):  # the same everywhere
             least = min(0.0, least)
         rock = draw_rock(axes, fracture, pores, pore.factor, PORES, (pore.factor * least, pore.factor * most))
-        inside = [fracture.pressure[fracture.is_wet]] if fracture.pressure is not None else []
+        inside = [fracture.pressure[fracture.is_open]] if fracture.pressure is not None else []
         free = fracture.fluid.fields.get("fluid_pressure") if fracture.fluid is not None else None
         highest = max((float(v.max(initial=0.0)) for v in [*inside, *([free] if free is not None else [])]), default=0.0)
         fluid = display_for("Pa", highest)

@@ -11,10 +11,10 @@
 #include "app/references/rock.hpp"
 #include "app/warnings/body_box.hpp"
 #include "app/warnings/inlet_places.hpp"
+#include "app/warnings/stress_on_line.hpp"
 #include "core/base/small_vector.hpp"
 #include "core/body/crack_seeds.hpp"
 #include "modules/solid/fracture/damage_keys.hpp"
-#include "modules/solid/material/stress_at_rest.hpp"
 
 namespace perifrac {
 
@@ -59,7 +59,7 @@ bool is_pumped(const Section& scene, const std::vector<Vector<2>>& corners, doub
 
 /// Stresses on a crack, compression positive [Pa].
 struct CrackStress {
-  double lengthwise, across, shear;
+  StressOnLine rock;
   double growing;  ///< what it grows at
   bool is_pumped, has_friction;
 };
@@ -69,13 +69,7 @@ CrackStress stress_on(const Section& scene, const std::vector<Vector<2>>& corner
   const double spacing = scene.number("body.spacing");
   const double toughness =
       std::sqrt(read_elastic_rock(scene).plane_strain_modulus() * read_fracture_energy(scene));
-  const Vector<2> along =
-      (corners.back() - corners.front()) / norm(corners.back() - corners.front());
-  const double height = 0.5 * (corners.front()[1] + corners.back()[1]);
-  const Vector<2> stress = {stated.total_at(0, height), stated.total_at(1, height)};
-  return {.lengthwise = along[0] * along[0] * stress[0] + along[1] * along[1] * stress[1],
-          .across = along[1] * along[1] * stress[0] + along[0] * along[0] * stress[1],
-          .shear = std::abs(along[0] * along[1] * (stress[0] - stress[1])),
+  return {.rock = stress_on_line(stated, corners.front(), corners.back()),
           .growing = toughness / std::sqrt(M_PI * half_length(scene, corners, spacing)),
           .is_pumped = is_pumped(scene, corners, spacing),
           .has_friction =
@@ -83,9 +77,9 @@ CrackStress stress_on(const Section& scene, const std::vector<Vector<2>>& corner
 }
 
 std::optional<std::string> warning_of(const CrackStress& on) {
-  if (on.shear > sheared * on.growing) {
+  if (on.rock.shear > sheared * on.growing) {
     const std::string by = fmt::format("by {:.3g} MPa, {:.2g} times what it grows at",
-                                       1e-6 * on.shear, on.shear / on.growing);
+                                       1e-6 * on.rock.shear, on.rock.shear / on.growing);
     if (on.is_pumped) {
       return fmt::format(
           "lies aslant to the stress of the rock, which shears it {}: it jumps where fluid opens "
@@ -100,14 +94,14 @@ std::optional<std::string> warning_of(const CrackStress& on) {
           by);
     }
   }
-  const double more = on.across - on.lengthwise;
-  if (!on.is_pumped || on.shear > aslant * more || !(more > (1.0 + unstable) * on.growing)) {
+  const double more = on.rock.across - on.rock.lengthwise;
+  if (!on.is_pumped || on.rock.shear > aslant * more || !(more > (1.0 + unstable) * on.growing)) {
     return {};
   }
   return fmt::format(
       "lies across the larger stress, {:.3g} MPa against {:.3g} MPa along it: in rock it would "
       "turn, and here it goes on as long as nothing disturbs it; lay it along the larger stress",
-      1e-6 * on.across, 1e-6 * on.lengthwise);
+      1e-6 * on.rock.across, 1e-6 * on.rock.lengthwise);
 }
 
 }  // namespace

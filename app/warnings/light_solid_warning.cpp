@@ -12,7 +12,7 @@ namespace {
 
 /// Mass of fluid over mass of the outermost points, by area. Water on a plate: at 1.8 energies are
 /// 3 % off, at 3.5 displacements by a third, at 19 the plate flies apart.
-constexpr double most = 2.0;
+constexpr double heaviest = 2.0;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::optional<std::string> light_solid_warning(const Section& scene) {
   const double impedance = std::sqrt(scene.number("fluid.bulk_modulus") * density);
   const double window = scene.number("coupling.window.largest");
   const double own = scene.number("solid.density") * scene.number("body.spacing");
-  if (impedance * window <= most * own) return {};
+  if (impedance * window <= heaviest * own) return {};
   return fmt::format(
       "sound meets {:.3g} kg/m^2 of fluid in a window of {:.3g} s, and the solid's outermost "
       "points have {:.3g}: solid and fluid answer each other too late, and may swing apart; take "

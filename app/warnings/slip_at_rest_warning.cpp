@@ -1,15 +1,13 @@
 #include "app/warnings/slip_at_rest_warning.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "core/base/small_vector.hpp"
+#include "app/warnings/stress_on_line.hpp"
 #include "core/body/crack_seeds.hpp"
 #include "core/geometry/region.hpp"
-#include "modules/solid/material/stress_at_rest.hpp"
 
 namespace perifrac {
 
@@ -30,20 +28,6 @@ double pressure_at_start(const Section& scene, const Vector<2>& place) {
   return 0.0;
 }
 
-struct Faces {
-  double pressed;  ///< together, by the rock and not the fluid between them [Pa]
-  double shear;    ///< of either sign [Pa]
-};
-
-Faces faces_at_rest(const Section& scene, const StatedStress& stated, const Vector<2>& first,
-                    const Vector<2>& last) {
-  const Vector<2> along = (last - first) / norm(last - first), middle = 0.5 * (first + last);
-  const double xx = stated.total_at(0, middle[1]), yy = stated.total_at(1, middle[1]);
-  return {.pressed = along[1] * along[1] * xx + along[0] * along[0] * yy -
-                     pressure_at_start(scene, middle),
-          .shear = std::abs(along[0] * along[1] * (xx - yy))};
-}
-
 }  // namespace
 
 std::optional<std::string> slip_at_rest_warning(const Section& scene) {
@@ -54,8 +38,9 @@ std::optional<std::string> slip_at_rest_warning(const Section& scene) {
   for (std::size_t k = 0; k < scene.count("cracks"); ++k) {
     const std::vector<Vector<2>> corners = read_crack_corners(scene, k);
     for (std::size_t c = 1; c < corners.size(); ++c) {
-      const Faces faces = faces_at_rest(scene, *stated, corners[c - 1], corners[c]);
-      const double limit = friction * std::max(0.0, faces.pressed);
+      const StressOnLine faces = stress_on_line(*stated, corners[c - 1], corners[c]);
+      const double fluid = pressure_at_start(scene, 0.5 * (corners[c - 1] + corners[c]));
+      const double limit = friction * std::max(0.0, faces.across - fluid);
       if (!(faces.shear > beyond * limit)) continue;
       return fmt::format(
           "cracks[{}] bears {:.3g} MPa of shear at rest, and friction of {:.3g} holds {:.3g}: what "

@@ -114,6 +114,18 @@ void FracturingSolid<D>::make_crack_ports() {
     }
     return area;
   });
+  if (!friction_) return;
+  ports_.found({"crack_slip", "m"}, bonds_.facet_points(), [this](std::vector<double>& slip) {
+    slip.assign(friction_->slip().begin(), friction_->slip().end());
+    slip.resize(bonds_.facet_points().count);
+  });
+  ports_.total({"crack_slip_area", "m^2"}, whole_solid, [this] {
+    double area = 0.0;
+    for (std::size_t f = 0; f < friction_->slip().size(); ++f) {
+      area += cracked_->jumps()[f].area * std::abs(friction_->slip()[f]);
+    }
+    return area;
+  });
 }
 
 template <int D>
@@ -132,17 +144,6 @@ void FracturingSolid<D>::make_energy_ports() {
   }
   if (!friction_) return;
   energy("friction_dissipation", energy_dissipated, [this] { return friction_->dissipation(); });
-  ports_.found({"crack_slip", "m"}, bonds_.facet_points(), [this](std::vector<double>& slip) {
-    slip.assign(friction_->slip().begin(), friction_->slip().end());
-    slip.resize(bonds_.facet_points().count);
-  });
-  ports_.total({"crack_slip_area", "m^2"}, whole_solid, [this] {
-    double area = 0.0;
-    for (std::size_t f = 0; f < friction_->slip().size(); ++f) {
-      area += cracked_->jumps()[f].area * std::abs(friction_->slip()[f]);
-    }
-    return area;
-  });
 }
 
 template <int D>

@@ -13,9 +13,9 @@ Key crack_friction_key() {
       .path = name,
       .range = "[0, inf)",
       .meaning =
-          "quasi_static, 2D, beside pore_flow with crack_fluid: Coulomb's coefficient of friction "
-          "between faces that touch, of what presses them together beyond a fluid in the crack; "
-          "left out, they bear no shear."};
+          "quasi_static, 2D; beside pore_flow where crack_fluid is there too: Coulomb's "
+          "coefficient of friction between faces that touch, of what presses them together beyond "
+          "a fluid in the crack; left out, they bear no shear."};
 }
 
 std::unique_ptr<CrackFriction> read_crack_friction(const Section& section) {

@@ -381,6 +381,18 @@ class Fractures(ReportTest):
         titles = [chart.title for chart in charts.history_charts(read_run(folder))]
         self.assertEqual(titles, ["Crack slip area", "Crack length"])
 
+    def test_pore_pressure_is_coloured_from_the_least_to_the_most(self) -> None:
+        """From 0 where it is the same everywhere; no scale of what is in cracks that are closed."""
+        points = np.array([[x, y] for x in range(4) for y in range(4)], float)
+        for pores, least in ((np.linspace(15e6, 16e6, 16), 15.0), (np.full(16, 15e6), 0.0)):
+            rock = fracture_panels.PointSet(points, {"pore_pressure": pores})
+            crack = fracture_panels.PointSet(points[:2], {"crack_opening": np.zeros(2), "crack_pressure": np.ones(2)})
+            figure, axes = plt.subplots()
+            fracture_panels.pore_panel(fracture_panels.Fracture(1.0, rock, crack, None, neighbours(points[:2])))(axes)
+            self.assertAlmostEqual(axes.collections[0].get_clim()[0], least, delta=0.02)
+            self.assertEqual(len(axes.child_axes), 1)
+            plt.close(figure)
+
     def test_slip_is_drawn_along_cracks_that_are_closed(self) -> None:
         """Of all facets, and the pressure of those that hold fluid."""
         points = np.array([[x, 0.0] for x in range(5)])
