@@ -44,9 +44,15 @@ class Condition:
 @dataclass(frozen=True)
 class Face:
     name: str
-    axis: int  # -1: a sphere about the origin
+    axis: int  # -1: curved
     direction: int
-    coordinate: float
+    coordinate: float  # of a curved one its radius
+    centre: tuple[float, ...] = (0.0, 0.0, 0.0)
+    along: int = -1  # the axis of a hole in 3D
+
+    @property
+    def is_hole(self) -> bool:
+        return self.axis < 0 and self.direction < 0
 
 
 @dataclass(frozen=True)
@@ -67,7 +73,7 @@ class Setup:
 
     @property
     def radius(self) -> float | None:
-        return next((face.coordinate for face in self.faces if face.axis < 0), None)
+        return next((face.coordinate for face in self.faces if face.axis < 0 and not face.is_hole), None)
 
     @property
     def has_body(self) -> bool:
@@ -105,7 +111,7 @@ def flow_label(entry: Scene, dimension: int) -> str:
 def boxes_of(scene: Scene, dimension: int) -> list[Box]:
     body, fluid = scene.get("body", {}), scene.get("fluid", {})
     found = [box("region", entry, dimension, region_label(scene, name)) for name, entry in body.get("regions", {}).items()]
-    found += [box("cut-out", entry, dimension, name) for name, entry in body.get("cutouts", {}).items()]
+    found += [box("cut-out", entry, dimension, name) for name, entry in body.get("cutouts", {}).items() if "radius" not in entry]
     if "container" in fluid:
         found.append(box("container", fluid["container"], dimension, ""))
     found += [box("free fluid", entry, dimension, entry["name"]) for entry in fluid.get("blocks", [])]
@@ -173,6 +179,8 @@ def extent(setup: Scene, boxes: list[Box]) -> tuple[np.ndarray, np.ndarray, list
     faces = [Face(**face) for face in setup.get("body", {}).get("faces", [])]
     low, high = np.full(dimension, np.inf), np.full(dimension, -np.inf)
     for face in faces:
+        if face.is_hole:
+            continue
         if face.axis < 0:
             flat = {f.axis for f in faces}
             low = np.minimum(low, [0.0 if a in flat else -face.coordinate for a in range(dimension)])

@@ -64,7 +64,11 @@ def draw_body(plane: Plane) -> None:
         return
     low, high = (plane.scaled([f.coordinate for f in sorted(setup.faces, key=lambda f: f.axis) if f.direction == side])
                  for side in (-1, 1))  # fmt: skip
-    axes.add_patch(patches.Rectangle(low, *(high - low), **style))
+    rock = axes.add_patch(patches.Rectangle(low, *(high - low), **style))
+    for hole in (face for face in setup.faces if face.is_hole):
+        circle = patches.Circle(plane.scaled(np.array(hole.centre[:2])), hole.coordinate * plane.length.factor,
+                                **{**style, "facecolor": "white", "zorder": 1.5})  # fmt: skip
+        axes.add_patch(circle).set_clip_path(rock)
     if len(setup.points):
         axes.plot(*plane.scaled(setup.points).T, ".", color=FAINT, markersize=1.5, zorder=2)
 
@@ -141,9 +145,26 @@ def draw_load(plane: Plane, line: np.ndarray, outward: np.ndarray, direction: np
             plane.arrow(at - length * direction, at, colour)
 
 
+def draw_hole(plane: Plane, hole: Face, condition: Condition) -> None:
+    """What presses on its wall as arrows from within; pressure of pores as a line along it."""
+    centre, radius = plane.scaled(np.array(hole.centre[:2])), hole.coordinate * plane.length.factor
+    if condition.physics == "pore_flow":
+        plane.axes.add_patch(patches.Circle(centre, radius, fill=False, edgecolor=FLOW, linewidth=3, alpha=0.8, zorder=4.5))
+        plane.used.setdefault("pressure of pores held", Line2D([], [], color=FLOW, linewidth=3))
+        plane.note(centre - [0, radius], f"{hole.name}: {condition.label}", (0, -10), color=FLOW)
+        return
+    for angle in np.pi * (0.125 + 0.25 * np.arange(8)):
+        out = np.array([np.cos(angle), np.sin(angle)])
+        plane.arrow(centre + 0.35 * radius * out, centre + radius * out, INK, 0.8)
+    plane.note(centre + [0, radius], f"{hole.name}: {condition.label}", (0, 12))
+
+
 def draw_condition(plane: Plane, condition: Condition) -> None:
     face = next((f for f in plane.setup.faces if f.name == condition.face), None)
     if face is None:
+        return
+    if face.is_hole:
+        draw_hole(plane, face, condition)
         return
     if face.axis < 0:
         angle = np.pi / 4

@@ -67,6 +67,25 @@ def draw_ball(solid: Solid) -> None:
     solid.axes.plot_wireframe(x, y, z, color=FAINT, linewidth=0.5)
 
 
+def rim(solid: Solid, hole: Face, level: np.ndarray) -> np.ndarray:
+    """Points around the end of a hole, at that side of the body."""
+    around = np.linspace(0, 2 * np.pi, 49)
+    first, second = (axis for axis in range(3) if axis != hole.along)
+    points = np.empty((len(around), 3))
+    points[:, hole.along] = level[hole.along]
+    for axis, way in ((first, np.cos(around)), (second, np.sin(around))):
+        at = (hole.centre[axis] + hole.coordinate * way) * solid.length.factor
+        points[:, axis] = np.clip(at, solid.low[axis], solid.high[axis])
+    return points
+
+
+def draw_holes(solid: Solid) -> None:
+    for hole in (face for face in solid.setup.faces if face.is_hole):
+        ends = [rim(solid, hole, level) for level in (solid.low, solid.high)]
+        lines = [*ends, *(np.array([ends[0][k], ends[1][k]]) for k in range(0, 48, 6))]
+        solid.axes.add_collection3d(Line3DCollection(lines, colors=INK, linewidths=0.8))
+
+
 def draw_boxes(solid: Solid) -> None:
     colours = iter(REGIONS * 10)
     for one in solid.setup.boxes:
@@ -95,6 +114,9 @@ def draw_condition(solid: Solid, condition: Condition) -> None:
         words = "pressure of pores held" if condition.kind == "pressure" else "flux into pores"
     colour = FLOW if condition.physics == "pore_flow" else FACES[condition.kind]
     solid.used.setdefault(words, patches.Patch(facecolor=colour, alpha=0.45))
+    if face.is_hole:
+        solid.note(rim(solid, face, solid.high)[0], f"{face.name}: {words} {condition.label}", colour)
+        return
     if face.axis < 0:
         at = np.full(3, solid.setup.radius * solid.length.factor / np.sqrt(3))
         solid.note(at, f"{words} {condition.label}", colour)
@@ -142,6 +164,7 @@ def draw_solid(axes: Axes3D, setup: Setup) -> None:
         solid.frame(solid.low, solid.high, colors=INK, linewidths=1.2)
         if len(setup.points):
             axes.plot(*(setup.points * solid.length.factor).T, ".", color=FAINT, markersize=1)
+    draw_holes(solid)
     draw_boxes(solid)
     for condition in setup.conditions:
         draw_condition(solid, condition)

@@ -37,7 +37,9 @@ nlohmann::json body_json(const Body<D>& body) {
     faces.push_back({{"name", face.name},
                      {"axis", face.axis},
                      {"direction", face.direction},
-                     {"coordinate", face.coordinate}});
+                     {"coordinate", face.coordinate},
+                     {"centre", face.centre},
+                     {"along", face.along}});
   }
   return {{"spacing", body.spacing()}, {"faces", faces}, {"points", points_of(body)}};
 }

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "core/base/small_vector.hpp"
-#include "core/body/cutouts.hpp"
 #include "core/bonds/crack_cut.hpp"
 
 namespace perifrac {
@@ -56,11 +55,7 @@ class Surroundings {
  private:
   Vector<D> position(Index i) const { return body_->points().at(i); }
   double distance(Index i) const { return norm(position(i) - place_); }
-  bool is_open(Index i) const {
-    return std::ranges::none_of(body_->cutouts(), [&](const Region<D>& box) {
-      return passes_through<D>(box, place_, position(i));
-    });
-  }
+  bool is_open(Index i) const { return !body_->are_parted_by_cutout(place_, position(i)); }
   std::vector<bool> regions_of(const Vector<D>& x) const {
     std::vector<bool> in;
     for (const Region<D>& region : body_->regions()) in.push_back(region.contains(x));

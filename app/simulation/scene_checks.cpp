@@ -29,6 +29,13 @@ bool is(const Section& scene, const char* key, const char* word) {
   return scene.has(key) && scene.word(key) == word;
 }
 
+bool has_holes(const Section& scene) {
+  if (!scene.has("body.cutouts")) return false;
+  return std::ranges::any_of(scene.names("body.cutouts"), [&](const std::string& name) {
+    return scene.has("body.cutouts." + name + ".radius");
+  });
+}
+
 bool is_flat(const Section& scene) { return scene.integer("dimension") == 2; }
 
 bool has_friction(const Section& scene) { return scene.has("solid.crack_friction"); }
@@ -41,6 +48,9 @@ bool is_dynamic(const Section& scene) { return is(scene, "solid.type", "dynamic"
 // NOLINTNEXTLINE(readability-function-size): a table
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> all = {
+      {"fluid", [](const Section& scene) { return scene.has("fluid") && has_holes(scene); },
+       "beside a round cut-out of the body, which free fluid does not fill",
+       "cut-outs that are boxes, or the pressure of the hole under 'boundary'"},
       {"solid.crack_friction",
        [](const Section& scene) { return has_friction(scene) && is_dynamic(scene); },
        "in a solid with inertia", "type: quasi_static, or a solid without crack_friction"},

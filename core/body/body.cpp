@@ -46,6 +46,20 @@ int Body<D>::opposite(int face) const {
 }
 
 template <int D>
+std::vector<Face> Body<D>::holes() const {
+  std::vector<Face> holes;
+  std::ranges::copy_if(faces_, std::back_inserter(holes), &Face::is_hole);
+  return holes;
+}
+
+template <int D>
+bool Body<D>::are_parted_by_cutout(const Vector<D>& x, const Vector<D>& y) const {
+  const auto is_between = [&](const auto& cutout) { return passes_through<D>(cutout, x, y); };
+  return std::ranges::any_of(cutouts_, is_between) ||
+         std::ranges::any_of(faces_, [&](const Face& f) { return f.is_hole() && is_between(f); });
+}
+
+template <int D>
 double Body<D>::area(int face) const {
   double area = 1.0;
   for (int a = 0; a < D; ++a) {
@@ -58,10 +72,10 @@ template <int D>
 double Body<D>::thickness(int face, FaceSet without_layers) const {
   double sum = 0.0;
   for (const int f : {face, opposite(face)}) {
-    const auto& [name, axis, direction, coordinate] = faces_[f];
-    double reach = direction * coordinate;
+    const Face& side = faces_[f];
+    double reach = side.direction * side.coordinate;
     for (const Index i : contains(without_layers, f) ? std::span<const Index>{} : layer(f)) {
-      reach = std::max(reach, direction * points_.position[axis][i] + 0.5 * spacing_);
+      reach = std::max(reach, side.direction * points_.position[side.axis][i] + 0.5 * spacing_);
     }
     sum += reach;
   }
@@ -118,6 +132,7 @@ void Body<D>::check_mirrored_faces(FaceSet mirrored, FaceSet without_layers) con
   for (int f = 0; f < std::ssize(faces_); ++f) {
     if (!contains(mirrored, f)) continue;
     if (!layers_[f].empty()) throw std::logic_error("a mirrored face has a layer");
+    if (faces_[f].is_hole()) continue;  // the body's reader knows how small it may be
     const double across = thickness(static_cast<int>(f), without_layers);
     if (across < horizon_) {
       const auto [low, high] = std::minmax({static_cast<int>(f), opposite(static_cast<int>(f))});

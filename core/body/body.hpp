@@ -36,6 +36,11 @@ class Body {
   /// Boxes that were taken out: no point lies in one, no bond passes through one (cutouts.hpp).
   const std::vector<Region<D>>& cutouts() const { return cutouts_; }
   void set_cutouts(std::vector<Region<D>> cutouts) { cutouts_ = std::move(cutouts); }
+  /// Round cut-outs: those of the faces that are walls of holes.
+  std::vector<Face> holes() const;
+  bool has_cutouts() const { return !cutouts_.empty() || !holes().empty(); }
+  /// A cut-out, of any shape, lies between two places.
+  bool are_parted_by_cutout(const Vector<D>& x, const Vector<D>& y) const;
   /// The points are no lattice; families get projected weights (projected_weights.hpp) or not.
   bool irregular() const { return irregular_; }
   void set_irregular(bool projected_weights);

@@ -15,9 +15,10 @@ std::vector<std::vector<Index>> points_behind(std::span<const Face> faces, FaceS
   std::vector<std::vector<Index>> layers(faces.size());
   for (int f = 0; f < std::ssize(faces); ++f) {
     if (!contains(layered, f)) continue;
-    const auto& [name, axis, direction, coordinate] = faces[f];
+    const Face& face = faces[f];
     for (Index i = 0; i < points.size(); ++i) {
-      if (direction * (points.position[axis][i] - coordinate) > 0.0) layers[f].push_back(i);
+      const double beyond = points.position[face.axis][i] - face.coordinate;
+      if (face.direction * beyond > 0.0) layers[f].push_back(i);
     }
   }
   return layers;

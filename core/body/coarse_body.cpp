@@ -18,6 +18,7 @@ template <int D>
 std::pair<Vector<D>, Vector<D>> extent(const Body<D>& body) {
   std::pair<Vector<D>, Vector<D>> corners{};
   for (const Face& face : body.faces()) {
+    if (face.is_hole()) continue;
     if (face.curved()) {
       corners.second.fill(face.coordinate);
       if (body.faces().size() == 1) corners.first.fill(-face.coordinate);

@@ -42,12 +42,16 @@ void refuse_in_cutouts(const Section& scene, std::size_t k, const Body<D>& body,
                        const std::vector<CrackFacet<D>>& facets) {
   for (const CrackFacet<D>& facet : facets) {
     const Vector<D> x = middle<D>(facet);
+    const auto refuse = [&](const std::string& cutout) {
+      scene.fail(fmt::format("cracks[{}]", k),
+                 fmt::format("runs through cut-out '{}' at ({:.6g}) m", cutout, fmt::join(x, ", ")),
+                 "a crack in the rock, which may begin at the walls of a cut-out");
+    };
     for (const Region<D>& box : body.cutouts()) {
-      if (!box.contains(x)) continue;
-      scene.fail(
-          fmt::format("cracks[{}]", k),
-          fmt::format("runs through cut-out '{}' at ({:.6g}) m", box.name, fmt::join(x, ", ")),
-          "a crack in the rock, which may begin at the walls of a cut-out");
+      if (box.contains(x)) refuse(box.name);
+    }
+    for (const Face& hole : body.holes()) {
+      if (hole.depth(x) < -1e-2 * body.spacing()) refuse(hole.name);  // as face_before()
     }
   }
 }

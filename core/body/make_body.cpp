@@ -87,8 +87,10 @@ std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double
     for (double& x : points.position[a]) x += from[a];
   }
   std::vector<Region<D>> cutouts = read_cutouts<D>(section, from, spacing);
-  if (!cutouts.empty()) refuse_beside_cutouts(section, layered);
-  cut_out<D>(section, cutouts, points);
+  const std::vector<Face> holes = read_holes<D>(section, faces, horizon);
+  if (!cutouts.empty() || !holes.empty()) refuse_beside_cutouts(section, layered);
+  cut_out<D>(section, cutouts, holes, points);
+  faces.insert(faces.end(), holes.begin(), holes.end());
   const double jitter = section.number("jitter");
   if (jitter > 0.0) {
     sort_along_curve(points, spacing);  // no packets follow a lattice's rows

@@ -1,7 +1,6 @@
 #include "core/body/outside.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace perifrac {
 
@@ -16,18 +15,13 @@ template <int D>
 int face_before(const Body<D>& body, const Vector<D>& x) {
   const double slack = tolerance * body.spacing();
   for (std::size_t f = 0; f < body.faces().size(); ++f) {
-    const auto& [name, axis, direction, coordinate] = body.faces()[f];
-    if (axis < 0) {
-      double square = 0.0;
-      for (const double c : x) square += c * c;
-      if (std::sqrt(square) > coordinate + slack) return static_cast<int>(f);
-      continue;
-    }
-    double reach = direction * coordinate;
+    const Face& face = body.faces()[f];
+    double reach = face.direction * face.coordinate;
     for (const Index i : body.layer(static_cast<int>(f))) {
-      reach = std::max(reach, direction * body.points().position[axis][i] + 0.5 * body.spacing());
+      const double x_of = body.points().position[face.axis][i];
+      reach = std::max(reach, face.direction * x_of + 0.5 * body.spacing());
     }
-    if (direction * x[axis] > reach + slack) return static_cast<int>(f);
+    if (face.direction * face.place(x) > reach + slack) return static_cast<int>(f);
   }
   return -1;
 }

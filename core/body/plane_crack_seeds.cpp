@@ -103,10 +103,11 @@ std::vector<CrackFacet<3>> read_plane_crack(const Section& scene, std::size_t k,
   const auto along = directions(scene, crack + ".normal");
   const Outline outline = read_outline(scene, crack, spacing);
   const Region<3> box = box_of(body);
-  if (const int face = face_before<3>(body, {centre[0], centre[1], centre[2]}); face >= 0) {
+  const int beyond = face_before<3>(body, {centre[0], centre[1], centre[2]});
+  if (beyond >= 0 && !body.faces()[beyond].is_hole()) {
     scene.fail(crack + ".centre",
                fmt::format("({:.6g}) m lies outside the body, beyond face '{}'",
-                           fmt::join(centre, ", "), body.faces()[face].name),
+                           fmt::join(centre, ", "), body.faces()[beyond].name),
                "a place in the body or on its faces");
   }
   const auto corner = [&](int i, int j) {
@@ -125,7 +126,7 @@ std::vector<CrackFacet<3>> read_plane_crack(const Section& scene, std::size_t k,
       const Vector<3> x = middle<3>(facet);
       const int face = face_before<3>(body, x);
       if (face < 0 && box.contains(x)) facets.push_back(facet);
-      if (face < 0 || begins_at(body, face, centre)) continue;
+      if (face < 0 || body.faces()[face].is_hole() || begins_at(body, face, centre)) continue;
       scene.fail(crack,
                  fmt::format("sticks out of the body at ({:.6g}) m, beyond face '{}'",
                              fmt::join(x, ", "), body.faces()[face].name),

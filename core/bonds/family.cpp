@@ -19,11 +19,6 @@ double squared_distance(const Family<D>& family, Index i, Index j) {
   return squared_norm(vector_at(family.position, j) - vector_at(family.position, i));
 }
 
-template <int D>
-double radius(const Family<D>& family, Index i) {
-  return norm(vector_at(family.position, i));
-}
-
 /// Mirrors every node, ghosts of earlier faces included, that lies within the horizon of a face:
 /// edges and corners come out right, each image once.
 template <int D>
@@ -31,17 +26,19 @@ void add_ghosts(Family<D>& family, const Face& face, int number, double horizon,
                 const std::vector<bool>& bondless) {
   const Index nodes = family.node_count();
   for (Index i = 0; i < nodes; ++i) {
-    const double place = face.curved() ? radius(family, i) : family.position[face.axis][i];
-    const double depth = face.direction * (face.coordinate - place);
+    const Vector<D> x = vector_at(family.position, i);
+    const double place = face.place(x);
+    const double depth = face.depth(x);
     if (depth > horizon || depth < 0.0) continue;
     if (i < family.point_count && bondless[i]) continue;
     const double image = 2.0 * face.coordinate - place;
     const double stretch = face.curved() ? image / place : 1.0;
     for (int a = 0; a < D; ++a) {
-      const double x = family.position[a][i];
-      family.position[a].push_back(a == face.axis ? image : x * stretch);
+      const bool stays = !face.curved() || a == face.along;
+      const double curved = face.centre[a] + (x[a] - face.centre[a]) * stretch;
+      family.position[a].push_back(a == face.axis ? image : (stays ? x[a] : curved));
     }
-    family.volume.push_back(family.volume[i] * std::pow(stretch, D - 1));
+    family.volume.push_back(family.volume[i] * std::pow(stretch, face.along < 0 ? D - 1 : D - 2));
     const bool real = i < family.point_count;
     const Index ghost = i - family.point_count;
     family.ghost_source.push_back(real ? i : family.ghost_source[ghost]);

@@ -19,7 +19,7 @@ namespace perifrac {
 /// points; a ghost's value follows from its source and the face's condition (mirror_condition.hpp).
 /// Only real points have bonds; the image of a bond is not stored.
 /// The image at a sphere of radius R lies on the same ray at r' = 2 R - r, with the volume times
-/// (r' / r)^(D-1); unlike that at planes it keeps no distances.
+/// (r' / r)^(D-1), at a cylinder times r' / r; unlike that at planes it keeps no distances.
 template <int D>
 struct Family {
   Index point_count = 0;                        ///< real points
@@ -28,7 +28,7 @@ struct Family {
   std::vector<Index> ghost_source;              ///< real point that a ghost is the image of
   std::vector<FaceSet> ghost_faces;             ///< the faces that it was mirrored at
   std::vector<std::uint8_t> ghost_axes;         ///< bit a: its coordinate a is reversed
-  bool curved = false;                          ///< some ghosts are images at a sphere
+  bool curved = false;                          ///< some ghosts are images at a curved face
   /// By point, how far the numbers of its bonds' other ends are from its own, ascending. On a
   /// lattice most points have the same, and share them.
   SharedRows<Index> steps;

@@ -134,7 +134,7 @@ std::optional<LatticeBonds<D>> LatticeBonds<D>::find(const Family<D>& family, st
     if (why != nullptr) *why = reason;
     return {};
   };
-  if (family.curved) return none("there are images at a sphere");
+  if (family.curved) return none("there are images at a curved face");
   const double spacing = bond_lengths(family).shortest;
   if (!std::isfinite(spacing)) return none("there are no bonds");
   std::optional<Grid<D>> grid = find_grid(family, spacing);

@@ -6,8 +6,10 @@
 namespace perifrac {
 
 template <int D, int R>
-MirrorCondition<D, R>::MirrorCondition(const Family<D>& family)
-    : family_(&family), images_(all_faces + 1) {
+MirrorCondition<D, R>::MirrorCondition(const Family<D>& family) : family_(&family) {
+  FaceSet all = 0;
+  for (const FaceSet faces : family.ghost_faces) all |= faces;
+  images_.resize(std::size_t{all} + 1);
   for (auto& face : face_value_) face.fill(-1);
 }
 
@@ -15,7 +17,7 @@ template <int D, int R>
 void MirrorCondition<D, R>::set_odd(int face, int component) {
   if (face_value_[face][component] >= 0) return;
   face_value_[face][component] = count_++;
-  for (FaceSet faces = 0; faces <= all_faces; ++faces) {
+  for (FaceSet faces = 0; faces < images_.size(); ++faces) {
     if (std::popcount(faces) > D + 1) continue;  // no ghost is mirrored at so many
     images_[faces][component] = find_image(faces, component);
   }
@@ -24,7 +26,7 @@ void MirrorCondition<D, R>::set_odd(int face, int component) {
 template <int D, int R>
 auto MirrorCondition<D, R>::find_image(FaceSet faces, int component) const -> Image {
   Image image;
-  for (int face = 0; face < 2 * D; ++face) {
+  for (int face = 0; face < most_faces; ++face) {
     const int value = face_value_[face][component];
     if (!contains(faces, face) || value < 0) continue;
     image.sign = -image.sign;

@@ -36,12 +36,10 @@ class MirrorCondition {
       int face_value;
       double coefficient;
     };
-    std::array<Term, D + 1> terms{};  // a face an axis, and a sphere
+    std::array<Term, D + 1> terms{};  // a face an axis, and a curved one
     int term_count = 0;
   };
-  const Image& image(FaceSet faces, int component) const {
-    return images_[faces & all_faces][component];
-  }
+  const Image& image(FaceSet faces, int component) const { return images_[faces][component]; }
 
   /// Writes an unknown vector on the nodes: R blocks of node_count, real points and then ghosts.
   void spread(std::span<const double> unknowns, std::vector<double>& nodes) const;
@@ -57,12 +55,12 @@ class MirrorCondition {
   void fill_conjugate(std::vector<double>& nodes) const;
 
  private:
-  static constexpr FaceSet all_faces = (1u << (2 * D)) - 1;
-
   Image find_image(FaceSet faces, int component) const;
 
   const Family<D>* family_;
-  std::array<std::array<int, R>, 2 * D> face_value_;
+  static constexpr int most_faces = 2 * D + 8;  ///< of a box with round holes
+
+  std::array<std::array<int, R>, most_faces> face_value_;
   int count_ = 0;
   std::vector<std::array<Image, R>> images_;  ///< by the faces that a ghost was mirrored at
 };

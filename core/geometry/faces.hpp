@@ -4,17 +4,49 @@
 #include <string>
 #include <vector>
 
+#include "core/base/small_vector.hpp"
+
 namespace perifrac {
 
-/// One side of a body: a plane normal to an axis, or a sphere about the origin (in 2D a circle).
-/// A face's number is its place in the body's list; those of a box are 2 * axis + (0 low, 1 high).
+/// One side of a body: a plane normal to an axis, a sphere (in 2D a circle) or, in 3D, a cylinder
+/// along an axis. A face's number is its place in the body's list; those of a box are 2 * axis +
+/// (0 low, 1 high), and round holes follow.
 struct Face {
   std::string name;
-  int axis;           ///< -1: a sphere
-  int direction;      ///< outward normal along the axis, or the radius: -1 or +1
-  double coordinate;  ///< of the plane along the axis, or the sphere's radius [m]
+  int axis;                        ///< -1: curved
+  int direction;                   ///< outward normal along the axis, or the radius: -1 or +1
+  double coordinate;               ///< of the plane along the axis, or the radius [m]
+  std::array<double, 3> centre{};  ///< of a curved one [m]
+  int along = -1;                  ///< the axis of a cylinder
 
   bool curved() const { return axis < 0; }
+  /// The wall of a hole in the body.
+  bool is_hole() const { return curved() && direction < 0; }
+
+  /// From the centre, or the axis, of a curved one to a place [m].
+  template <std::size_t D>
+  std::array<double, D> ray_to(const std::array<double, D>& x) const {
+    std::array<double, D> ray;
+    for (int a = 0; a < static_cast<int>(D); ++a) ray[a] = a == along ? 0.0 : x[a] - centre[a];
+    return ray;
+  }
+  template <std::size_t D>
+  double place(const std::array<double, D>& x) const {
+    return curved() ? norm(ray_to(x)) : x[axis];
+  }
+  /// How far a place lies behind the face, within the body [m].
+  template <std::size_t D>
+  double depth(const std::array<double, D>& x) const {
+    return direction * (coordinate - place(x));
+  }
+  /// Outward, at the point of the face that is nearest to a place.
+  template <std::size_t D>
+  std::array<double, D> normal(const std::array<double, D>& x) const {
+    if (curved()) return direction / place(x) * ray_to(x);
+    std::array<double, D> n{};
+    n[axis] = direction;
+    return n;
+  }
 };
 
 /// A set of faces, one bit a face.

@@ -30,6 +30,16 @@ Eigen::VectorXd face_load(const Body<D>& body, const ForceOfStress& force_of, Fa
                                 thickness, loaded.name, opposite.name),
                     fmt::format("at least {:g} horizons, {:g} m", needed / body.horizon(), needed));
   }
+  for (const Face& hole : body.holes()) {
+    Vector<D> centre;
+    std::copy_n(hole.centre.begin(), D, centre.begin());
+    const double apart = loaded.depth(centre) - hole.coordinate;
+    if (loaded.axis != hole.along && apart >= 2.0 * reach * (1.0 - 1e-9)) continue;
+    throw BodyError(
+        fmt::format("hole '{}' is {:g} m from face '{}', which is loaded", hole.name,
+                    loaded.axis == hole.along ? 0.0 : std::max(0.0, apart), loaded.name),
+        fmt::format("at least 4 horizons, {:g} m, or no load there", 2.0 * reach));
+  }
   for (const Region<D>& box : body.cutouts()) {
     const int a = loaded.axis;
     const double apart =
@@ -104,6 +114,40 @@ Eigen::VectorXd cutout_load(const Body<D>& body, const ForceOfStress& force_of, 
   return load;
 }
 
+template <int D>
+Eigen::VectorXd hole_load(const Body<D>& body, const ForceOfStress& force_of, FaceSet mirrored,
+                          const Face& hole, const Vector<D>& stress) {
+  const Index points = body.points().size();
+  const double reach = 2.0 * body.horizon();
+  Eigen::VectorXd everywhere = Eigen::VectorXd::Zero(D * D * points);
+  for (int a = 0; a < D; ++a) {
+    for (Index i = 0; i < points; ++i) {
+      everywhere[(a * D + a) * points + i] = stress[a] * body.points().volume[i];
+    }
+  }
+  const Eigen::VectorXd forces = force_of(everywhere);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points);
+  for (Index i = 0; i < points; ++i) {
+    const Vector<D> x = body.points().at(i);
+    if (hole.depth(x) > reach) continue;
+    for (int f = 0; f < std::ssize(body.faces()); ++f) {
+      const Face& face = body.faces()[f];
+      if (face.curved() || contains(mirrored, f) || face.depth(x) > reach) continue;
+      throw BodyError(
+          fmt::format("the wall of '{}', which bears load, is less than 4 horizons from "
+                      "face '{}', which is free",
+                      hole.name, face.name),
+          fmt::format("{:g} m, or a face that is held", 2.0 * reach));
+    }
+    for (int a = 0; a < D; ++a) load[a * points + i] = forces[a * points + i];
+  }
+  return load;
+}
+
+template Eigen::VectorXd hole_load<2>(const Body<2>&, const ForceOfStress&, FaceSet, const Face&,
+                                      const Vector<2>&);
+template Eigen::VectorXd hole_load<3>(const Body<3>&, const ForceOfStress&, FaceSet, const Face&,
+                                      const Vector<3>&);
 template Eigen::VectorXd cutout_load<2>(const Body<2>&, const ForceOfStress&, int);
 template Eigen::VectorXd cutout_load<3>(const Body<3>&, const ForceOfStress&, int);
 template Eigen::VectorXd face_load<2, 1>(const Body<2>&, const ForceOfStress&, FaceSet, int, int,

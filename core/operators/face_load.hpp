@@ -20,11 +20,19 @@ template <int D, int R>
 Eigen::VectorXd face_load(const Body<D>& body, const ForceOfStress& force_of, FaceSet mirrored,
                           int face, int component, FaceSet without_layers = 0);
 
-/// The same for the walls of all cut-outs that are normal to `axis`: the point load, in direction
-/// `axis`, of a unit traction along their normals out of the body. A body under uniform stress that
-/// holds at its faces and not in its cut-outs bears this times the stress, with the sign turned.
-/// Throws BodyError where such a wall is too near to a face to tell them apart.
+/// The same for the walls of all cut-outs that are boxes and normal to `axis`: the point load, in
+/// direction `axis`, of a unit traction along their normals out of the body. A body under uniform
+/// stress that holds at its faces and not in its cut-outs bears this times the stress, with the
+/// sign turned. Throws BodyError where such a wall is too near to a face to tell them apart.
 template <int D>
 Eigen::VectorXd cutout_load(const Body<D>& body, const ForceOfStress& force_of, int axis);
+
+/// The point loads, D blocks, of the tractions that a uniform stress along the axes [Pa] has on the
+/// wall of a hole: in a body under that stress they balance the inner forces exactly, and their sum
+/// is zero. `mirrored` is what the family was asked for. Throws BodyError where a plane face that
+/// is not among them is too near.
+template <int D>
+Eigen::VectorXd hole_load(const Body<D>& body, const ForceOfStress& force_of, FaceSet mirrored,
+                          const Face& hole, const Vector<D>& stress);
 
 }  // namespace perifrac

@@ -89,7 +89,6 @@ class LinearExactOperator {
   /// Bonds of these points broke: their weights are 0 in the family now. A thin family (is_thin())
   /// has no gradient, and of stiffness what the law leaves to bonds alone.
   void update(std::span<const Index> points) {
-    if (matrix_) throw std::logic_error("bonds break beside curved ghosts");
     for (const Index i : points) {
       const bool thin = set_moments(*family_, i, moments_);
       const auto place = std::ranges::lower_bound(thin_points_, i);
@@ -102,6 +101,7 @@ class LinearExactOperator {
     if constexpr (PacketLaw<Law, D>) {
       if (lattice_) lattice_->update(*family_, moments_, bond_stiffness_, points);
     }
+    if (matrix_) matrix_.emplace(assemble());
   }
   /// The same on a family of the same bonds with other weights, which differ at these points.
   void update(std::shared_ptr<const Family<D>> family, std::span<const Index> points) {

@@ -49,11 +49,7 @@ int CrackOutlets<D>::face_at(const FacetSide<D>& side) const {
   for (int f = 0; f < std::ssize(body_->faces()); ++f) {
     const Face& face = body_->faces()[f];
     if (!body_->layer(f).empty()) continue;
-    const auto inside = [&](const Vector<D>& x) {
-      const double along = face.curved() ? norm(x) : x[face.axis];
-      return face.direction * (face.coordinate - along);
-    };
-    const double farthest = std::max(inside(side.front()), inside(side.back()));
+    const double farthest = std::max(face.depth(side.front()), face.depth(side.back()));
     if (farthest > least) continue;
     least = farthest;
     nearest = f;

@@ -107,14 +107,15 @@ std::unique_ptr<PhysicsModule> make_darcy(const Section& section,
   if (scheme != FlowScheme::conservative && std::ranges::any_of(body->faces(), &Face::curved)) {
     section.fail("operator",
                  fmt::format("'{}' on a body with a curved face", section.word("operator")),
-                 "conservative, or a body of shape box");
+                 "conservative, or a body with plane faces");
   }
   if (scheme == FlowScheme::nested) check_nested(section, *body);
   const FlowInScene<D> scene = read_flow(section, *body);
   Discretisation<D> space = discretise<D>(section, *body, scene);
   const PoreBoundary<D>& boundary = scene.boundary;
   const auto family = body->family(boundary.mirrored(), boundary.sealed_layers());
-  if (family->curved && has_cracks(section.scene())) {
+  const auto is_sphere = [](const Face& face) { return face.curved() && !face.is_hole(); };
+  if (std::ranges::any_of(body->faces(), is_sphere) && has_cracks(section.scene())) {
     section.fail("boundary", "bonds that break beside a mirrored sphere",
                  "a sphere that it does not name");
   }

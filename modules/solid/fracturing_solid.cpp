@@ -35,7 +35,7 @@ FracturingSolid<D>::FracturingSolid(
       bonds_(body_->claim_bond_state()),
       cracked_(make_cracked_body<D>(*body_, boundary, family, elastic, bonds_, initial_stress,
                                     seeds_, friction != nullptr, choice)),
-      load_(body_, elastic, boundary, boundary.mirror_condition(*family)),
+      load_(body_, elastic, *cracked_, boundary, boundary.mirror_condition(*family)),
       fluid_(bonds_.facet_points()),
       friction_(std::move(friction)),
       equilibrium_(*cracked_, load_, fluid_, friction_.get(), initial_stress),

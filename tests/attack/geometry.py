@@ -23,11 +23,15 @@ def points(scene):
                     yield one["at"]
 
 
+def cut_boxes(scene):
+    """Cut-outs that are no round holes."""
+    return [one for one in scene.get("body", {}).get("cutouts", {}).values() if "radius" not in one]
+
+
 def whole_boxes(scene):
     """Boxes around what moves as a whole."""
     crack_fluid = scene.get("crack_fluid", {})
-    yield from itertools.chain(crack_fluid.get("sealed", []), crack_fluid.get("filled", []),
-                               scene.get("body", {}).get("cutouts", {}).values())
+    yield from itertools.chain(crack_fluid.get("sealed", []), crack_fluid.get("filled", []), cut_boxes(scene))
 
 
 def free_boxes(scene):
@@ -123,7 +127,7 @@ def is_whole(scene, spacing):
     """Edges of what lies on the lattice are whole spacings, and cracks long enough."""
     body, fluid = scene.get("body", {}), scene.get("fluid", {})
     edges = list(body.get("size", []))
-    boxes = [body.get("cutouts", {}).values(), fluid.get("blocks", []), fluid.get("walls", []), fluid.get("inlets", [])]
+    boxes = [cut_boxes(scene), fluid.get("blocks", []), fluid.get("walls", []), fluid.get("inlets", [])]
     for box in itertools.chain(*boxes):
         edges += [b - a for a, b in zip(box["from"], box["to"])]
     cells = [edge / spacing for edge in edges]

@@ -39,10 +39,7 @@ template <int D>
 bool is_within(const Body<D>& body, const Vector<D>& x) {
   const double rounding = 1e-6 * body.spacing();
   for (const Face& face : body.faces()) {
-    const double radius = distance<D>(x, Vector<D>{});
-    const double depth = face.coordinate * (face.curved() ? 1 : face.direction) -
-                         (face.curved() ? radius : face.direction * x[face.axis]);
-    if (depth <= rounding) return false;
+    if (face.depth(x) <= rounding) return false;
   }
   return std::ranges::none_of(body.cutouts(), [&](Region<D> box) {
     for (int a = 0; a < D; ++a) {

@@ -39,17 +39,9 @@ std::vector<NearFace<D>> faces_near_points(const Body<D>& body, const Period<D>&
   std::vector<NearFace<D>> result;
   for (Index i = 0; i < body.points().size(); ++i) {
     const Vector<D> x = body.points().at(i);
-    double radius = 0.0;
-    for (const double component : x) radius += component * component;
-    radius = std::sqrt(radius);
     for (const Face& face : body.faces()) {
-      WallSurface<D> near{.normal = x, .depth = face.coordinate - radius};
-      for (double& component : near.normal) component /= radius;
-      if (!face.curved()) {
-        if (period.ends[face.axis]) continue;
-        near.depth = face.direction * (face.coordinate - x[face.axis]);
-        near.normal = unit_vector<D>(face.axis, face.direction);
-      }
+      if (!face.curved() && period.ends[face.axis]) continue;
+      const WallSurface<D> near{.normal = face.normal(x), .depth = face.depth(x)};
       if (near.depth <= reach) result.push_back({i, near});
     }
     for (const Region<D>& box : body.cutouts()) append_walls_near(box, body, i, reach, result);

@@ -90,9 +90,8 @@ std::span<const double> PressureSmoothing<D>::given() {
 template <int D>
 std::vector<Index> points_near_surfaces(const Body<D>& body) {
   const auto is_near_face = [&](const Vector<D>& x) {
-    return std::ranges::any_of(body.faces(), [&](const Face& face) {
-      return face.direction * (face.coordinate - x[face.axis]) <= body.horizon();
-    });
+    return std::ranges::any_of(body.faces(),
+                               [&](const Face& face) { return face.depth(x) <= body.horizon(); });
   };
   const auto is_near_cutout = [&](const Vector<D>& x) {
     return std::ranges::any_of(body.cutouts(), [&](const Region<D>& box) {

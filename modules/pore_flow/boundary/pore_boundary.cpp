@@ -144,7 +144,8 @@ KeyTable pore_boundary_keys() {
        .type = KeyType::word,
        .required = true,
        .words = {"sealed", "pressure", "flux"},
-       .meaning = "Condition of a face; a face that is not named is sealed."},
+       .meaning = "Condition of a face; a face that is not named is sealed. The wall of a round "
+                  "hole takes sealed and pressure."},
       {.path = "boundary.*.pressure",
        .unit = "Pa",
        .required = true,
@@ -193,7 +194,7 @@ PoreBoundary<D> read_pore_boundary(const Section& section, const Body<D>& body) 
     if (type != "pressure") continue;
     if (body.faces()[face].curved() && section.scene().has("gravity")) {
       section.fail(path, "a prescribed pressure on a curved face under gravity",
-                   "a body of shape box");
+                   "a body with plane faces");
     }
     boundary.pressure(face, section.number(path + ".pressure"), schedule);
     if (!section.boolean(path + ".hydrostatic") && !gravity.crosses(face)) {

@@ -11,7 +11,8 @@ PoreGravity<D>::PoreGravity(const Body<D>& body, const Vector<D>& gravity, doubl
 template <int D>
 double PoreGravity<D>::at_face(int face) const {
   Vector<D> x = weight_.top();
-  x[body_->faces()[face].axis] = body_->faces()[face].coordinate;
+  const Face& plane = body_->faces()[face];  // of a curved one only where nothing has weight
+  if (!plane.curved()) x[plane.axis] = plane.coordinate;
   return at(x);
 }
 

@@ -39,7 +39,7 @@ std::unique_ptr<PhysicsModule> make_finite_volume(const Section& section,
                                                   std::shared_ptr<const Body<D>> body) {
   if (std::ranges::any_of(body->faces(), &Face::curved)) {
     section.fail("type", "'finite_volume' on a body with a curved face",
-                 "darcy, or a body of shape box or points");
+                 "darcy, or a body with plane faces");
   }
   const FlowInScene<D> scene = read_flow(section, *body);
   check_tensors(section, *body, scene.mobilities);

@@ -13,10 +13,10 @@ SolidBoundary<D>::SolidBoundary(const Body<D>& body) : body_(&body), faces_(body
 template <int D>
 void SolidBoundary<D>::roller(int face, double normal_displacement, double normal_velocity,
                               Schedule schedule) {
-  const auto& [name, axis, direction, coordinate] = body_->faces()[face];
+  const Face& plane = body_->faces()[face];
   faces_[face] = {.kind = Kind::roller, .schedule = std::move(schedule)};
-  faces_[face].value[axis] = direction * normal_displacement;
-  faces_[face].velocity[axis] = direction * normal_velocity;
+  faces_[face].value[plane.axis] = plane.direction * normal_displacement;
+  faces_[face].velocity[plane.axis] = plane.direction * normal_velocity;
 }
 
 template <int D>
@@ -212,7 +212,12 @@ Eigen::VectorXd SolidBoundary<D>::face_force(int face, const MirrorCondition<D, 
   const Index points = body_->points().size();
   const Condition& condition = faces_[face];
   Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points + mirror.face_value_count());
-  if (condition.kind == Kind::pressure) {
+  if (condition.kind == Kind::pressure && body_->faces()[face].is_hole()) {
+    Vector<D> stress;
+    stress.fill(-condition.pressure);
+    load.head(D * points) =
+        hole_load<D>(*body_, force_of, mirrored(), body_->faces()[face], stress);
+  } else if (condition.kind == Kind::pressure) {
     // The whole body's: parts of it on plane faces cancel against those of their ghosts.
     Eigen::VectorXd stress = Eigen::VectorXd::Zero(D * D * points);
     for (int a = 0; a < D; ++a) {
@@ -258,7 +263,12 @@ ScheduledVector SolidBoundary<D>::loads(const MirrorCondition<D, D>& mirror,
     if (relief_[a] == 0.0) continue;
     load.segment(a * points, points) = relief_[a] * cutout_load<D>(*body_, force_of, a);
   }
-  if (relief_ != Vector<D>{}) sum.add({}, load);
+  if (relief_ != Vector<D>{}) {
+    for (const Face& hole : body_->holes()) {
+      load.head(D * points) += hole_load<D>(*body_, force_of, mirrored(), hole, relief_);
+    }
+    sum.add({}, load);
+  }
   for (int f = 0; f < std::ssize(faces_); ++f) {
     if (faces_[f].loads()) sum.add(faces_[f].schedule, face_force(f, mirror, force_of));
   }

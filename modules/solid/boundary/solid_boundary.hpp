@@ -43,8 +43,9 @@ class SolidBoundary {
   void rigid_plate(int face, double force, Schedule schedule = {});
   /// A uniform force per area on a face that is free otherwise [Pa].
   void traction(int face, const Vector<D>& traction, Schedule schedule = {});
-  /// A uniform pressure that presses on a face that is free otherwise, plane or sphere [Pa]. A
-  /// sphere takes it only where all plane faces of the body are mirrored.
+  /// A uniform pressure that presses on a face that is free otherwise, plane or curved [Pa]. A
+  /// sphere takes it only where all plane faces of the body are mirrored, a hole where those are
+  /// that are near.
   void pressure(int face, double pressure, Schedule schedule = {});
   /// One component of one point stays where it is: against a motion that nothing else resists, of a
   /// body whose loads balance.

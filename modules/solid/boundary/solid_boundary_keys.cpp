@@ -20,7 +20,7 @@ KeyTable solid_boundary_keys() {
        .required = true,
        .words = {"free", "traction", "pressure", "roller", "fixed", "rigid_plate"},
        .meaning = "Condition of a face, on the points of its layer where the body has one; a face "
-                  "that is not named is free."},
+                  "that is not named is free. The wall of a round hole takes free and pressure."},
       {.path = "boundary.*.traction",
        .type = KeyType::vector,
        .unit = "Pa",
@@ -31,7 +31,7 @@ KeyTable solid_boundary_keys() {
        .unit = "Pa",
        .required = true,
        .when = "type=pressure",
-       .meaning = "Pressure that presses on the face, plane or sphere."},
+       .meaning = "Pressure that presses on the face, plane, sphere or wall of a round hole."},
       {.path = "boundary.*.normal_displacement",
        .unit = "m",
        .fallback = "0 m",
@@ -161,7 +161,8 @@ void read_held_region(const Section& section, const Body<D>& body, const FaceCon
 /// What pressure does on a sphere is known only where the plane faces beside it are mirrored.
 void check_sphere_pressure(const Section& section, const FaceCondition& condition,
                            const std::vector<Face>& faces, FaceSet mirrored) {
-  if (!faces[condition.face].curved() || condition.type != "pressure") return;
+  const Face& sphere = faces[condition.face];
+  if (!sphere.curved() || sphere.is_hole() || condition.type != "pressure") return;
   for (int f = 0; f < std::ssize(faces); ++f) {
     if (faces[f].curved() || contains(mirrored, f)) continue;
     section.fail(condition.path, "pressure beside the free face '" + faces[f].name + "'",
@@ -254,7 +255,7 @@ SolidBoundary<D> read_solid_boundary(const Section& section, const Body<D>& body
   mistakes.note([&] { read_gravity(section, boundary); });
   mistakes.throw_if_any();
   for (const char* stress : {"confining_stress", "total_stress"}) {
-    if (body.cutouts().empty() || !section.has(stress)) continue;
+    if (!body.has_cutouts() || !section.has(stress)) continue;
     boundary.relieve_cutouts(read_vector<D>(section, stress));
   }
   return boundary;

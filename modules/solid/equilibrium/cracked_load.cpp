@@ -4,16 +4,29 @@
 
 namespace perifrac {
 
+namespace {
+
+/// Forces of a stress on cut families hold the faces of cracks, too, which is no part of what bears
+/// on a face of the body that they begin at.
+template <int D>
+ForceOfStress force_beside_cracks(const BreakableElasticity<D>& elastic,
+                                  const CutBody<D>& cracked) {
+  return [&](const Eigen::VectorXd& stress) -> Eigen::VectorXd {
+    return elastic.force_of_stress(stress) - cracked.force_on_faces(stress);
+  };
+}
+
+}  // namespace
+
 template <int D>
 CrackedLoad<D>::CrackedLoad(std::shared_ptr<const Body<D>> body,
                             std::shared_ptr<BreakableElasticity<D>> elastic,
-                            const SolidBoundary<D>& boundary, const MirrorCondition<D, D>& mirror)
+                            const CutBody<D>& cracked, const SolidBoundary<D>& boundary,
+                            const MirrorCondition<D, D>& mirror)
     : body_(std::move(body)),
       elastic_(std::move(elastic)),
       prescribed_(boundary.prescribed(mirror)),
-      load_(boundary.loads(
-          mirror,
-          [this](const Eigen::VectorXd& stress) { return elastic_->force_of_stress(stress); })),
+      load_(boundary.loads(mirror, force_beside_cracks<D>(*elastic_, cracked))),
       prescribes_(!prescribed_.is_constant() || prescribed_.at(0.0).any()),
       is_steady_by_itself_(load_.is_constant() && !prescribes_) {}
 

@@ -11,6 +11,7 @@
 #include "core/time/scheduled_vector.hpp"
 #include "modules/solid/boundary/interface_force.hpp"
 #include "modules/solid/boundary/solid_boundary.hpp"
+#include "modules/solid/fracture/cut_body.hpp"
 #include "modules/solid/material/breakable_elasticity.hpp"
 
 namespace perifrac {
@@ -21,8 +22,10 @@ namespace perifrac {
 template <int D>
 class CrackedLoad {
  public:
+  /// `cracked` has the cracks of the start.
   CrackedLoad(std::shared_ptr<const Body<D>> body, std::shared_ptr<BreakableElasticity<D>> elastic,
-              const SolidBoundary<D>& boundary, const MirrorCondition<D, D>& mirror);
+              const CutBody<D>& cracked, const SolidBoundary<D>& boundary,
+              const MirrorCondition<D, D>& mirror);
 
   /// In-ports `pore_stress` and `interface_impulse`.
   void add_ports(PortTable& ports);

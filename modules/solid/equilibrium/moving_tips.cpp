@@ -38,7 +38,7 @@ MovingTips::MovingTips(const Body<2>& body, CrackedEquilibrium<2>& equilibrium,
       equilibrium_(equilibrium),
       work_(work),
       tips_(tips),
-      energy_release_(equilibrium.body(), body.spacing()) {}
+      energy_release_(equilibrium.body(), body.spacing(), body.holes()) {}
 
 void MovingTips::start() { moving_.clear(); }
 

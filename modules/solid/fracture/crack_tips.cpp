@@ -44,7 +44,7 @@ CrackTips::CrackTips(const Body<2>& body, CutBody<2>& cracked, FractureEnergy<2>
     : body_(body),
       cracked_(cracked),
       fracture_energy_(std::move(fracture_energy)),
-      energy_release_(cracked, body.spacing()) {}
+      energy_release_(cracked, body.spacing(), body.holes()) {}
 
 void CrackTips::start(std::span<const CrackFacet<2>> seeds, double t) {
   tips_.clear();

@@ -121,6 +121,29 @@ double CutBody<D>::pressed_by(Index f) const {
 }
 
 template <int D>
+Eigen::VectorXd CutBody<D>::force_on_faces(const Eigen::VectorXd& stress) const {
+  const Index points = family_->point_count;
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(elastic_->size());
+  for (const CrackFacet<D>& facet : facets()) {
+    const FaceJump<D> face = face_jump<D>(facet, intact_, spacing_, longest_);
+    Vector<D> traction{};  // the mean of both sides
+    for (const auto& [point, coefficient] : face.terms) {
+      const double share = 0.5 * std::abs(coefficient) / family_->volume[point];
+      for (int a = 0; a < D; ++a) {
+        for (int b = 0; b < D; ++b) {
+          traction[a] += share * stress[(a * D + b) * points + point] * face.normal[b];
+        }
+      }
+    }
+    for (const auto& [point, coefficient] : face.terms) {
+      for (int a = 0; a < D; ++a)
+        force[a * points + point] -= face.area * coefficient * traction[a];
+    }
+  }
+  return force;
+}
+
+template <int D>
 Vector<D> CutBody<D>::jump(Index f, std::span<const double> unknowns) const {
   Vector<D> sum{};
   for (const auto& [point, coefficient] : jumps_[f].terms) {

@@ -66,6 +66,9 @@ class CutBody {
   /// -p / (2 (lambda + mu)). Not in 3D: squares at the front open too far by more than that, where
   /// a radius is a few squares.
   double pressed_by(Index f) const;
+  /// What a stress in the rock bears on the faces of all cracks: the force on every unknown that
+  /// holds them under it [N]. `stress` is times volume, D * D blocks, as a ForceOfStress takes it.
+  Eigen::VectorXd force_on_faces(const Eigen::VectorXd& stress) const;
   /// Mean jump across facet f in a field of all unknowns, along normal and tangents [m].
   Vector<D> jump(Index f, std::span<const double> unknowns) const;
 

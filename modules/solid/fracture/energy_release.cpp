@@ -82,8 +82,8 @@ constexpr double least_kink = 1e-6;
 
 }  // namespace
 
-EnergyRelease::EnergyRelease(CutBody<2>& body, double spacing)
-    : body_(body), spacing_(spacing), by_x_(body.family().point_count) {
+EnergyRelease::EnergyRelease(CutBody<2>& body, double spacing, std::vector<Face> holes)
+    : body_(body), spacing_(spacing), holes_(std::move(holes)), by_x_(body.family().point_count) {
   std::iota(by_x_.begin(), by_x_.end(), 0);
   std::ranges::sort(by_x_, {}, [&](Index i) { return body.family().position[0][i]; });
   mirrors_.fill({-INFINITY, INFINITY});
@@ -130,9 +130,16 @@ std::vector<Vector<2>> EnergyRelease::jumps_in(std::span<const double> unknowns)
   return jumps;
 }
 
+bool EnergyRelease::reaches(const Vector<2>& x, double distance) const {
+  const auto is_clear = [&](const Face& hole) {  // points end half a spacing before a wall
+    return hole.depth(x) >= distance + 0.5 * spacing_;
+  };
+  return body_.reaches(x, distance) && std::ranges::all_of(holes_, is_clear);
+}
+
 /// Near a boundary the ring is drawn in, so as to lie within the body [m].
 double EnergyRelease::largest_radius(const CrackTip& tip) const {
-  return (body_.reaches(tip.place, largest_ring * spacing_) ? largest_ring : 3.0) * spacing_;
+  return (reaches(tip.place, largest_ring * spacing_) ? largest_ring : 3.0) * spacing_;
 }
 
 /// And near another tip so as to hold this one alone [m].
@@ -159,7 +166,7 @@ bool EnergyRelease::is_end(const Vector<2>& corner) const {
     return length(facet[0] - corner) < 1e-6 * spacing_ ||
            length(facet[1] - corner) < 1e-6 * spacing_;
   };
-  return std::ranges::count_if(body_.facets(), has) == 1 && body_.reaches(corner, -0.25 * spacing_);
+  return std::ranges::count_if(body_.facets(), has) == 1 && reaches(corner, -0.25 * spacing_);
 }
 
 /// Of images of the tip and ends of cracks, these where their facet `counts`, those within the

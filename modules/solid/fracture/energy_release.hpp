@@ -63,7 +63,8 @@ struct TipLoad : TipJump {
 /// it, a part of (speed of the tip / speed of sound)^2.
 class EnergyRelease {
  public:
-  EnergyRelease(CutBody<2>& body, double spacing);
+  /// `holes` of the rock, which no ring that can be avoided looks into.
+  EnergyRelease(CutBody<2>& body, double spacing, std::vector<Face> holes = {});
 
   /// `unknowns`: all displacements; `pressure`: on the faces, by facet [Pa]; `pore_stress`: of all
   /// points [Pa], or empty; `shear`: of friction on the faces, by facet [Pa], or empty.
@@ -88,6 +89,8 @@ class EnergyRelease {
 
  private:
   Vector<2> parted(const Vector<2>& ahead, Index facet, const Vector<2>& jump) const;
+  /// Rock goes on beyond `distance` [m] from x on all sides.
+  bool reaches(const Vector<2>& x, double distance) const;
   double largest_radius(const CrackTip& tip) const;
   double radius(const CrackTip& tip, std::span<const Vector<2>> jumps) const;
   struct OtherTip {
@@ -109,6 +112,7 @@ class EnergyRelease {
 
   CutBody<2>& body_;
   double spacing_;
+  std::vector<Face> holes_;
   std::vector<Index> by_x_;  ///< points
   /// By axis: its planes of symmetry, lower and upper, infinite where there is none [m].
   std::array<std::array<double, 2>, 2> mirrors_;

@@ -116,7 +116,7 @@ template <int D>
 void read_gradient(const Section& section, const char* key, const Body<D>& body,
                    InitialStress<D>& stress) {
   if (!section.has(gradient_key)) return;
-  if (!body.cutouts().empty()) {
+  if (body.has_cutouts()) {
     section.fail(gradient_key, "in a body with cutouts", "the same stress at all heights");
   }
   require_weight<D>(section, key);
@@ -210,7 +210,7 @@ std::optional<InitialStress<D>> read_initial_stress(const Section& section, cons
   if (!section.has(key)) {
     section.fail(*stressed, "beside no stress elsewhere", fmt::format("solid.{}", key));
   }
-  if (stressed && !body.cutouts().empty()) {
+  if (stressed && body.has_cutouts()) {
     section.fail(*stressed, "in a body with cutouts", fmt::format("one solid.{}", key));
   }
   InitialStress<D> stress{{read_tension<D>(section, key)}};

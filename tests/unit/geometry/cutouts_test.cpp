@@ -100,6 +100,72 @@ TEST(Cutouts, FamiliesStaySymmetric) {
   }
 }
 
+/// A box of 16 x 14 points a metre apart, less a hole in it.
+std::shared_ptr<Body<2>> body_with_hole(const Face& hole) {
+  const Points<2> lattice = box_lattice<2>({16, 14}, 1.0);
+  Points<2> points;
+  for (Index i = 0; i < lattice.size(); ++i) {
+    if (hole.depth(lattice.at(i)) > 0.0) points.add(lattice.at(i), 1.0);
+  }
+  std::vector<Face> faces = {{"left", 0, -1, 0.0},
+                             {"right", 0, 1, 16.0},
+                             {"bottom", 1, -1, 0.0},
+                             {"top", 1, 1, 14.0},
+                             hole};
+  return std::make_shared<Body<2>>(std::move(points), std::move(faces), 1.0, 2.5,
+                                   InfluenceFunction::gaussian);
+}
+
+Face hole_at(double x, double y, double radius) {
+  return {.name = "hole", .axis = -1, .direction = -1, .coordinate = radius, .centre = {x, y}};
+}
+
+// Bonds between points stay outside; images lie within, as far from the wall as what they are of.
+TEST(Hole, KeepsBondsOutsideAndImagesWithin) {
+  const Face hole = hole_at(8.2, 6.9, 2.6);
+  const auto family = body_with_hole(hole)->family(0b10000);
+  Index images = 0, bonds_to_images = 0;
+  for (Index i = 0; i < family->point_count; ++i) {
+    const Vector<2> x = node(*family, i);
+    images += hole.depth(x) <= 2.5 ? 1 : 0;
+    for (const auto& bond : family->bonds(i)) {
+      if (bond.other >= family->point_count) {
+        ++bonds_to_images;
+        continue;
+      }
+      for (int n = 1; n < 50; ++n) {
+        const Vector<2> between = x + n / 50.0 * (node(*family, bond.other) - x);
+        EXPECT_GT(hole.depth(between), -1e-9) << "point " << i;
+      }
+    }
+  }
+  EXPECT_EQ(family->ghost_count(), images);
+  EXPECT_GT(bonds_to_images, images);
+  for (Index g = 0; g < family->ghost_count(); ++g) {
+    const Vector<2> image = node(*family, family->point_count + g);
+    const Vector<2> source = node(*family, family->ghost_source[g]);
+    EXPECT_NEAR(hole.depth(image), -hole.depth(source), 1e-12);
+    EXPECT_NEAR(hole.normal(image)[0], hole.normal(source)[0], 1e-12);
+    EXPECT_NEAR(family->volume[family->point_count + g], hole.place(image) / hole.place(source),
+                1e-12);
+  }
+}
+
+// Without images it removes what passes through it, and half of it beside a plane of symmetry what
+// would pass through the whole.
+TEST(Hole, IsMirroredAtFaces) {
+  const Face hole = hole_at(0.0, 7.0, 2.6);
+  const auto body = body_with_hole(hole);
+  const auto family = body->family(0b0001);
+  for (Index i = 0; i < family->point_count; ++i) {
+    for (const auto& bond : family->bonds(i)) {
+      EXPECT_FALSE(passes_through<2>(hole, node(*family, i), node(*family, bond.other)));
+    }
+  }
+  EXPECT_TRUE(body->are_parted_by_cutout({2.4, 4.5}, {0.5, 9.9}));
+  EXPECT_FALSE(body->are_parted_by_cutout({2.6, 4.5}, {2.6, 9.9}));
+}
+
 TEST(Cutouts, AlongASurfaceIsNotThrough) {
   EXPECT_FALSE(passes_through<2>(notch, {3.5, 4.5}, {6.5, 4.5}));  // below it
   EXPECT_FALSE(passes_through<2>(notch, {3.5, 5.0}, {6.5, 5.0}));  // along its floor

@@ -119,6 +119,39 @@ TEST(CutoutLoad, BalancesUniformStressWithTheFaces) {
   }
 }
 
+/// A round one off the middle of the lattice, under a stress that differs by axis.
+TEST(HoleLoad, BalancesUniformStressWithTheFaces) {
+  const Face hole{
+      .name = "hole", .axis = -1, .direction = -1, .coordinate = 2.8, .centre = {15.2, 12.9}};
+  const Points<2> lattice = box_lattice<2>({30, 26}, 1.0);
+  Points<2> points;
+  for (Index i = 0; i < lattice.size(); ++i) {
+    if (hole.depth(lattice.at(i)) > 0.0) points.add(lattice.at(i), 1.0);
+  }
+  const auto whole = test::box_body<2>({30, 26}, 1.0);
+  std::vector<Face> faces = whole->faces();
+  faces.push_back(hole);
+  const Body<2> body(std::move(points), faces, 1.0, whole->horizon(), InfluenceFunction::gaussian);
+  const ForceOfStress force_of = free_force<2, 2>(body);
+  const Index count = body.points().size();
+  const Vector<2> principal = {-1.3, 0.4};
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(4 * count);
+  for (int a = 0; a < 2; ++a) stress.segment(3 * a * count, count).setConstant(principal[a]);
+  Eigen::VectorXd sum = hole_load<2>(body, force_of, 0, hole, principal);
+  EXPECT_GT(test::largest(sum), 0.1);
+  for (int a = 0; a < 2; ++a) {
+    EXPECT_NEAR(sum.segment(a * count, count).sum(), 0.0, 1e-12);
+    for (const int side : {-1, 1}) {
+      sum.segment(a * count, count) +=
+          side * principal[a] * face_load<2, 2>(body, force_of, 0, 2 * a + (side > 0 ? 1 : 0), a);
+    }
+  }
+  EXPECT_LT(test::largest(sum - force_of(stress)), 1e-12);
+  faces[3].coordinate = 22.0;
+  const Body<2> near(body.points(), faces, 1.0, whole->horizon(), InfluenceFunction::gaussian);
+  EXPECT_THROW((face_load<2, 2>(near, force_of, 0, 3, 1)), BodyError);
+}
+
 /// Of a notch the floor and the sides, not the face that it opens through.
 TEST(CutoutLoad, LeavesTheFaceBesideANotchAlone) {
   const auto body = cut_body({"notch", {12.0, 13.0}, {17.0, 30.0}});
