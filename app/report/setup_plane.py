@@ -62,7 +62,8 @@ def draw_body(plane: Plane) -> None:
         part = len(setup.faces) > 1
         axes.add_patch(patches.Wedge((0, 0), setup.radius * plane.length.factor, 0, 90 if part else 360, **style))
         return
-    low, high = (plane.scaled([f.coordinate for f in sorted(setup.faces, key=lambda f: f.axis) if f.direction == side])
+    planes = sorted((face for face in setup.faces if not face.is_hole), key=lambda face: face.axis)
+    low, high = (plane.scaled([face.coordinate for face in planes if face.direction == side])
                  for side in (-1, 1))  # fmt: skip
     rock = axes.add_patch(patches.Rectangle(low, *(high - low), **style))
     for hole in (face for face in setup.faces if face.is_hole):

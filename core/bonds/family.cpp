@@ -19,6 +19,33 @@ double squared_distance(const Family<D>& family, Index i, Index j) {
   return squared_norm(vector_at(family.position, j) - vector_at(family.position, i));
 }
 
+/// Of the image's distance from the centre of a curved face to that of what it is of.
+template <int D>
+double stretch(const Face& face, const Vector<D>& x) {
+  return (2.0 * face.coordinate - face.place(x)) / face.place(x);
+}
+
+/// Behind the face as far as x is before it; at a curved one on the same ray.
+template <int D>
+Vector<D> image(const Face& face, Vector<D> x) {
+  if (!face.curved()) {
+    x[face.axis] = 2.0 * face.coordinate - x[face.axis];
+    return x;
+  }
+  const Vector<D> ray = face.ray_to(x);
+  const double factor = stretch<D>(face, x);
+  for (int a = 0; a < D; ++a) {
+    if (a != face.along) x[a] = face.centre[a] + ray[a] * factor;
+  }
+  return x;
+}
+
+/// Of the image's volume to that of what it is of.
+template <int D>
+double growth(const Face& face, const Vector<D>& x) {
+  return face.curved() ? std::pow(stretch<D>(face, x), face.along < 0 ? D - 1 : D - 2) : 1.0;
+}
+
 /// Mirrors every node, ghosts of earlier faces included, that lies within the horizon of a face:
 /// edges and corners come out right, each image once.
 template <int D>
@@ -27,18 +54,11 @@ void add_ghosts(Family<D>& family, const Face& face, int number, double horizon,
   const Index nodes = family.node_count();
   for (Index i = 0; i < nodes; ++i) {
     const Vector<D> x = vector_at(family.position, i);
-    const double place = face.place(x);
     const double depth = face.depth(x);
     if (depth > horizon || depth < 0.0) continue;
     if (i < family.point_count && bondless[i]) continue;
-    const double image = 2.0 * face.coordinate - place;
-    const double stretch = face.curved() ? image / place : 1.0;
-    for (int a = 0; a < D; ++a) {
-      const bool stays = !face.curved() || a == face.along;
-      const double curved = face.centre[a] + (x[a] - face.centre[a]) * stretch;
-      family.position[a].push_back(a == face.axis ? image : (stays ? x[a] : curved));
-    }
-    family.volume.push_back(family.volume[i] * std::pow(stretch, face.along < 0 ? D - 1 : D - 2));
+    append(family.position, image<D>(face, x));
+    family.volume.push_back(family.volume[i] * growth<D>(face, x));
     const bool real = i < family.point_count;
     const Index ghost = i - family.point_count;
     family.ghost_source.push_back(real ? i : family.ghost_source[ghost]);

@@ -67,7 +67,7 @@ class Check(RunTest):
         for word in ("notch", "10 MPa", "inlet of a crack", "roller", "x [mm]", "z [mm]"):
             self.assertIn(word, [w.strip() for w in words])
         for scene, word in (("cryer", "pressure of pores held"), ("dam_break", "column"), ("tank_3d", "free fluid"),
-                            ("notch_points", "crack")):
+                            ("notch_points", "crack"), ("borehole", "well: 20 MPa × schedule")):
             with self.subTest(scene):
                 self.assertIn(word, [w.strip() for w in self.picture(CONFIGS / f"{scene}.yaml")[0]])
 
