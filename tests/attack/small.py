@@ -4,6 +4,7 @@ A body is made smaller where its spacing has something to resolve (a crack's fir
 height), and coarser where it has not. Times end while what was small is still about the same.
 """
 import itertools
+import math
 import os
 
 import scene_values
@@ -20,7 +21,7 @@ def wing(height, spacing, length, end):
 
 SMALL = {
     "aquifer": {},
-    "borehole": {"body.spacing": 0.04, "time.end": 11.0},
+    "borehole": {"body.size": [1.6, 1.6], "body.spacing": 0.025, "time.end": 11.5},
     "cantilever_dynamic": {"time.end": 0.3},
     "constant_head": {"time.end": 20.0},
     "constant_head_warm": {"time.end": 10.0},
@@ -97,4 +98,6 @@ def places(scene):
     read = {"p0": (0.31, 0.37, 0.43), "p1": (0.72, 0.58, 0.66)}
     parts = itertools.product((0.02, 0.5, 0.98), repeat=len(low))
     read.update({f"size{n}": part for n, part in enumerate(parts)})
-    return [{"name": name, "at": [a + part * (b - a) for part, a, b in zip(at, low, high)]} for name, at in read.items()]
+    probes = [{"name": name, "at": [a + part * (b - a) for part, a, b in zip(at, low, high)]} for name, at in read.items()]
+    holes = [one for one in (body or {}).get("cutouts", {}).values() if "radius" in one]
+    return [probe for probe in probes if not any(math.dist(probe["at"], one["centre"]) < one["radius"] for one in holes)]
