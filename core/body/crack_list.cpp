@@ -50,9 +50,8 @@ void refuse_in_cutouts(const Section& scene, std::size_t k, const Body<D>& body,
     for (const Region<D>& box : body.cutouts()) {
       if (box.contains(x)) refuse(box.name);
     }
-    for (const Face& hole : body.holes()) {
-      if (hole.depth(x) < -1e-2 * body.spacing()) refuse(hole.name);  // as face_before()
-    }
+    const int face = face_before<D>(body, x);
+    if (face >= 0 && body.faces()[face].is_hole()) refuse(body.faces()[face].name);
   }
 }
 

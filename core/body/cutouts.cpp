@@ -17,9 +17,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of a place on the lattice, in spacings; of a bond's length.
 constexpr double place_rounding = 1e-9;
 
-/// Images of a ghost overlap where a hole is smaller; beside a face the stress that a wall bears is
-/// not that of the face [horizons].
-constexpr double least_radius = 1.0, least_gap = 2.0;
+/// Images of a ghost overlap where a hole is smaller, and reach beyond a face that is nearer. What
+/// walls of two cut-outs bear has to be told apart [horizons].
+constexpr double least_radius = 1.0, least_gap = 2.0, least_gap_of_cutouts = 4.0;
 
 /// As many conditions as a ghost's image is looked up by (mirror_condition.hpp).
 constexpr std::size_t most_holes = 8;
@@ -87,15 +87,25 @@ Face read_hole(const Section& body, const std::string& name) {
   return hole;
 }
 
+/// From the axis of a hole to the nearest place of a box [m].
+template <int D>
+double distance(const Face& hole, const Region<D>& box) {
+  Vector<D> nearest;
+  for (int a = 0; a < D; ++a) {
+    nearest[a] = a == hole.along ? 0.0 : std::clamp(hole.centre[a], box.from[a], box.to[a]);
+  }
+  return norm(hole.ray_to(nearest));
+}
+
 /// A plane may cut a hole in half, as one of symmetry does.
 template <int D>
 void check_gaps(const Section& body, const Face& hole, std::span<const Face> planes,
-                std::span<const Face> others, double horizon) {
+                std::span<const Face> others, std::span<const Region<D>> boxes, double horizon) {
   const std::string path = "cutouts." + hole.name;
-  const auto check = [&](double gap, const std::string& what) {
-    if (gap >= least_gap * horizon * (1.0 - 1e-9)) return;
+  const auto check = [&](double gap, double least, const std::string& what) {
+    if (gap >= least * horizon * (1.0 - 1e-9)) return;
     body.fail(path, fmt::format("is {:.6g} m from {}", std::max(gap, 0.0), what),
-              fmt::format("at least {:g} horizons, {:g} m", least_gap, least_gap * horizon));
+              fmt::format("at least {:g} horizons, {:g} m", least, least * horizon));
   };
   Vector<D> centre;
   std::copy_n(hole.centre.begin(), D, centre.begin());
@@ -103,13 +113,17 @@ void check_gaps(const Section& body, const Face& hole, std::span<const Face> pla
     if (plane.axis == hole.along) continue;
     const double depth = plane.depth(centre);
     if (std::abs(depth) <= 1e-6 * horizon) continue;
-    check(depth - hole.coordinate, fmt::format("face '{}'", plane.name));
+    check(depth - hole.coordinate, least_gap, fmt::format("face '{}'", plane.name));
+  }
+  for (const Region<D>& box : boxes) {
+    check(distance<D>(hole, box) - hole.coordinate, least_gap_of_cutouts,
+          fmt::format("cut-out '{}'", box.name));
   }
   for (const Face& other : others) {
     if (other.along != hole.along) {
       body.fail(path, fmt::format("has another axis than '{}'", other.name), "parallel holes");
     }
-    check(norm(other.ray_to(centre)) - other.coordinate - hole.coordinate,
+    check(norm(other.ray_to(centre)) - other.coordinate - hole.coordinate, least_gap_of_cutouts,
           fmt::format("cut-out '{}'", other.name));
   }
 }
@@ -172,7 +186,8 @@ std::vector<Region<D>> read_cutouts(const Section& body, const Vector<D>& origin
 }
 
 template <int D>
-std::vector<Face> read_holes(const Section& body, std::span<const Face> planes, double horizon) {
+std::vector<Face> read_holes(const Section& body, std::span<const Face> planes,
+                             std::span<const Region<D>> boxes, double horizon) {
   std::vector<Face> holes;
   if (!body.has("cutouts")) return holes;
   for (const std::string& name : body.names("cutouts")) {
@@ -187,7 +202,7 @@ std::vector<Face> read_holes(const Section& body, std::span<const Face> planes, 
                 fmt::format("{:g} m is less than the horizon, {:g} m", hole.coordinate, horizon),
                 "a wider hole, or points closer together");
     }
-    check_gaps<D>(body, hole, planes, holes, horizon);
+    check_gaps<D>(body, hole, planes, holes, boxes, horizon);
     holes.push_back(hole);
     if (holes.size() > most_holes) {
       body.fail(path, fmt::format("more than {} round cut-outs", most_holes), "fewer");
@@ -274,8 +289,10 @@ void remove_bonds_through(std::span<const Region<D>> cutouts, std::span<const Fa
   list.give_to(family);
 }
 
-template std::vector<Face> read_holes<2>(const Section&, std::span<const Face>, double);
-template std::vector<Face> read_holes<3>(const Section&, std::span<const Face>, double);
+template std::vector<Face> read_holes<2>(const Section&, std::span<const Face>,
+                                         std::span<const Region<2>>, double);
+template std::vector<Face> read_holes<3>(const Section&, std::span<const Face>,
+                                         std::span<const Region<3>>, double);
 template bool passes_through<2>(const Face&, const Vector<2>&, const Vector<2>&);
 template bool passes_through<3>(const Face&, const Vector<3>&, const Vector<3>&);
 template std::vector<Region<2>> read_cutouts<2>(const Section&, const Vector<2>&, double);

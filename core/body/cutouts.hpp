@@ -21,10 +21,11 @@ template <int D>
 std::vector<Region<D>> read_cutouts(const Section& body, const Vector<D>& origin, double spacing);
 
 /// Round holes in a box with these plane faces, circles and in 3D cylinders, as boreholes are: each
-/// is a face of the body. They are farther than two horizons from the planes, but for those that
-/// their centre lies on, and from each other. Throws InputError.
+/// is a face of the body. They are two horizons or more from the planes, but for those that their
+/// centre lies on, and four from each other and the cut-outs that are boxes. Throws InputError.
 template <int D>
-std::vector<Face> read_holes(const Section& body, std::span<const Face> planes, double horizon);
+std::vector<Face> read_holes(const Section& body, std::span<const Face> planes,
+                             std::span<const Region<D>> boxes, double horizon);
 
 /// Takes out the points that lie in a cut-out; throws InputError where one holds none, or all.
 template <int D>

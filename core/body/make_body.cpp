@@ -87,7 +87,7 @@ std::shared_ptr<Body<D>> make_box(const Section& section, double spacing, double
     for (double& x : points.position[a]) x += from[a];
   }
   std::vector<Region<D>> cutouts = read_cutouts<D>(section, from, spacing);
-  const std::vector<Face> holes = read_holes<D>(section, faces, horizon);
+  const std::vector<Face> holes = read_holes<D>(section, faces, cutouts, horizon);
   if (!cutouts.empty() || !holes.empty()) refuse_beside_cutouts(section, layered);
   cut_out<D>(section, cutouts, holes, points);
   faces.insert(faces.end(), holes.begin(), holes.end());

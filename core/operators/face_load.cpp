@@ -1,6 +1,7 @@
 #include "core/operators/face_load.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -115,10 +116,12 @@ Eigen::VectorXd cutout_load(const Body<D>& body, const ForceOfStress& force_of, 
 }
 
 template <int D>
-Eigen::VectorXd hole_load(const Body<D>& body, const ForceOfStress& force_of, FaceSet mirrored,
-                          const Face& hole, const Vector<D>& stress) {
+Eigen::VectorXd curved_load(const Body<D>& body, const ForceOfStress& force_of, FaceSet mirrored,
+                            const Face& curved, const Vector<D>& stress) {
   const Index points = body.points().size();
-  const double reach = 2.0 * body.horizon();
+  // Volumes of a ball's points follow its surface, which is felt deeper than two horizons.
+  const double reach =
+      curved.is_hole() ? 2.0 * body.horizon() : std::numeric_limits<double>::infinity();
   Eigen::VectorXd everywhere = Eigen::VectorXd::Zero(D * D * points);
   for (int a = 0; a < D; ++a) {
     for (Index i = 0; i < points; ++i) {
@@ -129,25 +132,24 @@ Eigen::VectorXd hole_load(const Body<D>& body, const ForceOfStress& force_of, Fa
   Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points);
   for (Index i = 0; i < points; ++i) {
     const Vector<D> x = body.points().at(i);
-    if (hole.depth(x) > reach) continue;
+    if (curved.depth(x) > reach) continue;
     for (int f = 0; f < std::ssize(body.faces()); ++f) {
       const Face& face = body.faces()[f];
       if (face.curved() || contains(mirrored, f) || face.depth(x) > reach) continue;
-      throw BodyError(
-          fmt::format("the wall of '{}', which bears load, is less than 4 horizons from "
-                      "face '{}', which is free",
-                      hole.name, face.name),
-          fmt::format("{:g} m, or a face that is held", 2.0 * reach));
+      throw BodyError(fmt::format("face '{}', which bears load, is less than 4 horizons from "
+                                  "face '{}', which is free",
+                                  curved.name, face.name),
+                      fmt::format("{:g} m, or a face that is held", 4.0 * body.horizon()));
     }
     for (int a = 0; a < D; ++a) load[a * points + i] = forces[a * points + i];
   }
   return load;
 }
 
-template Eigen::VectorXd hole_load<2>(const Body<2>&, const ForceOfStress&, FaceSet, const Face&,
-                                      const Vector<2>&);
-template Eigen::VectorXd hole_load<3>(const Body<3>&, const ForceOfStress&, FaceSet, const Face&,
-                                      const Vector<3>&);
+template Eigen::VectorXd curved_load<2>(const Body<2>&, const ForceOfStress&, FaceSet, const Face&,
+                                        const Vector<2>&);
+template Eigen::VectorXd curved_load<3>(const Body<3>&, const ForceOfStress&, FaceSet, const Face&,
+                                        const Vector<3>&);
 template Eigen::VectorXd cutout_load<2>(const Body<2>&, const ForceOfStress&, int);
 template Eigen::VectorXd cutout_load<3>(const Body<3>&, const ForceOfStress&, int);
 template Eigen::VectorXd face_load<2, 1>(const Body<2>&, const ForceOfStress&, FaceSet, int, int,

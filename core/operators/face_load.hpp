@@ -27,12 +27,12 @@ Eigen::VectorXd face_load(const Body<D>& body, const ForceOfStress& force_of, Fa
 template <int D>
 Eigen::VectorXd cutout_load(const Body<D>& body, const ForceOfStress& force_of, int axis);
 
-/// The point loads, D blocks, of the tractions that a uniform stress along the axes [Pa] has on the
-/// wall of a hole: in a body under that stress they balance the inner forces exactly, and their sum
-/// is zero. `mirrored` is what the family was asked for. Throws BodyError where a plane face that
-/// is not among them is too near.
+/// The point loads, D blocks, of the tractions that a uniform stress along the axes [Pa] has on a
+/// curved face, of a ball or a hole: in a body under that stress they balance the inner forces
+/// exactly, and their sum over a whole one is zero. `mirrored` is what the family was asked for.
+/// Throws BodyError where a plane face that is not among them is too near.
 template <int D>
-Eigen::VectorXd hole_load(const Body<D>& body, const ForceOfStress& force_of, FaceSet mirrored,
-                          const Face& hole, const Vector<D>& stress);
+Eigen::VectorXd curved_load(const Body<D>& body, const ForceOfStress& force_of, FaceSet mirrored,
+                            const Face& curved, const Vector<D>& stress);
 
 }  // namespace perifrac

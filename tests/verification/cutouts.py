@@ -83,7 +83,7 @@ def radial(fields):
     return np.sum(fields["displacement"][:, :2] * place, axis=1) / np.hypot(*place.T)
 
 
-def energy_factor(length, biaxiality):
+def intensity_factor(length, biaxiality):
     """K over stress times sqrt(pi length) of two cracks from a hole under tension across them and this part of it along
     them (fits to Newman 1971, in Tada, Paris & Irwin, The stress analysis of cracks handbook, 19.1: 1 %)."""
     s = length / (RADIUS + length)
@@ -156,8 +156,8 @@ class CracksFromWalls(unittest.TestCase):
         radii off keep K 3 % lower."""
         for stress in ((0.0, 0.0), (6e6, 4e6)):
             along, across = stress
-            closes = across * energy_factor(RADIUS, along / across) if across else 0.0
-            expected = (TOUGHNESS / math.sqrt(math.pi * RADIUS) + closes) / energy_factor(RADIUS, 1)
+            closes = across * intensity_factor(RADIUS, along / across) if across else 0.0
+            expected = (TOUGHNESS / math.sqrt(math.pi * RADIUS) + closes) / intensity_factor(RADIUS, 1)
             most = 1.15 * expected
             scene = with_cracks(scene_of(5, 12, ROUND), RADIUS, most, most, ramp=1.0)
             far = 2 * RADIUS + 1.5 * scene["body"]["spacing"]  # where tougher rock stops what would run through all
@@ -180,7 +180,7 @@ class CracksFromWalls(unittest.TestCase):
                            capture_output=True)
             with open(folder + "/out/history.csv", encoding="utf-8") as table:
                 rows = list(csv.DictReader(table))
-        even = (TOUGHNESS / math.sqrt(math.pi * RADIUS) + 8e6 * energy_factor(RADIUS, 1.5)) / energy_factor(RADIUS, 1)
+        even = (TOUGHNESS / math.sqrt(math.pi * RADIUS) + 8e6 * intensity_factor(RADIUS, 1.5)) / intensity_factor(RADIUS, 1)
         grown = next(row for row in rows if float(row["crack_length [m]"]) > 0.2001)
         self.assertAlmostEqual(float(grown["inlet_east_pressure [Pa]"]) / even, 1.1, delta=0.05)
         self.assertAlmostEqual(float(rows[-1]["crack_length [m]"]), 0.50, delta=0.03)

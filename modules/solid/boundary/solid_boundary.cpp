@@ -212,20 +212,11 @@ Eigen::VectorXd SolidBoundary<D>::face_force(int face, const MirrorCondition<D, 
   const Index points = body_->points().size();
   const Condition& condition = faces_[face];
   Eigen::VectorXd load = Eigen::VectorXd::Zero(D * points + mirror.face_value_count());
-  if (condition.kind == Kind::pressure && body_->faces()[face].is_hole()) {
+  if (condition.kind == Kind::pressure) {
     Vector<D> stress;
     stress.fill(-condition.pressure);
     load.head(D * points) =
-        hole_load<D>(*body_, force_of, mirrored(), body_->faces()[face], stress);
-  } else if (condition.kind == Kind::pressure) {
-    // The whole body's: parts of it on plane faces cancel against those of their ghosts.
-    Eigen::VectorXd stress = Eigen::VectorXd::Zero(D * D * points);
-    for (int a = 0; a < D; ++a) {
-      for (Index i = 0; i < points; ++i) {
-        stress[(a * D + a) * points + i] = -condition.pressure * body_->points().volume[i];
-      }
-    }
-    load.head(D * points) = force_of(stress).head(D * points);
+        curved_load<D>(*body_, force_of, mirrored(), body_->faces()[face], stress);
   } else if (has_layer(face)) {
     Vector<D> force = condition.value;
     const bool plate = condition.kind == Kind::rigid_plate;
@@ -265,7 +256,7 @@ ScheduledVector SolidBoundary<D>::loads(const MirrorCondition<D, D>& mirror,
   }
   if (relief_ != Vector<D>{}) {
     for (const Face& hole : body_->holes()) {
-      load.head(D * points) += hole_load<D>(*body_, force_of, mirrored(), hole, relief_);
+      load.head(D * points) += curved_load<D>(*body_, force_of, mirrored(), hole, relief_);
     }
     sum.add({}, load);
   }

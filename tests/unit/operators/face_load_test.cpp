@@ -120,7 +120,7 @@ TEST(CutoutLoad, BalancesUniformStressWithTheFaces) {
 }
 
 /// A round one off the middle of the lattice, under a stress that differs by axis.
-TEST(HoleLoad, BalancesUniformStressWithTheFaces) {
+TEST(CurvedLoad, BalancesUniformStressWithTheFaces) {
   const Face hole{
       .name = "hole", .axis = -1, .direction = -1, .coordinate = 2.8, .centre = {15.2, 12.9}};
   const Points<2> lattice = box_lattice<2>({30, 26}, 1.0);
@@ -137,7 +137,7 @@ TEST(HoleLoad, BalancesUniformStressWithTheFaces) {
   const Vector<2> principal = {-1.3, 0.4};
   Eigen::VectorXd stress = Eigen::VectorXd::Zero(4 * count);
   for (int a = 0; a < 2; ++a) stress.segment(3 * a * count, count).setConstant(principal[a]);
-  Eigen::VectorXd sum = hole_load<2>(body, force_of, 0, hole, principal);
+  Eigen::VectorXd sum = curved_load<2>(body, force_of, 0, hole, principal);
   EXPECT_GT(test::largest(sum), 0.1);
   for (int a = 0; a < 2; ++a) {
     EXPECT_NEAR(sum.segment(a * count, count).sum(), 0.0, 1e-12);
@@ -150,6 +150,39 @@ TEST(HoleLoad, BalancesUniformStressWithTheFaces) {
   faces[3].coordinate = 22.0;
   const Body<2> near(body.points(), faces, 1.0, whole->horizon(), InfluenceFunction::gaussian);
   EXPECT_THROW((face_load<2, 2>(near, force_of, 0, 3, 1)), BodyError);
+}
+
+/// A cylinder between faces that are rollers: what it bears is all that does not balance.
+TEST(CurvedLoad, IsAllThatAHoleLeavesOpenBetweenRollers) {
+  const Face hole{.name = "hole",
+                  .axis = -1,
+                  .direction = -1,
+                  .coordinate = 2.7,
+                  .centre = {8.1, 7.8},
+                  .along = 2};
+  const auto whole = test::box_body<3>({16, 16, 4}, 1.0);
+  Points<3> points;
+  for (Index i = 0; i < whole->points().size(); ++i) {
+    if (hole.depth(whole->points().at(i)) > 0.0) points.add(whole->points().at(i), 1.0);
+  }
+  std::vector<Face> faces = whole->faces();
+  faces.push_back(hole);
+  const Body<3> body(std::move(points), std::move(faces), 1.0, whole->horizon(),
+                     InfluenceFunction::gaussian);
+  constexpr FaceSet planes = 0b111111;
+  const auto family = body.family(planes);
+  MirrorCondition<3, 3> rollers(*family);
+  for (int face = 0; face < 6; ++face) rollers.set_odd(face, face / 2);
+  const ForceOfStress force_of =
+      test::force_by(gradient_matrix(*family, family_moments(*family), rollers));
+  const Index count = body.points().size();
+  const Vector<3> principal = {-1.3, 0.4, 0.9};
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(9 * count);
+  for (int a = 0; a < 3; ++a) stress.segment(4 * a * count, count).setConstant(principal[a]);
+  const Eigen::VectorXd load = curved_load<3>(body, force_of, planes, hole, principal);
+  EXPECT_GT(test::largest(load.head(2 * count)), 0.1);
+  EXPECT_LT(test::largest(load.tail(count)), 1e-12);
+  EXPECT_LT(test::largest(force_of(stress).head(3 * count) - load), 1e-12);
 }
 
 /// Of a notch the floor and the sides, not the face that it opens through.
