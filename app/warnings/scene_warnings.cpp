@@ -24,6 +24,7 @@
 #include "app/warnings/slip_at_rest_warning.hpp"
 #include "app/warnings/stress_beyond_stiffness_warning.hpp"
 #include "app/warnings/swinging_beam_warning.hpp"
+#include "app/warnings/thin_body_warning.hpp"
 #include "modules/solid/material/isotropic_elasticity.hpp"
 
 namespace perifrac {
@@ -170,6 +171,7 @@ std::vector<std::string> scene_warnings(const Section& scene,
   if (const auto warning = probe_at_tip_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = sharp_wave_warning(scene)) warnings.push_back(*warning);
   if (const auto warning = swinging_beam_warning(scene)) warnings.push_back(*warning);
+  if (const auto warning = thin_body_warning(scene)) warnings.push_back(*warning);
   for (const std::string& warning : table_warnings(scene)) warnings.push_back(warning);
   return warnings;
 }

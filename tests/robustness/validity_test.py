@@ -291,6 +291,14 @@ class Validity(RunTest):
             warned = self.foreknown(beam, keys)
             self.assertEqual(any("the body swings" in warning for warning in warned), warns, warned)
 
+    def test_a_body_thinner_than_its_horizon(self):
+        beam = self.without_reference("cantilever_dynamic.yaml")
+        wide = {"body.horizon_ratio": "7", "time.end": "1 ms", "output.interval": "1 ms"}
+        thin = wide | {"body.size": "[10 m, 0.4 m]"}  # half its energy of bending
+        for keys, warns in ((thin, True), (thin | {"body.horizon_ratio": "4"}, False), (wide, False)):
+            warned = self.foreknown(beam, keys)
+            self.assertEqual(any("bend too stiffly" in warning for warning in warned), warns, warned)
+
     def test_a_plate_that_is_light_beside_the_water_on_it(self):
         for density, warns in (("150 kg/m^3", True), ("200 kg/m^3", False)):
             warned = self.foreknown(CONFIGS / "water_on_plate.yaml", {"solid.density": density})
