@@ -21,7 +21,7 @@ def wing(height, spacing, length, end):
 
 SMALL = {
     "aquifer": {},
-    "borehole": {"body.size": [1.6, 1.6], "body.spacing": 0.025, "time.end": 11.5},
+    "borehole": {"body.size": [1.6, 1.6], "body.spacing": 0.025, "time.end": 11.0},
     "cantilever_dynamic": {"time.end": 0.3},
     "constant_head": {"time.end": 20.0},
     "constant_head_warm": {"time.end": 10.0},
