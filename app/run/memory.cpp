@@ -116,9 +116,7 @@ double pore_flow_bytes(const Section& scene, double points) {
   const bool implicit =
       scene.has("pore_flow.integrator.type") && scene.word("pore_flow.integrator.type") == "cvode";
   if (!implicit) return (plane ? 1.0 : 4.0) * kilobyte;
-  if (!factors_flow(scene.at("pore_flow"), plane ? 2 : 3, points)) {
-    return (plane ? 3.0 : 10.0) * kilobyte;
-  }
+  if (!factors_flow(scene.at("pore_flow"), points)) return (plane ? 2.5 : 6.0) * kilobyte;
   return (plane ? 4.0 : 25.0 * fill(points)) * kilobyte;
 }
 

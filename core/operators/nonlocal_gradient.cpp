@@ -70,36 +70,45 @@ Eigen::VectorXd force_of_stress(const Family<D>& family,
   return result;
 }
 
-template <int D, int R>
+template <int D>
 Eigen::SparseMatrix<double> bond_matrix(const Family<D>& family,
-                                        const MirrorCondition<D, R>& mirror,
+                                        const MirrorCondition<D, 1>& mirror,
                                         std::span<const double> bond_stiffness) {
-  const Index points = family.point_count;
-  Triplets triplets;
-  triplets.reserve(family.steps.total() * R * 4);
+  const Index points = family.point_count, size = points + mirror.face_value_count();
+  // Of a bond between points, which each of both knows: what this one adds beside the diagonal, in
+  // place of four entries each. A triplet has 16 bytes, and in 3D bonds are many.
+  Eigen::SparseMatrix<double> one_way(size, size);
+  std::vector<double> diagonal(points, 0.0);
+  Triplets rest;
+  Eigen::VectorXi count = Eigen::VectorXi::Zero(size);
+  for (Index i = 0; i < points; ++i) count[i] = family.first_ghost_bond(i);
+  one_way.reserve(count);
   for (Index i = 0; i < points; ++i) {
-    for (int r = 0; r < R && family.bond_count(i) == 0; ++r) {
-      triplets.emplace_back(r * points + i, r * points + i, 0.0);
-    }
     for (const auto& [j, weight] : family.bonds(i)) {
       const double stiffness = family.volume[i] * bond_stiffness[i] * weight;
-      for (int r = 0; r < R; ++r) {
-        Combination difference = node_unknowns(family, mirror, j, r);
-        difference.add(r * points + i, -1.0);
-        for (int k = 0; k < difference.count; ++k) {
-          for (int l = 0; l < difference.count; ++l) {
-            triplets.emplace_back(
-                difference.terms[k].unknown, difference.terms[l].unknown,
-                stiffness * difference.terms[k].coefficient * difference.terms[l].coefficient);
-          }
+      if (j < points) {
+        one_way.insert(j, i) = -stiffness;
+        diagonal[i] += stiffness;
+        diagonal[j] += stiffness;
+        continue;
+      }
+      Combination difference = node_unknowns(family, mirror, j, 0);
+      difference.add(i, -1.0);
+      for (int k = 0; k < difference.count; ++k) {
+        for (int l = 0; l < difference.count; ++l) {
+          rest.emplace_back(
+              difference.terms[k].unknown, difference.terms[l].unknown,
+              stiffness * difference.terms[k].coefficient * difference.terms[l].coefficient);
         }
       }
     }
   }
-  const Index size = R * points + mirror.face_value_count();
+  for (Index i = 0; i < points; ++i) rest.emplace_back(i, i, diagonal[i]);
   Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  return matrix;
+  matrix.setFromTriplets(rest.begin(), rest.end());
+  const Eigen::SparseMatrix<double> back = one_way.transpose();
+  one_way += back;
+  return matrix + one_way;
 }
 
 template Eigen::SparseMatrix<double> gradient_matrix(const Family<2>&, const FamilyMoments<2>&,
@@ -124,11 +133,7 @@ template Eigen::VectorXd force_of_stress(const Family<3>&,
                                          const MirrorCondition<3, 3>&, const Eigen::VectorXd&);
 template Eigen::SparseMatrix<double> bond_matrix(const Family<2>&, const MirrorCondition<2, 1>&,
                                                  std::span<const double>);
-template Eigen::SparseMatrix<double> bond_matrix(const Family<2>&, const MirrorCondition<2, 2>&,
-                                                 std::span<const double>);
 template Eigen::SparseMatrix<double> bond_matrix(const Family<3>&, const MirrorCondition<3, 1>&,
-                                                 std::span<const double>);
-template Eigen::SparseMatrix<double> bond_matrix(const Family<3>&, const MirrorCondition<3, 3>&,
                                                  std::span<const double>);
 
 }  // namespace perifrac

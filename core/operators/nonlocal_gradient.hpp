@@ -62,11 +62,11 @@ Eigen::VectorXd force_of_stress(const Family<D>& family,
                                 const std::function<Tensor<D, D>(Index i)>& inverse_shape,
                                 const MirrorCondition<D, R>& mirror, const Eigen::VectorXd& stress);
 
-/// The matrix of sum_i V_i 1/2 s_i sum_j w_ij |u_j - u_i|^2, with s_i per point. Its whole diagonal
+/// The matrix of sum_i V_i 1/2 s_i sum_j w_ij (p_j - p_i)^2, with s_i per point. Its whole diagonal
 /// is stored, zeros of points without bonds too, for a storage to be added in place.
-template <int D, int R>
+template <int D>
 Eigen::SparseMatrix<double> bond_matrix(const Family<D>& family,
-                                        const MirrorCondition<D, R>& mirror,
+                                        const MirrorCondition<D, 1>& mirror,
                                         std::span<const double> bond_stiffness);
 
 }  // namespace perifrac

@@ -143,12 +143,16 @@ int Multigrid::correct(Eigen::VectorXd& residual, Eigen::VectorXd& x, double tar
   const auto apply = [this](const Eigen::VectorXd& u, Eigen::VectorXd& image) {
     levels_.front()->apply(u, image);
   };
-  const auto precondition = [this](const Eigen::VectorXd& left, Eigen::VectorXd& correction) {
-    work_.front().residual = left;
-    cycle(0);
-    correction = work_.front().correction;
-  };
-  return gradients_.correct(residual, x, target, most_iterations, apply, precondition);
+  return gradients_.correct(residual, x, target, most_iterations, apply,
+                            [this](const Eigen::VectorXd& left, Eigen::VectorXd& correction) {
+                              precondition(left, correction);
+                            });
+}
+
+void Multigrid::precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& correction) {
+  work_.front().residual = residual;
+  cycle(0);
+  correction = work_.front().correction;
 }
 
 }  // namespace perifrac

@@ -47,6 +47,9 @@ class Multigrid {
   /// As solve(), from a residual b - A x that is known: adds to x what takes it below `target`.
   int correct(Eigen::VectorXd& residual, Eigen::VectorXd& x, double target);
 
+  /// correction = B residual by one V-cycle: B is near to A^-1, symmetric.
+  void precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& correction);
+
   /// The levels' operators have changed: the coarsest is factored anew.
   void take_coarsest(const Eigen::SparseMatrix<double>& coarsest) { coarsest_.factor(coarsest); }
   /// So much that smoothing is to be told of it.

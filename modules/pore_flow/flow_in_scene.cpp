@@ -25,11 +25,11 @@ DarcyIntegratorMaker<D> read_integrator(const Section& section, Index points) {
           system, safety, [&system](double t, std::span<double> y) { system.smooth(t, y); });
     };
   }
-  using Method = typename DarcyNewtonMatrix<D>::Method;
-  const Method method = factors_flow(section, D, points) ? Method::direct : Method::preconditioner;
+  using Systems = typename DarcyCvode<D>::Systems;
+  const Systems systems = factors_flow(section, points) ? Systems::factored : Systems::iterated;
   const double tolerance = section.number("integrator.tolerance");
   return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
-    return std::make_unique<DarcyCvode<D>>(system, method, tolerance);
+    return std::make_unique<DarcyCvode<D>>(system, systems, tolerance);
   };
 }
 
@@ -45,8 +45,8 @@ InitialPressure<D> read_initial_pressure(const Section& section) {
 
 }  // namespace
 
-bool factors_flow(const Section& flow, int dimension, double points) {
-  const double points_worth_iteration = dimension == 2 ? 3000.0 : 1000.0;
+bool factors_flow(const Section& flow, double points) {
+  constexpr double points_worth_iteration = 1000.0;
   if (flow.word("integrator.type") != "cvode") return false;
   const std::string solver = flow.word("integrator.linear_solver");
   if (solver != "automatic") return solver == "direct";
@@ -119,8 +119,8 @@ KeyTable flow_keys() {
        .words = {"automatic", "direct", "krylov"},
        .meaning =
            "cvode: direct factors the flow; krylov iterates with GMRES, preconditioned by "
-           "the bonds, at a price nearly in proportion to the points; automatic takes krylov "
-           "from 3000 points on in 2D, from 1000 in 3D, and for the nested operator."},
+           "multigrid, at a price in proportion to the points; automatic takes krylov from 1000 "
+           "points on, and for the nested operator."},
       {.path = "integrator.tolerance",
        .range = "(0, 0.1]",
        .fallback = "1e-5",

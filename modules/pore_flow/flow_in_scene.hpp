@@ -20,7 +20,7 @@ namespace perifrac {
 KeyTable flow_keys();
 
 /// Whether implicit steps factor the flow, of a body of so many points, and do not iterate.
-bool factors_flow(const Section& flow, int dimension, double points);
+bool factors_flow(const Section& flow, double points);
 
 /// What a scene says of pore flow, however it is discretised.
 template <int D>

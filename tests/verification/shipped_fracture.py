@@ -269,7 +269,7 @@ class ShippedFracture(unittest.TestCase):
         run = Run(os.path.join(HERE, "crack_at_rest_in_pores.yaml"), {})
         for place in ("low", "high"):
             self.assertAlmostEqual(run.last(f"crack_pressure at {place}"), run.last(f"pore_pressure at {place}"), delta=0.3)
-        self.assertLess(run.last("darcy_dissipation"), 4e-12)  # 2.1e-12; 2e-4 by the water's height
+        self.assertLess(run.last("darcy_dissipation"), 7e-12)  # 2.1e-12 where systems are solved to rounding, 4.8e-12 by few cycles; 2e-4 by the water's height
 
     def test_rock_at_rest(self):
         """Under the stress of its weight and the water's nothing moves, and what the rock bears is the total stress

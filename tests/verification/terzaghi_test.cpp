@@ -110,7 +110,7 @@ TEST(Terzaghi, IsTheSameWhereThreeDimensionsAreIteratedUpon) {
   const SceneRun factored = run("direct"), iterated = run("automatic");
   EXPECT_EQ(iterations(factored), 0.0);
   EXPECT_GT(iterations(iterated), 0.0) << "1250 points";
-  EXPECT_LT(iterations(iterated), 3.0 * iterated.summary["counts"]["windows"].get<double>());
+  EXPECT_LT(iterations(iterated), 5.0 * iterated.summary["counts"]["windows"].get<double>());
   const auto& expected = factored.summary["reference"]["profiles"][0]["computed"].back();
   const auto& found = iterated.summary["reference"]["profiles"][0]["computed"].back();
   ASSERT_EQ(found.size(), expected.size());

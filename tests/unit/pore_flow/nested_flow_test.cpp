@@ -55,8 +55,7 @@ DarcyIntegratorMaker<2> integrator(Stepping stepping) {
       return std::make_unique<SmoothedEuler>(
           system, 0.9, [&system](double t, std::span<double> y) { system.smooth(t, y); });
     }
-    return std::make_unique<DarcyCvode<2>>(system, DarcyNewtonMatrix<2>::Method::preconditioner,
-                                           1e-5);
+    return std::make_unique<DarcyCvode<2>>(system, DarcyCvode<2>::Systems::iterated, 1e-5);
   };
 }
 

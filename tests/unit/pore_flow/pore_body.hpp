@@ -96,11 +96,10 @@ inline constexpr std::array symmetric_schemes = {FlowScheme::conservative, FlowS
 template <int D>
 DarcyIntegratorMaker<D> integrator_maker(Method method, double tolerance, double safety = 0.9) {
   return [=](DarcySystem<D>& system) -> std::unique_ptr<Integrator> {
-    using Matrix = DarcyNewtonMatrix<D>;
+    using Systems = typename DarcyCvode<D>::Systems;
     if (method == Method::forward_euler) return std::make_unique<ForwardEuler>(system, safety);
     return std::make_unique<DarcyCvode<D>>(
-        system, method == Method::direct ? Matrix::Method::direct : Matrix::Method::preconditioner,
-        tolerance);
+        system, method == Method::direct ? Systems::factored : Systems::iterated, tolerance);
   };
 }
 

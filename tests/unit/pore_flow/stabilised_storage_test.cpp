@@ -229,7 +229,7 @@ TEST(StabilisedStorage, TakesPartInNewtonsMatrix) {
     DarcySystem<2>& system = flow.system;
     const auto y = test::random_values(system.size(), 1), v = test::random_values(system.size(), 2);
     std::vector<double> solution(y.size()), product(y.size());
-    DarcyNewtonMatrix<2> newton(system, DarcyNewtonMatrix<2>::Method::direct);
+    DarcyFactor<2> newton(system);
     for (const double gamma : {0.02, 0.5}) {
       newton.set_up(0.5, y, gamma);
       newton.solve(v, solution);

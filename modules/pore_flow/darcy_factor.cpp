@@ -1,34 +1,24 @@
-#include "modules/pore_flow/darcy_newton_matrix.hpp"
+#include "modules/pore_flow/darcy_factor.hpp"
 
 #include "core/profile/profile.hpp"
 
 namespace perifrac {
 
-namespace {
-
-/// GMRES takes the preconditioner for linear.
-constexpr double iteration_tolerance = 1e-8;
-
-}  // namespace
-
 template <int D>
-DarcyNewtonMatrix<D>::DarcyNewtonMatrix(DarcySystem<D>& system, Method method)
+DarcyFactor<D>::DarcyFactor(DarcySystem<D>& system)
     : system_(system),
-      method_(method),
       right_side_(system.points()),
       pressure_(system.points()),
       outflow_(system.points()) {
-  iteration_.setTolerance(iteration_tolerance);
   assemble();
 }
 
 template <int D>
-void DarcyNewtonMatrix<D>::assemble() {
+void DarcyFactor<D>::assemble() {
   const ProfileScope profiled("assembly");
-  const Eigen::SparseMatrix<double> all =
-      method_ == Method::direct ? system_.flow().assemble() : system_.flow().preconditioner();
+  const Eigen::SparseMatrix<double> all = system_.flow().assemble();
   flow_ = all.topLeftCorner(system_.points(), system_.points());
-  if (exact()) system_.add_storage_pattern_to(flow_);
+  system_.add_storage_pattern_to(flow_);
   face_flow_ = all.bottomLeftCorner(all.rows() - system_.points(), system_.points());
   matrix_ = flow_;
   face_outflow_.resize(face_flow_.rows());
@@ -36,36 +26,22 @@ void DarcyNewtonMatrix<D>::assemble() {
 }
 
 template <int D>
-void DarcyNewtonMatrix<D>::set_up(double t, std::span<const double> y, double gamma) {
+void DarcyFactor<D>::set_up(double t, std::span<const double> y, double gamma) {
   if (pattern_version_ != system_.pattern_version()) assemble();
   gamma_ = gamma;
   matrix_.coeffs() = gamma * flow_.coeffs();
   for (const HeldPoint& held : system_.held_points()) uncouple(held.point);
-  if (exact()) {
-    system_.add_storage_to(matrix_, t, y);
-    factor_.factor(matrix_);
-    return;
-  }
-  const ProfileScope profiled("incomplete factorisation");
-  const std::span<const double> storage = system_.effective_storage(t, y);
-  for (Index i = 0; i < system_.points(); ++i) {
-    matrix_.coeffRef(i, i) += system_.volume()[i] * storage[i];
-  }
-  iteration_.compute(matrix_);
+  system_.add_storage_to(matrix_, t, y);
+  factor_.factor(matrix_);
 }
 
 template <int D>
-void DarcyNewtonMatrix<D>::solve(std::span<const double> r, std::span<double> solution) {
+void DarcyFactor<D>::solve(std::span<const double> r, std::span<double> solution) {
   const Index points = system_.points();
   const std::vector<double>& volume = system_.volume();
   for (Index i = 0; i < points; ++i) right_side_[i] = volume[i] * r[i];
   for (const HeldPoint& held : system_.held_points()) right_side_[held.point] = 0.0;
-  if (exact()) {
-    factor_.solve(right_side_, pressure_);
-  } else {
-    const ProfileScope profiled("solves");
-    pressure_ = iteration_.solve(right_side_);
-  }
+  factor_.solve(right_side_, pressure_);
   outflow_.noalias() = flow_ * pressure_;
   face_outflow_.noalias() = face_flow_ * pressure_;
   for (Index i = 0; i < points; ++i) solution[i] = r[i] - gamma_ * outflow_[i] / volume[i];
@@ -80,14 +56,14 @@ void DarcyNewtonMatrix<D>::solve(std::span<const double> r, std::span<double> so
 }
 
 template <int D>
-void DarcyNewtonMatrix<D>::uncouple(Index i) {
+void DarcyFactor<D>::uncouple(Index i) {
   for (typename Eigen::SparseMatrix<double>::InnerIterator entry(flow_, i); entry; ++entry) {
     matrix_.coeffRef(entry.row(), i) = 0.0;
     matrix_.coeffRef(i, entry.row()) = 0.0;
   }
 }
 
-template class DarcyNewtonMatrix<2>;
-template class DarcyNewtonMatrix<3>;
+template class DarcyFactor<2>;
+template class DarcyFactor<3>;
 
 }  // namespace perifrac
