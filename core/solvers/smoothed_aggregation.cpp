@@ -1,7 +1,6 @@
 #include "core/solvers/smoothed_aggregation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace perifrac {
